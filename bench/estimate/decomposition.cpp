@@ -1,0 +1,68 @@
+/// Reconstruction of a full RGB 90 x 90 x 180 table from 20 samples with the shipped prior: the solve, and the
+/// expansion beside a plain copy of the same bytes.
+
+#include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/model/formula_materials.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+
+namespace {
+
+const gonio::log_relative_pca& prior() {
+  static const auto shipped = gonio::io::read_prior(GONIO_SOURCE_PRIOR);
+  return shipped;
+}
+
+const gonio::valid_cells& cells() {
+  static const gonio::valid_cells merl;
+  return merl;
+}
+
+const gonio::sample_set& samples() {
+  static const auto measured = [] {
+    const auto truth = gonio::tabulate(gonio::formula_material("red-paint"), cells());
+    return gonio::measure(truth, gonio::cells_at(cells(), gonio::nielsen_directions(20)));
+  }();
+  return measured;
+}
+
+/// Bytes of the result: 3 floats a valid cell.
+std::int64_t table_bytes() { return static_cast<std::int64_t>(3 * sizeof(float) * cells().size()); }
+
+/// Bytes that an expansion must move: the basis once, and the result.
+std::int64_t moved_bytes() {
+  return table_bytes() + static_cast<std::int64_t>(sizeof(float) * (prior().size() + 2) * prior().cells().size());
+}
+
+void solve(benchmark::State& state) {
+  const gonio::decomposition estimator{prior(), gonio::tikhonov{40.0}};
+  for (auto _ : state) benchmark::DoNotOptimize(estimator.fit(samples()));
+}
+BENCHMARK(solve)->Unit(benchmark::kMicrosecond);
+
+void expand(benchmark::State& state) {
+  const auto fit = gonio::decomposition{prior(), gonio::tikhonov{40.0}}.fit(samples());
+  for (auto _ : state) benchmark::DoNotOptimize(fit.tabulate(cells(), {static_cast<unsigned>(state.range(0))}));
+  state.SetBytesProcessed(state.iterations() * moved_bytes());
+}
+BENCHMARK(expand)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// The yardstick: writing a new table by copying as many bytes as an expansion reads and writes.
+void copy(benchmark::State& state) {
+  const std::vector<char> from(static_cast<std::size_t>(moved_bytes() / 2), 1);
+  for (auto _ : state) {
+    std::vector<char> to(from.size());
+    std::memcpy(to.data(), from.data(), from.size());
+    benchmark::DoNotOptimize(to.data());
+  }
+  state.SetBytesProcessed(state.iterations() * moved_bytes());
+}
+BENCHMARK(copy)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace

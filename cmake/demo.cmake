@@ -1,0 +1,45 @@
+# cmake -P cmake/demo.cmake: builds the gonio tool, then measures a known material at 20 directions,
+# reconstructs it, and judges and shows the result.
+cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/setup.cmake")
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+set(results "${source}/build/demo-results")
+
+gonio_set_up(g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev
+             nlohmann-json3-dev)
+
+message("-- Building the gonio tool")
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${source}/build/demo" -G Ninja
+                        -D CMAKE_BUILD_TYPE=Release -D GONIO_NATIVE=ON
+                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
+                OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${CMAKE_COMMAND}" --build "${source}/build/demo" --target gonio_tool
+                        --parallel ${cores}
+                COMMAND_ERROR_IS_FATAL ANY)
+
+# gonio(LINE) shows a command line as it would be typed, and runs it.
+function(gonio line)
+  message("\n$ gonio ${line}")
+  separate_arguments(arguments UNIX_COMMAND "${line}")
+  execute_process(COMMAND "${source}/build/demo/bin/gonio" ${arguments} ${ARGN}
+                  WORKING_DIRECTORY "${results}"
+                  COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+file(MAKE_DIRECTORY "${results}")
+message("\n$ cd build/demo-results\n$ export PATH=$PWD/../demo/bin:$PATH")
+gonio("expand --formula red-paint -o truth.binary")
+gonio("sample truth.binary --directions ../../examples/data/nielsen-20.csv -o samples.csv")
+gonio("reconstruct samples.csv -o estimate.binary")
+gonio("render estimate.binary truth.binary -o spheres.png")
+gonio("render estimate.binary truth.binary --slices -o slices.png")
+gonio("compare estimate.binary truth.binary --json" OUTPUT_FILE "${results}/errors.json")
+file(READ "${results}/errors.json" errors)
+message("${errors}")
+
+message("The results are in ${results}:
+  estimate.binary  the reconstructed table; truth.binary is the one it was measured from
+  spheres.png      the estimate beside the truth, under two lights
+  slices.png       the estimate beside the truth, slices at phi_d = 90 degrees
+  errors.json      the errors printed above")

@@ -1,0 +1,72 @@
+# gonio_set_up(PACKAGE...) makes sure that what these Debian packages bring is there. It looks for a
+# file of each, not for the package, so that any other source of the same thing is as good.
+
+# package, kind and name of the file that stands for it
+set(gonio_packages
+  "g++                 program g++"
+  "ninja-build         program ninja"
+  "clang-19            program clang++-19"
+  "clang-format-14     program clang-format-14"
+  "libclang-rt-19-dev  header  sanitizer/asan_interface.h"
+  "libeigen3-dev       header  eigen3/Eigen/Core"
+  "libxtensor-dev      header  xtensor/xtensor.hpp"
+  "zlib1g-dev          header  zlib.h"
+  "libstb-dev          header  stb/stb_image_write.h"
+  "libcli11-dev        header  CLI/CLI.hpp"
+  "nlohmann-json3-dev  header  nlohmann/json.hpp"
+  "doctest-dev         header  doctest/doctest.h"
+  "librapidcheck-dev   header  rapidcheck.h"
+  "libbenchmark-dev    header  benchmark/benchmark.h")
+
+# The packages of ARGN that are not there.
+function(gonio_find_missing result)
+  set(missing)
+  foreach(entry IN LISTS gonio_packages)
+    string(REGEX MATCHALL "[^ ]+" fields "${entry}")
+    list(POP_FRONT fields package kind name)
+    if(NOT package IN_LIST ARGN)
+      continue()
+    endif()
+    if(kind STREQUAL "program")
+      find_program(found NAMES ${name} NO_CACHE)
+    else()
+      find_path(found NAMES ${name} NO_CACHE
+                PATHS /usr/include /usr/local/include /usr/lib/llvm-19/lib/clang/19/include)
+    endif()
+    if(NOT found)
+      list(APPEND missing ${package})
+    endif()
+    unset(found)
+  endforeach()
+  set(${result} ${missing} PARENT_SCOPE)
+endfunction()
+
+function(gonio_set_up)
+  gonio_find_missing(missing ${ARGN})
+  if(NOT missing)
+    return()
+  endif()
+  list(JOIN missing " " names)
+
+  # Root installs directly, others through sudo where that asks no password.
+  find_program(apt_get apt-get NO_CACHE)
+  execute_process(COMMAND id -u OUTPUT_VARIABLE user OUTPUT_STRIP_TRAILING_WHITESPACE)
+  set(as_root)
+  if(NOT user STREQUAL "0")
+    set(as_root sudo -n)
+    execute_process(COMMAND sudo -n true RESULT_VARIABLE no_sudo OUTPUT_QUIET ERROR_QUIET)
+  endif()
+  if(NOT apt_get OR no_sudo)
+    message(FATAL_ERROR "Please install what these Debian packages contain, then run this again: ${names}")
+  endif()
+
+  message("-- Installing ${names}")
+  set(install ${as_root} env DEBIAN_FRONTEND=noninteractive apt-get -qq)
+  execute_process(COMMAND ${install} update)
+  execute_process(COMMAND ${install} install --no-install-recommends ${missing}
+                  RESULT_VARIABLE failed OUTPUT_QUIET)
+  gonio_find_missing(missing ${ARGN})
+  if(failed OR missing)
+    message(FATAL_ERROR "apt-get could not install: ${names}")
+  endif()
+endfunction()

@@ -1,0 +1,55 @@
+/// gonio compare: the errors of an estimate.
+
+#include "command.hpp"
+#include "inputs.hpp"
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct compare_options {
+  std::filesystem::path estimate, truth, prior;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+void print(const gonio::comparison& errors) {
+  const auto line = [](const char* what, const std::string& value) { std::cout << what << value << '\n'; };
+  line("mapped rms        ", fixed(errors.mapped_rms.mean(), 4) + "   in the prior's domain (log-relative)");
+  line("cosine rms        ",
+       fixed(errors.cosine_rms.mean(), 4) + "   sr^-1, values weighted by max(cos_i cos_o, 0.001)");
+  line("Delta E, lights   ", fixed(errors.delta_e_lights, 2) + "   CIELAB 1976, sphere under two lights");
+  line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   the same under the closed-form environment");
+  line("peak ratio        ", fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5 degrees");
+  line("spheres: sRGB, D65, exposed so that a white Lambertian sphere has mean luminance 1", "");
+}
+
+void compare_tables(const compare_options& options) {
+  const auto truth = gonio::io::read_merl_any(options.truth);
+  const auto estimate = gonio::io::read_merl_any(options.estimate);
+  const auto prior = gonio::io::read_prior(options.prior);
+  const gonio::appearance_judge judge(truth.cells(), 36, options.threads);
+  const auto errors = gonio::compare(estimate, truth, prior.metric(), judge, options.threads);
+  if (options.print_json)
+    std::cout << to_json(errors).dump(2) << '\n';
+  else
+    print(errors);
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app) {
+  auto* command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
+  const auto options = std::make_shared<compare_options>();
+  command->add_option("estimate", options->estimate, "Estimated table (.binary or .binary.gz)")->required();
+  command->add_option("truth", options->truth, "True table (.binary or .binary.gz)")->required();
+  add_prior_option(*command, options->prior);
+  command->add_flag("--json", options->print_json, "Print the errors as JSON");
+  add_threads_option(*command, options->threads);
+  command->callback([options] { compare_tables(*options); });
+}
+
+}  // namespace cli

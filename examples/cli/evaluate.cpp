@@ -1,0 +1,17 @@
+/// gonio evaluate: the published experiments, and the prior on real measurements.
+
+#include "evaluate.hpp"
+
+#include "command.hpp"
+#include "inputs.hpp"
+
+namespace cli {
+
+void add_evaluate(CLI::App& app) {
+  auto* command = app.add_subcommand("evaluate", "Run an experiment and print its table");
+  command->require_subcommand(1);
+  add_nielsen_test_materials(*command);
+  add_measured_materials(*command);
+}
+
+}  // namespace cli

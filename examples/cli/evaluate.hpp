@@ -1,0 +1,32 @@
+#pragma once
+/// The experiments of `gonio evaluate`, one file each.
+
+#include "inputs.hpp"
+#include <gonio/evaluate/few_samples.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <span>
+
+namespace cli {
+
+void add_nielsen_test_materials(CLI::App& evaluate);
+void add_measured_materials(CLI::App& evaluate);
+
+/// The means over materials of all measures, with the keys of `gonio compare --json`.
+[[nodiscard]] inline json mean_errors(std::span<const gonio::material_result> results) {
+  using gonio::mean_over;
+  return {{"mapped_rms", mean_over(results, [](const auto& e) { return e.mapped_rms.mean(); })},
+          {"cosine_rms", mean_over(results, [](const auto& e) { return e.cosine_rms.mean(); })},
+          {"delta_e_lights", mean_over(results, [](const auto& e) { return e.delta_e_lights; })},
+          {"delta_e_env", mean_over(results, [](const auto& e) { return e.delta_e_env; })}};
+}
+
+/// The errors of each material by its name.
+[[nodiscard]] inline json errors_by_name(std::span<const gonio::material_result> results) {
+  json materials = json::object();
+  for (const auto& [name, errors] : results) materials[name] = to_json(errors);
+  return materials;
+}
+
+}  // namespace cli

@@ -1,0 +1,100 @@
+/// gonio info: what a file holds.
+
+#include "command.hpp"
+#include "inputs.hpp"
+#include <gonio/io/samples.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct info_options {
+  std::filesystem::path file;
+  bool print_json = false;
+};
+
+json describe(const gonio::valid_cells& cells) {
+  const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
+  return {{"grid", {theta_h, theta_d, phi_d}},
+          {"anchor", cells.grid().anchor() == gonio::cell_anchor::centre ? "centre" : "lower corner"},
+          {"minimum_cosine", cells.minimum_cosine()},
+          {"valid_cells", cells.size()}};
+}
+
+json describe(const gonio::brdf_table& table) {
+  gonio::rgb low = table.at(0), high = low, sum = gonio::rgb::Zero();
+  std::size_t negative = 0;
+  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+    const gonio::rgb value = table.at(cell);
+    low = low.min(value);
+    high = high.max(value);
+    sum += value;
+    if ((value < 0.0).any()) ++negative;
+  }
+  json result{{"kind", "MERL table"}};
+  result.update(describe(table.cells()));
+  result["minimum"] = per_channel(low);
+  result["mean"] = per_channel(sum / static_cast<double>(table.cells().size()));
+  result["maximum"] = per_channel(high);
+  result["cells_with_negative_values"] = negative;
+  return result;
+}
+
+json describe(const gonio::log_relative_pca& prior) {
+  json result{{"kind", "prior"},
+              {"source", prior.source()},
+              {"materials", prior.names().size()},
+              {"components", prior.size()},
+              {"explained_variance", prior.explained_variance()}};
+  result.update(describe(prior.cells()));
+  result["names"] = prior.names();
+  return result;
+}
+
+json describe(const gonio::sample_set& samples) {
+  gonio::rgb low = samples.front().value, high = low;
+  for (const gonio::sample& s : samples) {
+    low = low.min(s.value);
+    high = high.max(s.value);
+  }
+  return {
+      {"kind", "samples"}, {"samples", samples.size()}, {"minimum", per_channel(low)}, {"maximum", per_channel(high)}};
+}
+
+/// By what the file starts with or how its name ends.
+json describe_file(const std::filesystem::path& path) {
+  const std::string name = path.filename().string();
+  if (name.ends_with(".csv")) return describe(gonio::io::read_samples(path));
+  if (name.ends_with(".npy")) {
+    const auto networks = gonio::io::read_networks(path);
+    return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
+  }
+  if (gonio::io::is_prior(path)) return describe(gonio::io::read_prior(path));
+  return describe(gonio::io::read_merl_any(path));
+}
+
+void print(const json& facts) {
+  for (const auto& [key, value] : facts.items())
+    std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+}
+
+}  // namespace
+
+void add_info(CLI::App& app) {
+  auto* command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
+  const auto options = std::make_shared<info_options>();
+  command->add_option("file", options->file, "The file")->required();
+  command->add_flag("--json", options->print_json, "Print as JSON");
+  command->callback([options] {
+    const json facts = describe_file(options->file);
+    if (options->print_json)
+      std::cout << facts.dump(2) << '\n';
+    else
+      print(facts);
+  });
+}
+
+}  // namespace cli

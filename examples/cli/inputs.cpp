@@ -1,0 +1,72 @@
+#include "inputs.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace cli {
+
+std::filesystem::path shipped_prior() {
+  std::error_code ignored;
+  const auto tool = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  const auto installed = tool.parent_path().parent_path() / "share/gonio/materials.prior";
+  return std::filesystem::exists(installed, ignored) ? installed : std::filesystem::path(GONIO_SOURCE_PRIOR);
+}
+
+void add_prior_option(CLI::App& command, std::filesystem::path& prior) {
+  prior = shipped_prior();
+  command.add_option("--prior", prior, "The learned prior (default: the one shipped with gonio)");
+}
+
+void add_threads_option(CLI::App& command, gonio::thread_count& threads) {
+  command.add_option("--threads", threads.value, "Number of threads (default: one per core)")
+      ->check(CLI::Range(1u, 1024u));
+}
+
+json per_channel(const gonio::rgb& values) { return json::array({values.x(), values.y(), values.z()}); }
+
+json to_json(const gonio::comparison& errors) {
+  return {{"mapped_rms", errors.mapped_rms.mean()},
+          {"cosine_rms", errors.cosine_rms.mean()},
+          {"delta_e_lights", errors.delta_e_lights},
+          {"delta_e_env", errors.delta_e_env},
+          {"peak_ratio", errors.peak_ratio.mean()},
+          {"channels",
+           {{"mapped_rms", per_channel(errors.mapped_rms)},
+            {"cosine_rms", per_channel(errors.cosine_rms)},
+            {"peak_ratio", per_channel(errors.peak_ratio)}}}};
+}
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+namespace {
+
+gonio::named_networks select(const gonio::named_networks& all, const std::vector<std::string>& names, bool wanted) {
+  for (const std::string& name : names)
+    if (std::ranges::find(all.names, name) == all.names.end())
+      throw gonio::error("there is no material named '" + name + "' among the " + std::to_string(all.names.size()) +
+                         " networks");
+  gonio::named_networks chosen;
+  for (std::size_t i = 0; i < all.names.size(); ++i) {
+    const bool listed = std::ranges::find(names, all.names[i]) != names.end();
+    if (listed != wanted) continue;
+    chosen.names.push_back(all.names[i]);
+    chosen.networks.push_back(all.networks[i]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+gonio::named_networks networks_in(const gonio::named_networks& all, const std::vector<std::string>& names) {
+  return select(all, names, true);
+}
+
+gonio::named_networks networks_except(const gonio::named_networks& all, const std::vector<std::string>& names) {
+  return select(all, names, false);
+}
+
+}  // namespace cli

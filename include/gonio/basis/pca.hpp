@@ -1,0 +1,102 @@
+#pragma once
+/// Principal components of measured BRDFs in the domain of an error metric.
+/// Nielsen et al. 2015, section 3, Eq. 4-6: every colour channel of every material is an observation,
+/// X - mu = U Sigma V', and the basis is the scaled components Q = V Sigma.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/metric/log_relative.hpp>
+#include <gonio/table/material_set.hpp>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// What a principal component basis consists of, for those who build or store one.
+template <error_metric Metric>
+struct pca_parts {
+  valid_cells cells;
+  Metric metric;
+  std::vector<std::string> names;   ///< the materials it was learned from
+  Eigen::VectorXd singular_values;  ///< Sigma, k values, largest first
+  cell_matrix components;           ///< Q = V Sigma, cells x k
+  std::vector<float> mean;          ///< mu, one value per cell
+  Eigen::MatrixXf coefficients;     ///< 3 materials x k: observation j is mu + Q coefficients.row(j)'
+  double explained_variance = 1.0;  ///< share of the observations' variance that the k components keep
+  std::string source = {};          ///< what it was learned from, for people
+};
+
+/// Principal components over the valid cells of a grid. A value type whose copies share their storage.
+template <error_metric Metric>
+class pca {
+ public:
+  /// Throws gonio::error if the sizes of the parts do not match.
+  explicit pca(pca_parts<Metric> parts) : parts_(std::make_shared<const pca_parts<Metric>>(std::move(parts))) {
+    const auto cells = static_cast<Eigen::Index>(parts_->cells.size());
+    const Eigen::Index k = parts_->components.cols();
+    if (k == 0 || parts_->components.rows() != cells || parts_->mean.size() != parts_->cells.size() ||
+        parts_->singular_values.size() != k || parts_->coefficients.cols() != k ||
+        parts_->coefficients.rows() != static_cast<Eigen::Index>(3 * parts_->names.size()))
+      throw error("the parts of a principal component basis of " + std::to_string(k) + " components over " +
+                  std::to_string(cells) + " cells and " + std::to_string(parts_->names.size()) +
+                  " materials do not match in size");
+  }
+
+  /// Number of components k.
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(parts_->components.cols()); }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return parts_->cells; }
+  [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
+
+  /// The k scaled components at a cell.
+  [[nodiscard]] std::span<const float> row(std::size_t cell) const noexcept {
+    return {parts_->components.data() + cell * size(), size()};
+  }
+  /// The mean mu at a cell.
+  [[nodiscard]] double offset(std::size_t cell) const noexcept { return parts_->mean[cell]; }
+
+  /// Q = V Sigma, cells x k.
+  [[nodiscard]] const cell_matrix& components() const noexcept { return parts_->components; }
+  [[nodiscard]] const std::vector<float>& mean() const noexcept { return parts_->mean; }
+  [[nodiscard]] const Eigen::VectorXd& singular_values() const noexcept { return parts_->singular_values; }
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return parts_->names; }
+  [[nodiscard]] const Eigen::MatrixXf& coefficients() const noexcept { return parts_->coefficients; }
+  [[nodiscard]] double explained_variance() const noexcept { return parts_->explained_variance; }
+  [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }
+
+  /// The first k components alone. Throws gonio::error unless k is from 1 to size().
+  [[nodiscard]] pca truncated(std::size_t k) const {
+    if (k == 0 || k > size())
+      throw error("cannot keep " + std::to_string(k) + " of " + std::to_string(size()) + " components");
+    const auto kept = static_cast<Eigen::Index>(k);
+    const double share = parts_->singular_values.head(kept).squaredNorm() / parts_->singular_values.squaredNorm();
+    return pca({parts_->cells, parts_->metric, parts_->names, parts_->singular_values.head(kept),
+                parts_->components.leftCols(kept), parts_->mean, parts_->coefficients.leftCols(kept),
+                parts_->explained_variance * share, parts_->source});
+  }
+
+  /// The same basis that tells people where it comes from.
+  [[nodiscard]] pca with_source(std::string source) const {
+    pca_parts<Metric> parts = *parts_;
+    parts.source = std::move(source);
+    return pca(std::move(parts));
+  }
+
+  /// Weights, k x 3, that expand to one of the materials the basis was learned from.
+  [[nodiscard]] Eigen::MatrixXd weights_of(std::size_t material) const {
+    return parts_->coefficients.middleRows(static_cast<Eigen::Index>(3 * material), 3)
+        .transpose()
+        .template cast<double>();
+  }
+
+ private:
+  std::shared_ptr<const pca_parts<Metric>> parts_;
+};
+
+/// The prior of Nielsen et al. 2015.
+using log_relative_pca = pca<log_relative>;
+
+}  // namespace gonio

@@ -1,0 +1,38 @@
+#pragma once
+/// The best that principal components can do: the orthogonal projection of a full table on them.
+
+#include <gonio/basis/pca.hpp>
+#include <gonio/table/brdf_table.hpp>
+
+namespace gonio {
+
+/// Weights, k x 3, of the projection of a table on the components: c = Sigma^-2 Q'(x - mu), because
+/// Q = V Sigma and V has orthonormal columns. Exact only for a basis over the cells it was learned on; the
+/// table must be over the basis' cells (else gonio::error). Components below 1e-5 of the first are left
+/// out. O(cells x k).
+template <error_metric Metric>
+[[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
+  if (!(table.cells() == basis.cells())) throw error("only a table over the basis' own cells can be projected on it");
+  const auto k = static_cast<Eigen::Index>(basis.size());
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(k, 3);
+  Eigen::MatrixXd products = sum_over_blocks(
+      table.cells().size(), 1024, zero,
+      [&](Eigen::MatrixXd& sum, block range) {
+        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        Eigen::MatrixXd mapped(count, 3);
+        for (Eigen::Index i = 0; i < count; ++i) {
+          const auto cell = static_cast<std::size_t>(begin + i);
+          const location at = locate_cell(table.cells(), cell);
+          const rgb value = table.at(cell);
+          for (Eigen::Index channel = 0; channel < 3; ++channel)
+            mapped(i, channel) = basis.metric().forward(value[channel], at) - basis.offset(cell);
+        }
+        sum.noalias() += basis.components().middleRows(begin, count).transpose().template cast<double>() * mapped;
+      },
+      threads);
+  const Eigen::ArrayXd sigma = basis.singular_values().array();
+  const Eigen::ArrayXd inverse = (sigma > 1e-5 * sigma[0]).select(sigma.square().inverse(), 0.0);
+  return inverse.matrix().asDiagonal() * products;
+}
+
+}  // namespace gonio

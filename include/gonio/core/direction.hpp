@@ -1,0 +1,94 @@
+#pragma once
+/// Directions in the local frame of a surface (normal +z) and Rusinkiewicz's half and difference angles.
+/// S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998.
+///
+/// A pair (wi, wo) of an isotropic material has three degrees of freedom: theta_h, the angle of the half
+/// vector h from the normal; theta_d, the angle between wi and h; phi_d, the azimuth of wi about h,
+/// counted from the plane of normal and h. Swapping wi and wo adds pi to phi_d, so Helmholtz reciprocity
+/// lets phi_d be folded into [0, pi).
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <numbers>
+
+namespace gonio {
+
+/// A unit vector in the local frame: x and y tangential, z along the normal.
+using direction = Eigen::Vector3d;
+
+/// Half and difference angles in radians: theta_h and theta_d in [0, pi/2] for directions above the
+/// horizon, phi_d in [0, pi).
+struct half_difference {
+  double theta_h = 0.0;
+  double theta_d = 0.0;
+  double phi_d = 0.0;
+};
+
+/// Towards the light (wi) and towards the viewer (wo).
+struct direction_pair {
+  direction wi;
+  direction wo;
+};
+
+/// The cosines of wi and wo with the normal; negative below the horizon.
+struct cosine_pair {
+  double i = 0.0;
+  double o = 0.0;
+};
+
+[[nodiscard]] constexpr double radians(double degrees) noexcept { return degrees * (std::numbers::pi / 180.0); }
+
+[[nodiscard]] constexpr double degrees(double radians) noexcept { return radians * (180.0 / std::numbers::pi); }
+
+/// Direction at polar angle `theta` from the normal and azimuth `phi`, both in radians.
+[[nodiscard]] inline direction spherical_direction(double theta, double phi) noexcept {
+  const double sin_theta = std::sin(theta);
+  return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), std::cos(theta)};
+}
+
+/// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
+[[nodiscard]] inline double fold_phi_d(double phi) noexcept {
+  const double folded = phi - std::numbers::pi * std::floor(phi / std::numbers::pi);
+  // A tiny negative angle rounds up to pi itself, which is 0.
+  return folded < std::numbers::pi ? folded : 0.0;
+}
+
+/// Half and difference angles of a pair of unit vectors, accurate at any angle: all three come from
+/// atan2 of quantities without cancellation, because acos of a cosine near 1 loses half the digits.
+/// At theta_h = 0 the azimuth of h is taken as 0; at theta_d = 0 phi_d is 0; opposite directions, which
+/// have no half vector, get the normal.
+[[nodiscard]] inline half_difference to_half_difference(const direction& wi, const direction& wo) noexcept {
+  // wi and wo lie symmetrically about h, so their sum is along h and their difference across it.
+  const direction sum = wi + wo;
+  const direction difference = wi - wo;
+  const double length = sum.norm();
+  const direction h = length > 0.0 ? direction(sum / length) : direction(0.0, 0.0, 1.0);
+  const double sin_theta_h = std::hypot(h.x(), h.y());
+  const double cos_phi_h = sin_theta_h > 0.0 ? h.x() / sin_theta_h : 1.0;
+  const double sin_phi_h = sin_theta_h > 0.0 ? h.y() / sin_theta_h : 0.0;
+  // Rotate the difference by -phi_h about z, then by -theta_h about y, which takes h to the pole.
+  const double along = cos_phi_h * difference.x() + sin_phi_h * difference.y();
+  const double x = h.z() * along - sin_theta_h * difference.z();
+  const double y = cos_phi_h * difference.y() - sin_phi_h * difference.x();
+  return {std::atan2(sin_theta_h, h.z()), std::atan2(difference.norm(), length), fold_phi_d(std::atan2(y, x))};
+}
+
+/// The pair with these angles whose half vector lies in the xz plane (phi_h = 0).
+[[nodiscard]] inline direction_pair to_directions(const half_difference& angles) noexcept {
+  const double sin_h = std::sin(angles.theta_h), cos_h = std::cos(angles.theta_h);
+  const double sin_d = std::sin(angles.theta_d), cos_d = std::cos(angles.theta_d);
+  const double across = sin_d * std::cos(angles.phi_d);
+  const direction along_h(cos_d * sin_h, 0.0, cos_d * cos_h);
+  const direction off_h(across * cos_h, sin_d * std::sin(angles.phi_d), -across * sin_h);
+  return {along_h + off_h, along_h - off_h};
+}
+
+/// cos(theta_i) and cos(theta_o) of a pair with these angles.
+[[nodiscard]] inline cosine_pair cosines(const half_difference& angles) noexcept {
+  const double sum = std::cos(angles.theta_h) * std::cos(angles.theta_d);
+  const double difference = std::sin(angles.theta_h) * std::sin(angles.theta_d) * std::cos(angles.phi_d);
+  return {sum - difference, sum + difference};
+}
+
+}  // namespace gonio

@@ -1,0 +1,98 @@
+#pragma once
+/// Loops over blocks of a range on several threads whose results do not depend on the number of threads:
+/// the partition is fixed by the range alone, and partial results are merged in the order of the range.
+
+#include <gonio/core/assertion.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace gonio {
+
+/// How many threads a loop may use; 0 means as many as the machine has cores.
+struct thread_count {
+  unsigned value = 0;
+
+  [[nodiscard]] unsigned resolve() const noexcept {
+    return value != 0 ? value : std::max(1u, std::thread::hardware_concurrency());
+  }
+};
+
+/// A half-open range of indices.
+struct block {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+
+  [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+};
+
+/// Calls `body(block)` once for each block of at most `block_size` indices of [0, count), in any order
+/// and concurrently. If bodies throw, the exception of the first block in the range's order among those
+/// that ran is rethrown after all threads have stopped; blocks not yet started are then skipped.
+template <class Body>
+void for_each_block(std::size_t count, std::size_t block_size, Body&& body, thread_count threads = {}) {
+  GONIO_ASSERT(block_size > 0);
+  const std::size_t blocks = (count + block_size - 1) / block_size;
+  const auto block_at = [&](std::size_t b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
+  const std::size_t workers = std::min<std::size_t>(threads.resolve(), blocks);
+  if (workers <= 1) {
+    for (std::size_t b = 0; b < blocks; ++b) body(block_at(b));
+    return;
+  }
+
+  std::atomic<std::size_t> next{0};
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+  std::size_t failed_block = blocks;
+  const auto work = [&] {
+    for (std::size_t b = next++; b < blocks; b = next++) {
+      try {
+        body(block_at(b));
+      } catch (...) {
+        const std::scoped_lock lock(failure_mutex);
+        if (b < failed_block) {
+          failed_block = b;
+          failure = std::current_exception();
+        }
+        next = blocks;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> team;
+    team.reserve(workers - 1);
+    for (std::size_t w = 1; w < workers; ++w) team.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+/// Sums over a range: `accumulate(partial, block)` adds a block's contribution to a partial result that
+/// starts as a copy of `zero`, and the partial results are added with `+=`. The range is cut into at most
+/// 16 runs of blocks, each summed in order, so that the same bytes come out for any number of threads.
+template <class Result, class Accumulate>
+[[nodiscard]] Result sum_over_blocks(std::size_t count, std::size_t block_size, const Result& zero,
+                                     Accumulate&& accumulate, thread_count threads = {}) {
+  constexpr std::size_t runs = 16;
+  const std::size_t blocks = (count + block_size - 1) / block_size;
+  const std::size_t run_size = std::max<std::size_t>(1, (blocks + runs - 1) / runs) * block_size;
+  std::vector<Result> partial((count + run_size - 1) / run_size, zero);
+  for_each_block(
+      count, run_size,
+      [&](block run) {
+        Result& sum = partial[run.begin / run_size];
+        for (std::size_t begin = run.begin; begin < run.end; begin += block_size)
+          accumulate(sum, block{begin, std::min(run.end, begin + block_size)});
+      },
+      threads);
+  Result total = zero;
+  for (const Result& sum : partial) total += sum;
+  return total;
+}
+
+}  // namespace gonio

@@ -1,0 +1,73 @@
+#pragma once
+/// The experiment of Nielsen et al. 2015, section 6: reconstruct materials that the prior has not seen from a
+/// few directions, and compare with their full tables.
+
+#include <gonio/basis/project.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The ten materials that Nielsen et al. 2015 leave out of the prior (their Figure 2).
+[[nodiscard]] inline const std::vector<std::string>& nielsen_test_materials() {
+  static const std::vector<std::string> names{
+      "black-soft-plastic", "blue-acrylic",          "blue-metallic-paint2",     "green-fabric",     "light-red-paint",
+      "pink-jasper",        "silver-metallic-paint", "specular-violet-phenolic", "two-layer-silver", "white-fabric"};
+  return names;
+}
+
+/// How one material came out.
+struct material_result {
+  std::string name;
+  comparison errors;
+};
+
+/// Measures each truth without defects at the cells nearest to `directions`, reconstructs it by a prior with
+/// Tikhonov's penalty eta (Eq. 12), and compares over the truth's cells in the domain of `metric`.
+template <basis Basis, error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_directions(const Basis& prior, double eta,
+                                                                       std::span<const half_difference> directions,
+                                                                       const material_set& truths, const Metric& metric,
+                                                                       const appearance_judge& judge,
+                                                                       thread_count threads = {}) {
+  const auto cells = cells_at(truths.cells, directions);
+  const decomposition estimator{prior, tikhonov{eta}};
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const brdf_table truth = truths.table(m);
+    const brdf_table estimate = estimator.fit(measure(truth, cells)).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
+  }
+  return results;
+}
+
+/// The lower bound: each truth projected on the prior's components. Prior and truths must share their cells.
+template <error_metric Metric>
+[[nodiscard]] std::vector<material_result> project_on(const pca<Metric>& prior, const material_set& truths,
+                                                      const appearance_judge& judge, thread_count threads = {}) {
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const brdf_table truth = truths.table(m);
+    solution projected;
+    projected.weights = project(prior, truth, threads);
+    const brdf_table estimate = fitted_brdf(prior, std::move(projected)).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], compare(estimate, truth, prior.metric(), judge, threads)});
+  }
+  return results;
+}
+
+/// The mean over materials, and over channels where there is one value a channel, of a measure.
+template <class Measure>
+[[nodiscard]] double mean_over(std::span<const material_result> results, Measure&& measure) {
+  double sum = 0.0;
+  for (const material_result& result : results) sum += measure(result.errors);
+  return sum / static_cast<double>(results.size());
+}
+
+}  // namespace gonio

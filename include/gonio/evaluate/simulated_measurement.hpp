@@ -1,0 +1,92 @@
+#pragma once
+/// Measurements simulated from a table, with the defects that real ones have. Noell et al. 2014, section 3.1
+/// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015.
+
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+/// What goes wrong in a simulated measurement.
+struct measurement_defects {
+  /// Share of the samples whose value is replaced by that of a random other cell of the table.
+  double outlier_ratio = 0.0;
+  /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
+  double noise = 0.0;
+};
+
+/// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
+/// between 1 and the number of cells.
+[[nodiscard]] inline std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count,
+                                                           std::uint64_t seed) {
+  if (count == 0 || count > cells.size())
+    throw error("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
+  std::mt19937_64 generator(seed);
+  std::vector<std::size_t> all(cells.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  // The first steps of a Fisher-Yates shuffle.
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uniform_int_distribution<std::size_t> rest(i, all.size() - 1);
+    std::swap(all[i], all[rest(generator)]);
+  }
+  all.resize(count);
+  std::ranges::sort(all);
+  return all;
+}
+
+/// The cells nearest to directions, the same cell twice if two directions share it. Throws gonio::error
+/// naming a direction that falls on no valid cell.
+[[nodiscard]] inline std::vector<std::size_t> cells_at(const valid_cells& cells,
+                                                       std::span<const half_difference> directions) {
+  std::vector<std::size_t> chosen;
+  for (const half_difference& angles : directions) {
+    const std::size_t linear = cells.grid().linear(cells.grid().nearest(angles));
+    if (!cells.contains(linear))
+      throw error("direction " + std::to_string(chosen.size() + 1) + " (theta_h " +
+                  std::to_string(degrees(angles.theta_h)) + ", theta_d " + std::to_string(degrees(angles.theta_d)) +
+                  ", phi_d " + std::to_string(degrees(angles.phi_d)) +
+                  " degrees) is below the horizon or not in the table");
+    chosen.push_back(cells.representative(linear));
+  }
+  return chosen;
+}
+
+/// The table's values at cells, at the cells' own angles, with defects. Outliers and noise come from the
+/// seed alone. Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
+[[nodiscard]] inline sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
+                                        const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  if (!(defects.outlier_ratio >= 0.0 && defects.outlier_ratio <= 1.0))
+    throw error("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
+  if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
+    throw error("the noise must be finite and not negative, not " + std::to_string(defects.noise));
+  sample_set samples;
+  samples.reserve(cells.size());
+  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
+
+  // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
+  std::mt19937_64 generator(seed);
+  std::vector<std::size_t> order(samples.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::shuffle(order, generator);
+  const auto outliers =
+      static_cast<std::size_t>(std::llround(defects.outlier_ratio * static_cast<double>(samples.size())));
+  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
+  for (std::size_t i = 0; i < outliers; ++i) samples[order[i]].value = table.at(any_cell(generator));
+
+  if (defects.noise > 0.0) {
+    std::normal_distribution<double> normal;
+    for (sample& s : samples)
+      for (Eigen::Index channel = 0; channel < 3; ++channel)
+        s.value[channel] *= 1.0 + defects.noise * normal(generator);
+  }
+  return samples;
+}
+
+}  // namespace gonio

@@ -1,0 +1,91 @@
+#pragma once
+/// Little-endian binary records in memory: a writer that appends and a reader that never runs past the end.
+
+#include <gonio/core/error.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gonio::io {
+
+static_assert(std::endian::native == std::endian::little,
+              "the binary formats are little-endian, as is every supported machine");
+
+/// Appends numbers and arrays to a byte buffer.
+class byte_writer {
+ public:
+  template <class Number>
+  requires std::is_trivially_copyable_v<Number>
+  void put(Number value) { put_all(std::span<const Number>(&value, 1)); }
+
+  template <class Number>
+  requires std::is_trivially_copyable_v<Number>
+  void put_all(std::span<const Number> values) {
+    const auto bytes = std::as_bytes(values);
+    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+  }
+
+  /// A length of 32 bits and the characters.
+  void put_text(const std::string& text) {
+    put(static_cast<std::uint32_t>(text.size()));
+    put_all(std::span<const char>(text));
+  }
+
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+/// Takes numbers and arrays off the front of a byte buffer; throws gonio::error naming `name` where the
+/// bytes do not suffice. Counts are checked against the bytes that are left before anything is allocated.
+class byte_reader {
+ public:
+  byte_reader(std::span<const std::byte> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
+
+  template <class Number>
+  requires std::is_trivially_copyable_v<Number>
+  [[nodiscard]] Number take() {
+    Number value;
+    std::memcpy(&value, take_bytes(sizeof(Number)).data(), sizeof(Number));
+    return value;
+  }
+
+  template <class Number>
+  requires std::is_trivially_copyable_v<Number>
+  [[nodiscard]] std::vector<Number> take_all(std::size_t count) {
+    if (count > bytes_.size() / sizeof(Number)) fail();
+    std::vector<Number> values(count);
+    const auto bytes = take_bytes(count * sizeof(Number));
+    if (count != 0) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+
+  [[nodiscard]] std::string take_text() {
+    const auto characters = take_all<char>(take<std::uint32_t>());
+    return {characters.begin(), characters.end()};
+  }
+
+  [[nodiscard]] std::span<const std::byte> take_bytes(std::size_t count) {
+    if (count > bytes_.size()) fail();
+    const auto taken = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return taken;
+  }
+
+  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
+
+ private:
+  [[noreturn]] void fail() const { throw error(name_ + ": the file is truncated or its counts are wrong"); }
+
+  std::span<const std::byte> bytes_;
+  std::string name_;
+};
+
+}  // namespace gonio::io

@@ -1,0 +1,134 @@
+#pragma once
+/// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to that of a reference.
+/// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition",
+/// SIGGRAPH Asia 2015, Eq. 1-4.
+
+#include <gonio/metric/error_metric.hpp>
+#include <gonio/table/material_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+/// forward(rho) = ln((rho c + epsilon) / (rho_ref c + epsilon)) with the cosine weight
+/// c = max(cos theta_i cos theta_o, epsilon) of the place (Eq. 1-2).
+///
+/// Negative reflectance counts as zero in `forward`, whose smallest value is ln(epsilon / (rho_ref c +
+/// epsilon)); `inverse` of anything smaller is negative, down to -epsilon / c. Whoever needs a BRDF clamps
+/// it at zero. Between cells the reference is interpolated in its logarithm, and c is exact.
+class log_relative {
+ public:
+  /// Avoids division by zero and bounds the influence of camera noise; the paper's value.
+  static constexpr double epsilon = 0.001;
+
+  /// `reference` has one value in sr^-1 for each cell. Throws gonio::error if their numbers differ or a
+  /// value is negative or not finite.
+  log_relative(valid_cells cells, std::vector<float> reference) : cells_(std::move(cells)) {
+    if (reference.size() != cells_.size())
+      throw error("a reference BRDF over " + std::to_string(cells_.size()) + " cells has " +
+                  std::to_string(reference.size()) + " values");
+    if (!std::ranges::all_of(reference, [](float value) { return value >= 0.0f && std::isfinite(value); }))
+      throw error("a reference BRDF must be finite and not negative");
+    reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
+  }
+
+  /// The metric relative to the median of all columns at each cell (Eq. 3). O(cells x columns).
+  [[nodiscard]] static log_relative to_median_of(const material_set& materials, thread_count threads = {}) {
+    if (materials.values.cols() == 0) throw error("the median of no material is not defined");
+    std::vector<float> reference(materials.cells.size());
+    for_each_block(
+        reference.size(), 1024,
+        [&](block range) {
+          std::vector<float> row(static_cast<std::size_t>(materials.values.cols()));
+          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+            std::copy_n(materials.values.row(static_cast<Eigen::Index>(cell)).data(), row.size(), row.begin());
+            reference[cell] = std::max(median(row), 0.0f);
+          }
+        },
+        threads);
+    return {materials.cells, std::move(reference)};
+  }
+
+  /// c of Eq. 2.
+  [[nodiscard]] static double cosine_weight(const cosine_pair& cosine) noexcept {
+    return std::max(cosine.i * cosine.o, epsilon);
+  }
+
+  [[nodiscard]] static double forward(double rho, double reference, double cosine_weight) noexcept {
+    return std::log((std::max(rho, 0.0) * cosine_weight + epsilon) / (reference * cosine_weight + epsilon));
+  }
+  [[nodiscard]] static double inverse(double y, double reference, double cosine_weight) noexcept {
+    return (std::exp(y) * (reference * cosine_weight + epsilon) - epsilon) / cosine_weight;
+  }
+
+  [[nodiscard]] double forward(double rho, std::size_t cell) const noexcept {
+    return forward(rho, (*reference_)[cell], cosine_weight(cosines(cells_.angles(cell))));
+  }
+  [[nodiscard]] double inverse(double y, std::size_t cell) const noexcept {
+    return inverse(y, (*reference_)[cell], cosine_weight(cosines(cells_.angles(cell))));
+  }
+  [[nodiscard]] double forward(double rho, const location& at) const noexcept {
+    return forward(rho, reference(at), cosine_weight(at.cosine));
+  }
+  [[nodiscard]] double inverse(double y, const location& at) const noexcept {
+    return inverse(y, reference(at), cosine_weight(at.cosine));
+  }
+
+  /// The same metric over other cells, its reference interpolated.
+  [[nodiscard]] log_relative on(const valid_cells& cells) const {
+    std::vector<float> moved(cells.size());
+    for (std::size_t cell = 0; cell < moved.size(); ++cell)
+      moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
+    return {cells, std::move(moved)};
+  }
+
+  /// `inverse` of three channels at many places at once, clamped at zero, as expanding a table needs it. A column
+  /// of `values` (destroyed) is a place: three mapped channels and the logarithm of the reference as
+  /// `log_reference` gives it; `cosine_weight` and `out` (three channels a place) belong to the columns in order.
+  template <class Values>
+  static void inverse_clamped(Values& values, std::span<const float> cosine_weight, std::span<float> out) {
+    constexpr auto small = static_cast<float>(epsilon);
+    values = values.exp();
+    for (std::size_t place = 0; place < cosine_weight.size(); ++place) {
+      const auto column = static_cast<Eigen::Index>(place);
+      const float inverse_weight = 1.0f / cosine_weight[place];
+      const float scale = values(3, column) + small * inverse_weight, shift = small * inverse_weight;
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        const float rho = values(static_cast<Eigen::Index>(channel), column) * scale - shift;
+        out[3 * place + channel] = std::max(rho, 0.0f);
+      }
+    }
+  }
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::span<const float> reference() const noexcept { return *reference_; }
+
+  /// The reference BRDF at a location, in sr^-1.
+  [[nodiscard]] double reference(const location& at) const noexcept {
+    if (at.count == 1) return (*reference_)[at.cell[0]];
+    const auto value = [&](std::size_t cell) { return log_reference((*reference_)[cell]); };
+    return std::exp(interpolate(at, value, 0.0));
+  }
+
+  /// The logarithm in which the reference is interpolated; zeros are far below epsilon and are floored.
+  [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
+
+ private:
+  [[nodiscard]] static float median(std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    if (values.size() % 2 != 0) return *middle;
+    return 0.5f * (*middle + *std::ranges::max_element(values.begin(), middle));
+  }
+
+  valid_cells cells_;
+  std::shared_ptr<const std::vector<float>> reference_;
+};
+
+static_assert(error_metric<log_relative>);
+
+}  // namespace gonio

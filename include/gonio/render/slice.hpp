@@ -1,0 +1,59 @@
+#pragma once
+/// The slice of a BRDF at phi_d = 90 degrees: one picture that shows diffuse colour, highlight, Fresnel effect and
+/// retro-reflection apart. B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course; J. B. Nielsen's
+/// thesis (2016), Sec. 2.2.3 and Fig. 2.8.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/table/grid.hpp>
+
+#include <numbers>
+
+namespace gonio {
+
+/// How theta_h runs along the picture.
+enum class slice_axis {
+  /// In steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the picture.
+  square_root,
+  /// In steps of theta_h.
+  linear,
+};
+
+/// What a slice shows.
+struct slice_view {
+  int rows = 90;
+  int columns = 90;
+  slice_axis axis = slice_axis::square_root;
+};
+
+/// f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90 degrees
+/// and taken at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
+/// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom, and all of
+/// it is above the horizon. On MERL's grid the default picture has one pixel for each cell; read through a
+/// nearest_lookup, whose cells there are at 90.5 degrees, the grazing corner at the top right is black.
+template <brdf Brdf>
+[[nodiscard]] image render_slice(const Brdf& f, const slice_view& view = {}, thread_count threads = {}) {
+  GONIO_ASSERT(view.rows >= 1 && view.columns >= 1);
+  const grid nodes({view.columns, view.rows, 1}, cell_anchor::centre);
+  const auto theta_h = [&](int column) {
+    if (view.axis == slice_axis::square_root) return nodes.theta_h(column);
+    return (column + 0.5) / view.columns * (std::numbers::pi / 2.0);
+  };
+  const auto rows = static_cast<std::size_t>(view.rows), columns = static_cast<std::size_t>(view.columns);
+  image picture({rows, columns, std::size_t{3}});
+  for_each_block(
+      rows, 1,
+      [&](block range) {
+        const auto row = range.begin;
+        const double theta_d = nodes.theta_d(view.rows - 1 - static_cast<int>(row));
+        for (int column = 0; column < view.columns; ++column) {
+          const auto [wi, wo] = to_directions({theta_h(column), theta_d, std::numbers::pi / 2.0});
+          set_pixel(picture, row, static_cast<std::size_t>(column), std::numbers::pi * rgb(f(wi, wo)));
+        }
+      },
+      threads);
+  return picture;
+}
+
+}  // namespace gonio

@@ -1,0 +1,209 @@
+#pragma once
+/// Orthographic pictures of a sphere made of a BRDF, for any `brdf`, and the same picture as a linear map of
+/// a table's values for judging many tables quickly.
+///
+/// Pixel centres are a regular grid over the square around the unit disc; those strictly inside belong to the
+/// sphere (1020 of 36 x 36). Exposure: the lighting is scaled such that a white Lambertian sphere (f = 1/pi)
+/// has mean luminance 1 over the sphere's pixels. Nothing else about the picture depends on the BRDF.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/render/lighting.hpp>
+#include <gonio/table/brdf_table.hpp>
+
+#include <cstdint>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// What the camera sees of the sphere.
+struct sphere_view {
+  /// Rows and columns of the picture.
+  int size = 256;
+  /// Samples per pixel along each axis.
+  int supersampling = 1;
+  /// Shown around the sphere, and blended into pixels that it covers in part (if supersampling > 1).
+  rgb background = rgb::Zero();
+};
+
+/// A point of the sphere that a sample of the picture sees.
+struct sphere_point {
+  std::uint32_t row = 0;
+  std::uint32_t column = 0;
+  /// In world axes, as in render/lighting.hpp.
+  direction normal;
+};
+
+/// The samples of a size x size grid that lie on the sphere, row by row from the top.
+[[nodiscard]] inline std::vector<sphere_point> sphere_points(int size) {
+  GONIO_ASSERT(size >= 1);
+  std::vector<sphere_point> points;
+  const auto centre = [size](int i) { return (i + 0.5) / size * 2.0 - 1.0; };
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column) {
+      const double x = centre(column), y = -centre(row);
+      const double squared_radius = x * x + y * y;
+      if (!(squared_radius < 1.0)) continue;
+      points.push_back({static_cast<std::uint32_t>(row),
+                        static_cast<std::uint32_t>(column),
+                        {x, y, std::sqrt(1.0 - squared_radius)}});
+    }
+  return points;
+}
+
+namespace detail {
+
+/// Samples on which one thread works at a time.
+inline constexpr std::size_t sphere_block = 32;
+
+/// The factor that brings the mean of a white sphere's luminances to 1; 1 if no light reaches it.
+[[nodiscard]] inline double exposure_from(const std::vector<double>& white_luminances) noexcept {
+  const double sum = std::accumulate(white_luminances.begin(), white_luminances.end(), 0.0);
+  return sum > 0.0 ? static_cast<double>(white_luminances.size()) / sum : 1.0;
+}
+
+}  // namespace detail
+
+/// A picture of a sphere, in linear light. Same bytes for any number of threads.
+template <brdf Brdf, sphere_lighting Lighting>
+[[nodiscard]] image render_sphere(const Brdf& f, const Lighting& lighting, const sphere_view& view = {},
+                                  thread_count threads = {}) {
+  GONIO_ASSERT(view.supersampling >= 1);
+  const std::vector<sphere_point> points = sphere_points(view.size * view.supersampling);
+  std::vector<rgb> radiance(points.size(), rgb::Zero());
+  std::vector<double> white(points.size());
+  for_each_block(
+      points.size(), detail::sphere_block,
+      [&](block range) {
+        for (std::size_t point = range.begin; point < range.end; ++point)
+          lighting.for_each_incident(points[point].normal,
+                                     [&](const direction& wi, const direction& wo, const rgb& weight) {
+                                       radiance[point] += rgb(f(wi, wo)) * weight;
+                                       white[point] += luminance(weight) * std::numbers::inv_pi;
+                                     });
+      },
+      threads);
+
+  // Replace each sample's share of the background by what it sees of the sphere.
+  const auto side = static_cast<std::size_t>(view.size);
+  const auto samples = static_cast<std::uint32_t>(view.supersampling);
+  const double exposure = detail::exposure_from(white);
+  std::vector<rgb> pixels(side * side, view.background);
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    const std::size_t row = points[point].row / samples, column = points[point].column / samples;
+    pixels[row * side + column] += (exposure * radiance[point] - view.background) / (samples * samples);
+  }
+  image picture({side, side, std::size_t{3}});
+  for (std::size_t i = 0; i < pixels.size(); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
+  return picture;
+}
+
+/// One colour for each point of a sphere, in the order of `sphere_points`; linear light.
+using sphere_colours = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+/// The picture of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the
+/// nearest cell, and a direction whose cell is invalid contributes nothing: `apply(table)` equals
+/// `render_sphere(nearest_lookup{table}, ...)` up to the rounding of weights to float.
+///
+/// Memory: 16 bytes per incident direction and point; 73 MB for the default environment at 36 x 36 points, 14 kB
+/// for two lights.
+class sphere_operator {
+ public:
+  /// Enumerates the light once, on several threads.
+  template <sphere_lighting Lighting>
+  sphere_operator(valid_cells cells, const Lighting& lighting, int size = 36, thread_count threads = {})
+      : cells_(std::move(cells)), size_(size), points_(sphere_points(size)), rows_(points_.size()) {
+    std::vector<double> white(points_.size());
+    for_each_block(
+        points_.size(), detail::sphere_block,
+        [&](block range) {
+          std::vector<entry> row;
+          for (std::size_t point = range.begin; point < range.end; ++point) {
+            row.clear();
+            lighting.for_each_incident(points_[point].normal,
+                                       [&](const direction& wi, const direction& wo, const rgb& weight) {
+                                         row.push_back(entry_of(wi, wo, weight));
+                                         white[point] += luminance(weight) * std::numbers::inv_pi;
+                                       });
+            // Number the valid cells in a loop of its own, in which the processor can overlap the cache misses.
+            std::erase_if(row, [&](const entry& e) { return !cells_.contains(e.cell); });
+            for (entry& e : row) e.cell = static_cast<std::uint32_t>(cells_.representative(e.cell));
+            rows_[point].assign(row.begin(), row.end());
+          }
+        },
+        threads);
+    exposure_ = detail::exposure_from(white);
+  }
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+
+  /// The points whose colours `apply` returns.
+  [[nodiscard]] const std::vector<sphere_point>& points() const noexcept { return points_; }
+
+  /// Number of entries that are not zero, for each of the three channels.
+  [[nodiscard]] std::size_t entries() const noexcept {
+    return std::accumulate(rows_.begin(), rows_.end(), std::size_t{0},
+                           [](std::size_t sum, const std::vector<entry>& row) { return sum + row.size(); });
+  }
+
+  /// The colours of a sphere made of this table. Same bytes for any number of threads. Throws gonio::error if
+  /// the table is over other cells.
+  [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const {
+    if (!(table.cells() == cells_))
+      throw error("a sphere operator over " + std::to_string(cells_.size()) +
+                  " cells was given a table over other cells (" + std::to_string(table.cells().size()) + " of them)");
+    sphere_colours colours(static_cast<Eigen::Index>(rows_.size()), 3);
+    for_each_block(
+        rows_.size(), detail::sphere_block,
+        [&](block range) {
+          for (std::size_t point = range.begin; point < range.end; ++point)
+            colours.row(static_cast<Eigen::Index>(point)) = radiance(rows_[point], table.values()).transpose();
+        },
+        threads);
+    return colours;
+  }
+
+  /// The colours as a picture.
+  [[nodiscard]] image to_image(const sphere_colours& colours, const rgb& background = rgb::Zero()) const {
+    GONIO_ASSERT(colours.rows() == static_cast<Eigen::Index>(points_.size()));
+    const auto side = static_cast<std::size_t>(size_);
+    image picture = uniform_image(side, side, background);
+    for (std::size_t point = 0; point < points_.size(); ++point)
+      set_pixel(picture, points_[point].row, points_[point].column,
+                colours.row(static_cast<Eigen::Index>(point)).transpose());
+    return picture;
+  }
+
+ private:
+  struct entry {
+    std::uint32_t cell;
+    std::array<float, 3> weight;
+  };
+
+  [[nodiscard]] entry entry_of(const direction& wi, const direction& wo, const rgb& weight) const noexcept {
+    const std::size_t linear = cells_.grid().linear(cells_.grid().nearest(to_half_difference(wi, wo)));
+    return {static_cast<std::uint32_t>(linear),
+            {static_cast<float>(weight.x()), static_cast<float>(weight.y()), static_cast<float>(weight.z())}};
+  }
+
+  [[nodiscard]] rgb radiance(const std::vector<entry>& row, std::span<const float> values) const noexcept {
+    rgb sum = rgb::Zero();
+    for (const auto& [cell, weight] : row) {
+      const float* value = values.data() + 3 * std::size_t{cell};
+      sum += rgb(value[0], value[1], value[2]) * rgb(weight[0], weight[1], weight[2]);
+    }
+    return exposure_ * sum;
+  }
+
+  valid_cells cells_;
+  int size_;
+  std::vector<sphere_point> points_;
+  std::vector<std::vector<entry>> rows_;
+  double exposure_ = 1.0;
+};
+
+}  // namespace gonio

@@ -1,0 +1,110 @@
+#pragma once
+/// A dense RGB table of a BRDF over the valid cells of a grid.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/table/location.hpp>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A BRDF in sr^-1 tabulated over valid cells, cell-major: red, green and blue of a cell are adjacent.
+/// Values are as measured and may be negative; nothing is clamped here.
+class brdf_table {
+ public:
+  /// A table of zeros.
+  explicit brdf_table(valid_cells cells) : cells_(std::move(cells)), values_(3 * cells_.size(), 0.0f) {}
+
+  /// Takes values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
+  brdf_table(valid_cells cells, std::vector<float> values) : cells_(std::move(cells)), values_(std::move(values)) {
+    if (values_.size() != 3 * cells_.size())
+      throw error("a table over " + std::to_string(cells_.size()) + " cells needs 3 values a cell, got " +
+                  std::to_string(values_.size()));
+  }
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::span<const float> values() const noexcept { return values_; }
+  [[nodiscard]] std::span<float> values() noexcept { return values_; }
+
+  [[nodiscard]] rgb at(std::size_t cell) const noexcept {
+    const float* value = values_.data() + 3 * cell;
+    return {value[0], value[1], value[2]};
+  }
+
+  void set(std::size_t cell, const rgb& value) noexcept {
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      values_[3 * cell + channel] = static_cast<float>(value[static_cast<Eigen::Index>(channel)]);
+  }
+
+  /// Trilinear interpolation of the stored values; zero below the horizon.
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+    return at(locate(cells_, to_half_difference(wi, wo)));
+  }
+
+  /// Trilinear interpolation of the stored values at a location on this table's cells.
+  [[nodiscard]] rgb at(const location& where) const noexcept {
+    return interpolate(
+        where, [&](std::size_t cell) { return at(cell); }, rgb(rgb::Zero()));
+  }
+
+ private:
+  valid_cells cells_;
+  std::vector<float> values_;
+};
+
+static_assert(brdf<brdf_table>);
+
+/// Looks a table up at the nearest cell, the way renderers read MERL files; zero below the horizon. A
+/// view: the table must outlive it.
+class nearest_lookup {
+ public:
+  explicit nearest_lookup(const brdf_table& table) noexcept : table_(&table) {}
+
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+    const valid_cells& cells = table_->cells();
+    const std::size_t linear = cells.grid().linear(cells.grid().nearest(to_half_difference(wi, wo)));
+    return cells.contains(linear) ? table_->at(cells.representative(linear)) : rgb(rgb::Zero());
+  }
+
+ private:
+  const brdf_table* table_;
+};
+
+static_assert(brdf<nearest_lookup>);
+
+/// Evaluates a BRDF at every valid cell. Same bytes for any number of threads.
+template <brdf Brdf>
+[[nodiscard]] brdf_table tabulate(const Brdf& f, const valid_cells& cells, thread_count threads = {}) {
+  brdf_table table(cells);
+  for_each_block(
+      cells.size(), 4096,
+      [&](block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+          const auto [wi, wo] = to_directions(cells.angles(cell));
+          table.set(cell, f(wi, wo));
+        }
+      },
+      threads);
+  return table;
+}
+
+/// Reads a table at the cells of another grid by trilinear interpolation.
+[[nodiscard]] inline brdf_table resample(const brdf_table& table, const valid_cells& cells, thread_count threads = {}) {
+  if (cells == table.cells()) return table;
+  brdf_table result(cells);
+  for_each_block(
+      cells.size(), 4096,
+      [&](block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell)
+          result.set(cell, table.at(locate(table.cells(), cells.angles(cell))));
+      },
+      threads);
+  return result;
+}
+
+}  // namespace gonio

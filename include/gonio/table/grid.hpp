@@ -1,0 +1,123 @@
+#pragma once
+/// Regular grids over (theta_h, theta_d, phi_d) in MERL's layout: theta_d and phi_d are uniform over
+/// [0, pi/2] and [0, pi], theta_h is finer towards the highlight, with node position proportional to
+/// sqrt(theta_h). Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <cstddef>
+#include <numbers>
+#include <string>
+
+namespace gonio {
+
+/// Where in its cell a table's value was taken.
+enum class cell_anchor { centre, lower_corner };
+
+/// Index of a cell along each axis.
+struct cell_index {
+  int theta_h = 0;
+  int theta_d = 0;
+  int phi_d = 0;
+
+  friend bool operator==(const cell_index&, const cell_index&) = default;
+};
+
+/// Number of cells along each axis.
+struct grid_extents {
+  int theta_h = 90;
+  int theta_d = 90;
+  int phi_d = 180;
+
+  friend bool operator==(const grid_extents&, const grid_extents&) = default;
+};
+
+/// A grid of any extents; the default is MERL's 90 x 90 x 180 with values at cell centres.
+///
+/// Cells are numbered linearly with phi_d fastest and theta_h slowest, as in MERL's files. Along an axis
+/// a *coordinate* counts in cells such that node i has coordinate i, whichever the anchor.
+class grid {
+ public:
+  /// Throws gonio::error unless every extent is in [1, 4096].
+  explicit grid(grid_extents extents = {}, cell_anchor anchor = cell_anchor::centre)
+      : extents_(extents), anchor_(anchor) {
+    const auto ok = [](int extent) { return extent >= 1 && extent <= 4096; };
+    if (!ok(extents.theta_h) || !ok(extents.theta_d) || !ok(extents.phi_d))
+      throw error("a grid of " + std::to_string(extents.theta_h) + " x " + std::to_string(extents.theta_d) + " x " +
+                  std::to_string(extents.phi_d) + " cells: every extent must be from 1 to 4096");
+  }
+
+  [[nodiscard]] const grid_extents& extents() const noexcept { return extents_; }
+  [[nodiscard]] cell_anchor anchor() const noexcept { return anchor_; }
+
+  /// Number of cells, valid or not.
+  [[nodiscard]] std::size_t size() const noexcept {
+    return unsigned_of(extents_.theta_h) * unsigned_of(extents_.theta_d) * unsigned_of(extents_.phi_d);
+  }
+
+  [[nodiscard]] std::size_t linear(const cell_index& cell) const noexcept {
+    return (unsigned_of(cell.theta_h) * unsigned_of(extents_.theta_d) + unsigned_of(cell.theta_d)) *
+               unsigned_of(extents_.phi_d) +
+           unsigned_of(cell.phi_d);
+  }
+
+  [[nodiscard]] cell_index cell(std::size_t linear) const noexcept {
+    const std::size_t phi = unsigned_of(extents_.phi_d), theta = unsigned_of(extents_.theta_d);
+    return {static_cast<int>(linear / (phi * theta)), static_cast<int>(linear / phi % theta),
+            static_cast<int>(linear % phi)};
+  }
+
+  /// theta_h of the node with this coordinate, in radians.
+  [[nodiscard]] double theta_h(double coordinate) const noexcept {
+    const double fraction = (coordinate + offset()) / extents_.theta_h;
+    return fraction * fraction * half_pi;
+  }
+  [[nodiscard]] double theta_d(double coordinate) const noexcept {
+    return (coordinate + offset()) / extents_.theta_d * half_pi;
+  }
+  [[nodiscard]] double phi_d(double coordinate) const noexcept {
+    return (coordinate + offset()) / extents_.phi_d * std::numbers::pi;
+  }
+
+  /// The angles at which the value of a cell was taken.
+  [[nodiscard]] half_difference angles(const cell_index& cell) const noexcept {
+    return {theta_h(cell.theta_h), theta_d(cell.theta_d), phi_d(cell.phi_d)};
+  }
+
+  [[nodiscard]] double theta_h_coordinate(double theta_h) const noexcept {
+    return extents_.theta_h * std::sqrt(std::max(theta_h, 0.0) / half_pi) - offset();
+  }
+  [[nodiscard]] double theta_d_coordinate(double theta_d) const noexcept {
+    return extents_.theta_d * (theta_d / half_pi) - offset();
+  }
+  [[nodiscard]] double phi_d_coordinate(double phi_d) const noexcept {
+    return extents_.phi_d * (fold_phi_d(phi_d) / std::numbers::pi) - offset();
+  }
+
+  /// The cell whose node is nearest in coordinates; angles outside the grid go to its border, phi_d wraps.
+  [[nodiscard]] cell_index nearest(const half_difference& angles) const noexcept {
+    const int phi = static_cast<int>(std::floor(phi_d_coordinate(angles.phi_d) + 0.5));
+    return {nearest_node(theta_h_coordinate(angles.theta_h), extents_.theta_h),
+            nearest_node(theta_d_coordinate(angles.theta_d), extents_.theta_d), phi % extents_.phi_d};
+  }
+
+  friend bool operator==(const grid&, const grid&) = default;
+
+ private:
+  static constexpr double half_pi = std::numbers::pi / 2.0;
+
+  [[nodiscard]] static constexpr std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
+  [[nodiscard]] double offset() const noexcept { return anchor_ == cell_anchor::centre ? 0.5 : 0.0; }
+  [[nodiscard]] static int nearest_node(double coordinate, int extent) noexcept {
+    return static_cast<int>(std::clamp(std::floor(coordinate + 0.5), 0.0, static_cast<double>(extent - 1)));
+  }
+
+  grid_extents extents_;
+  cell_anchor anchor_;
+};
+
+}  // namespace gonio

@@ -1,0 +1,106 @@
+#pragma once
+/// A place on a grid at which a field over its valid cells is read: a cell itself, or the corners of the
+/// box around a direction pair with their trilinear weights.
+
+#include <gonio/table/valid_cells.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace gonio {
+
+/// Where a field is read: at most eight valid cells with weights that sum to 1, and the exact angles and
+/// cosines of the place, which metrics need and interpolation would blur.
+struct location {
+  std::array<std::uint32_t, 8> cell{};
+  std::array<double, 8> weight{};
+  int count = 0;
+  half_difference angles;
+  cosine_pair cosine;
+
+  /// Is the place above the horizon for both directions?
+  [[nodiscard]] bool above_horizon() const noexcept { return cosine.i > 0.0 && cosine.o > 0.0; }
+};
+
+/// The location of a cell's own node.
+[[nodiscard]] inline location locate_cell(const valid_cells& cells, std::size_t cell) noexcept {
+  location at;
+  at.cell[0] = static_cast<std::uint32_t>(cell);
+  at.weight[0] = 1.0;
+  at.count = 1;
+  at.angles = cells.angles(cell);
+  at.cosine = cosines(at.angles);
+  return at;
+}
+
+namespace detail {
+
+/// The two nodes of an axis around a coordinate, and their weights.
+struct axis_interval {
+  std::array<int, 2> node;
+  std::array<double, 2> weight;
+};
+
+/// The node at or below a coordinate and how far the coordinate lies beyond it. Nodes round to themselves:
+/// otherwise a node reached through an angle would drag in a neighbour with a weight of 1e-15.
+[[nodiscard]] inline std::pair<int, double> split_coordinate(double coordinate) noexcept {
+  constexpr double snap = 1e-9;
+  const double node = std::floor(coordinate + snap);
+  const double fraction = coordinate - node;
+  return {static_cast<int>(node), fraction < snap ? 0.0 : fraction};
+}
+
+/// On an axis that ends: beyond the first and last node their values hold.
+[[nodiscard]] inline axis_interval clamped_interval(double coordinate, int extent) noexcept {
+  const auto [node, fraction] = split_coordinate(std::clamp(coordinate, 0.0, static_cast<double>(extent - 1)));
+  return {{node, std::min(node + 1, extent - 1)}, {1.0 - fraction, fraction}};
+}
+
+/// On an axis that wraps.
+[[nodiscard]] inline axis_interval periodic_interval(double coordinate, int extent) noexcept {
+  const auto [node, fraction] = split_coordinate(coordinate);
+  return {{(node + extent) % extent, (node + 1) % extent}, {1.0 - fraction, fraction}};
+}
+
+}  // namespace detail
+
+/// Trilinear interpolation in the grid's own coordinates. theta_h and theta_d are clamped to the first
+/// and last node, phi_d wraps (reciprocity), and a corner below the horizon is replaced by its
+/// representative, so no invalid cell is ever read. At a node the weights of the others are zero and
+/// left out.
+[[nodiscard]] inline location locate(const valid_cells& cells, const half_difference& angles) noexcept {
+  const grid& over = cells.grid();
+  const grid_extents extents = over.extents();
+  const auto h = detail::clamped_interval(over.theta_h_coordinate(angles.theta_h), extents.theta_h);
+  const auto d = detail::clamped_interval(over.theta_d_coordinate(angles.theta_d), extents.theta_d);
+  const auto p = detail::periodic_interval(over.phi_d_coordinate(angles.phi_d), extents.phi_d);
+
+  location at;
+  at.angles = angles;
+  at.cosine = cosines(angles);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t a = corner >> 2, b = corner >> 1 & 1, c = corner & 1;
+    const double weight = h.weight[a] * d.weight[b] * p.weight[c];
+    if (weight == 0.0) continue;
+    const std::size_t linear = over.linear({h.node[a], d.node[b], p.node[c]});
+    const auto slot = static_cast<std::size_t>(at.count++);
+    at.cell[slot] = static_cast<std::uint32_t>(cells.representative(linear));
+    at.weight[slot] = weight;
+  }
+  return at;
+}
+
+/// The weighted mean of `value(cell)` over a location's cells; `zero` starts the sum.
+template <class Value, class Zero>
+[[nodiscard]] Zero interpolate(const location& at, Value&& value, Zero zero) {
+  for (int corner = 0; corner < at.count; ++corner) {
+    const auto slot = static_cast<std::size_t>(corner);
+    zero += at.weight[slot] * value(std::size_t{at.cell[slot]});
+  }
+  return zero;
+}
+
+}  // namespace gonio

@@ -1,0 +1,85 @@
+#pragma once
+/// Interpolates fields over the cells of one grid to all cells of another, a row at a time: what `locate` and
+/// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation
+/// is a product of three linear ones, so the two polar axes are blended once for a whole row of phi_d.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/table/location.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gonio {
+
+/// Several fields over the cells of a grid: one row for each field, one column for each cell.
+template <int Fields>
+using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
+
+/// The valid cells of a grid with one theta_h and theta_d: consecutive numbers, increasing phi_d.
+struct cell_row {
+  std::size_t first = 0;       ///< number of the first cell
+  std::size_t count = 0;       ///< number of cells, at least 1
+  double theta_h = 0.0;        ///< radians
+  double theta_d = 0.0;        ///< radians
+  const int* phi_d = nullptr;  ///< index along phi_d of each cell
+};
+
+/// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
+/// Fields x count array of the fields there, for the callee to write over. Reading and blending costs O(target cells x
+/// Fields).
+template <int Fields, class Use>
+void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const valid_cells& to, Use&& use,
+              thread_count threads = {}) {
+  const grid& source = from.grid();
+  const grid& target = to.grid();
+  const grid_extents coarse = source.extents(), fine = target.extents();
+  const auto index = [](int i) { return static_cast<std::size_t>(i); };
+
+  // Extend the fields to all cells of the source, so that blending needs no case for the horizon.
+  cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(source.size()));
+  for (std::size_t linear = 0; linear < source.size(); ++linear)
+    dense.col(static_cast<Eigen::Index>(linear)) = fields.col(static_cast<Eigen::Index>(from.representative(linear)));
+
+  std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
+  for (int k = 0; k < fine.phi_d; ++k)
+    along_phi[index(k)] = detail::periodic_interval(source.phi_d_coordinate(target.phi_d(k)), coarse.phi_d);
+
+  const std::size_t rows = index(fine.theta_h) * index(fine.theta_d);
+  for_each_block(
+      rows, index(fine.theta_d),
+      [&](block range) {
+        cell_fields<Fields> line(Fields, coarse.phi_d), values(Fields, fine.phi_d);
+        std::vector<int> phi_d(index(fine.phi_d));
+        for (std::size_t r = range.begin; r < range.end; ++r) {
+          const auto count = static_cast<Eigen::Index>(to.row_begin(r + 1) - to.row_begin(r));
+          if (count == 0) continue;
+          const double theta_h = target.theta_h(static_cast<double>(r / index(fine.theta_d)));
+          const double theta_d = target.theta_d(static_cast<double>(r % index(fine.theta_d)));
+          // Blend the source's rows around (theta_h, theta_d) into one line over phi_d.
+          const auto h = detail::clamped_interval(source.theta_h_coordinate(theta_h), coarse.theta_h);
+          const auto d = detail::clamped_interval(source.theta_d_coordinate(theta_d), coarse.theta_d);
+          line.setZero();
+          for (std::size_t a = 0; a < 2; ++a)
+            for (std::size_t b = 0; b < 2; ++b) {
+              const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
+              const auto start = static_cast<Eigen::Index>(source.linear({h.node[a], d.node[b], 0}));
+              if (weight != 0.0f) line += weight * dense.middleCols(start, coarse.phi_d);
+            }
+          // Interpolate along it at the row's cells.
+          const std::size_t first = to.row_begin(r), before = r * index(fine.phi_d);
+          for (Eigen::Index i = 0; i < count; ++i) {
+            const std::size_t k = to.linear(first + static_cast<std::size_t>(i)) - before;
+            phi_d[static_cast<std::size_t>(i)] = static_cast<int>(k);
+            const detail::axis_interval& p = along_phi[k];
+            values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
+                            static_cast<float>(p.weight[1]) * line.col(p.node[1]);
+          }
+          auto row_values = values.leftCols(count);
+          use(cell_row{first, static_cast<std::size_t>(count), theta_h, theta_d, phi_d.data()}, row_values);
+        }
+      },
+      threads);
+}
+
+}  // namespace gonio

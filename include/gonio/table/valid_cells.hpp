@@ -1,0 +1,96 @@
+#pragma once
+/// The cells of a grid at which both directions are above the horizon. Tables and bases store these only.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/table/grid.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace gonio {
+
+/// The valid cells of a grid, numbered from 0 in the grid's linear order.
+///
+/// A cell is valid by geometry alone, never by the sign of a value stored there: both cosines at its node
+/// exceed `minimum_cosine`. A value type: copies share the index, which costs 4 bytes per grid cell and 4
+/// per valid cell.
+class valid_cells {
+ public:
+  /// O(cells of the grid). Throws gonio::error if no cell is valid.
+  explicit valid_cells(const gonio::grid& grid = gonio::grid(), double minimum_cosine = 0.0)
+      : index_(std::make_shared<const index>(grid, minimum_cosine)) {}
+
+  [[nodiscard]] const gonio::grid& grid() const noexcept { return index_->grid; }
+  [[nodiscard]] double minimum_cosine() const noexcept { return index_->minimum_cosine; }
+
+  /// Number of valid cells.
+  [[nodiscard]] std::size_t size() const noexcept { return index_->linear.size(); }
+
+  /// Linear index in the grid of valid cell number `cell`.
+  [[nodiscard]] std::size_t linear(std::size_t cell) const noexcept {
+    GONIO_ASSERT(cell < size());
+    return index_->linear[cell];
+  }
+
+  [[nodiscard]] half_difference angles(std::size_t cell) const noexcept {
+    return grid().angles(grid().cell(linear(cell)));
+  }
+
+  /// Is the grid cell with this linear index valid?
+  [[nodiscard]] bool contains(std::size_t linear) const noexcept {
+    return index_->linear[index_->representative[linear]] == linear;
+  }
+
+  /// Number of the valid cell that stands for a cell of the grid: the cell itself where it is valid,
+  /// otherwise the valid one with the same theta_d and phi_d and the largest smaller theta_h. This
+  /// continues a field beyond the horizon, so that interpolation near it reads valid cells only.
+  [[nodiscard]] std::size_t representative(std::size_t linear) const noexcept { return index_->representative[linear]; }
+
+  /// Number of the first valid cell at or after grid row `row` (theta_h and theta_d fixed, phi_d running; rows
+  /// are numbered in linear order). The cells of a row are those from its own first to the next row's.
+  [[nodiscard]] std::size_t row_begin(std::size_t row) const noexcept { return index_->row_begin[row]; }
+
+  /// Do both describe the same cells of the same grid?
+  friend bool operator==(const valid_cells& a, const valid_cells& b) noexcept {
+    return a.index_ == b.index_ || (a.grid() == b.grid() && a.index_->linear == b.index_->linear);
+  }
+
+ private:
+  struct index {
+    index(const gonio::grid& cells, double threshold) : grid(cells), minimum_cosine(threshold) {
+      const auto [heights, rows, columns] = grid.extents();
+      const std::size_t layer = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+      representative.resize(grid.size());
+      linear.reserve(grid.size());
+      for (std::size_t cell = 0; cell < grid.size(); ++cell) {
+        if (cell % static_cast<std::size_t>(columns) == 0)
+          row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
+        const cosine_pair cosine = cosines(grid.angles(grid.cell(cell)));
+        if (cosine.i > minimum_cosine && cosine.o > minimum_cosine) {
+          representative[cell] = static_cast<std::uint32_t>(linear.size());
+          linear.push_back(static_cast<std::uint32_t>(cell));
+        } else if (cell >= layer) {
+          // Both cosines fall as theta_h grows, so the layer below has already found the last valid one.
+          representative[cell] = representative[cell - layer];
+        } else {
+          representative[cell] = linear.empty() ? 0 : static_cast<std::uint32_t>(linear.size() - 1);
+        }
+      }
+      row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
+      if (linear.empty()) throw error("no cell of the grid has both directions above the horizon");
+    }
+
+    gonio::grid grid;
+    double minimum_cosine;
+    std::vector<std::uint32_t> linear;
+    std::vector<std::uint32_t> representative;
+    std::vector<std::uint32_t> row_begin;
+  };
+
+  std::shared_ptr<const index> index_;
+};
+
+}  // namespace gonio

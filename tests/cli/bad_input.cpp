@@ -1,0 +1,107 @@
+/// Bad input gets exit code 2 and one clear line, and leaves old files whole.
+
+#include "../io/scratch.hpp"
+#include "tool.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+namespace {
+
+/// Exit code 2, one line, and the words that help.
+void refuses(const std::string& arguments, std::initializer_list<const char*> words) {
+  CAPTURE(arguments);
+  const auto result = gonio_tool(arguments);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK(std::ranges::count(result.output, '\n') == 1);
+  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_CASE("help is no error") {
+  for (const char* command : {"", "learn ", "expand ", "sample ", "reconstruct ", "compare ", "render ", "info ",
+                              "evaluate ", "evaluate nielsen-test-materials ", "evaluate measured-materials "}) {
+    const auto result = gonio_tool(std::string(command) + "--help");
+    CHECK(result.exit_code == 0);
+    CHECK(result.output.size() > 100);
+  }
+  CHECK(gonio_tool("--version").exit_code == 0);
+}
+
+TEST_CASE("wrong command lines") {
+  refuses("", {"subcommand"});
+  refuses("reconstruckt x", {"gonio --help"});
+  refuses("sample", {"table"});
+  refuses("expand -o x.binary", {"--networks", "--formula"});
+  refuses("expand --formula no-such-paint -o x.binary", {"no-such-paint", "red-paint"});
+  refuses("learn -o x.prior", {"source"});
+  refuses("learn --merl /no/such/folder -o x.prior", {"/no/such/folder"});
+  refuses("learn --networks /no/such/file.npy -o x.prior", {"/no/such/file.npy"});
+}
+
+TEST_CASE("bad samples") {
+  const scratch::folder folder;
+  const auto path = folder / "bad.csv";
+  const std::string reconstruct = "reconstruct " + path.string() + " -o " + (folder / "out.binary").string();
+  const auto with = [&](const std::string& content, std::initializer_list<const char*> words) {
+    scratch::put(path, content);
+    refuses(reconstruct, words);
+    CHECK_FALSE(std::filesystem::exists(folder / "out.binary"));
+  };
+  const std::string header = "theta_h,theta_d,phi_d,r,g,b\n";
+  with("", {"bad.csv"});
+  with(header, {"bad.csv"});
+  with(header + "1,2,3,0.1,nan,0.1\n", {"bad.csv", "line 2", "nan"});
+  with(header + "1,2,3,0.1,0.1,0.1\n80,80,0,0.1,0.1,0.1\n", {"line 3", "horizon"});
+  with("theta_h,theta_d,phi_d,r,g,b,colour\n1,2,3,1,1,1,1\n", {"colour"});
+  with("theta_h,theta_d,phi_d,r,g\n1,2,3,1,1\n", {"b"});
+  with(header + "1,2,3,0.1,0.1\n", {"line 2"});
+  scratch::put(path, header + "1,2,3,0.1,0.1,0.1\n");
+  refuses(reconstruct + " --eta 0", {"eta"});
+  refuses(reconstruct + " --eta -3", {"eta"});
+  refuses(reconstruct + " --prior " + path.string(), {"not a gonio prior"});
+  refuses("reconstruct " + folder.path().string() + " -o x.binary", {folder.path().c_str()});
+  refuses("reconstruct /no/such.csv -o x.binary", {"/no/such.csv"});
+}
+
+TEST_CASE("bad tables and requests of tables") {
+  const scratch::folder folder;
+  const std::string table = (folder / "t.binary").string(), out = " -o " + (folder / "out.csv").string();
+  REQUIRE(gonio_tool("expand --formula blue-rubber -o " + table).exit_code == 0);
+  refuses("sample " + table + " --count 0" + out, {"count"});
+  refuses("sample " + table + " --count 100000000" + out, {"100000000"});
+  refuses("sample " + table + " --ratio 1.5" + out, {"ratio"});
+  refuses("sample " + table + " --count 5 --outliers 2" + out, {"outlier ratio"});
+  refuses("sample " + table + " --count 5 --noise nan" + out, {"noise"});
+  refuses("sample " + table + out, {"where"});
+  std::filesystem::resize_file(table, 1'000'000);
+  for (const char* command : {"render ", "sample --count 3 ", "info "})
+    refuses(command + table + (command[0] == 'i' ? "" : " -o " + (folder / "x.out").string()), {"t.binary"});
+  refuses("compare " + table + " " + table, {"t.binary"});
+  CHECK_FALSE(std::filesystem::exists(folder / "x.out"));
+}
+
+TEST_CASE("an unwritable target or a full disk leaves the old file whole") {
+  const scratch::folder folder;
+  const auto old = folder / "old.binary";
+  scratch::put(old, "precious");
+  refuses("expand --formula red-paint -o " + (folder / "none" / "x.binary").string(), {"x.binary"});
+  refuses("expand --formula red-paint -o " + folder.path().string(), {folder.path().c_str()});
+
+  // A file size limit stands for the full disk: writing fails half-way through the 35 MB.
+  const std::string limited = "sh -c 'trap \"\" XFSZ; ulimit -f 1024; exec \"$0\" \"$@\"' ";
+  std::FILE* pipe =
+      ::popen((limited + GONIO_TOOL + " expand --formula red-paint -o " + old.string() + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::string output(4096, '\0');
+  output.resize(std::fread(output.data(), 1, output.size(), pipe));
+  const int status = ::pclose(pipe);
+  CAPTURE(output);
+  CHECK(WEXITSTATUS(status) == 2);
+  CHECK(output.find("old.binary") != std::string::npos);
+  CHECK(scratch::get(old) == "precious");
+  CHECK(folder.entries() == 1);
+}

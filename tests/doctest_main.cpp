@@ -1,0 +1,4 @@
+// Both names, because the precompiled header has included doctest.h before.
+#define DOCTEST_CONFIG_IMPLEMENT
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>

@@ -1,0 +1,113 @@
+#include "../made_up_materials.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <doctest/doctest.h>
+
+using gonio::decomposition;
+using gonio::rgb;
+using gonio::sample_set;
+using gonio::tikhonov;
+using gonio::valid_cells;
+
+static_assert(gonio::estimator<decomposition<gonio::log_relative_pca, tikhonov>>);
+
+namespace {
+
+const valid_cells& cells() {
+  static const valid_cells small(gonio::grid({18, 9, 12}));
+  return small;
+}
+
+const gonio::log_relative_pca& prior() {
+  static const auto learned = learn(made_up_materials(cells(), 8), 10);
+  return learned;
+}
+
+}  // namespace
+
+TEST_CASE("a material of the prior comes back from a few samples") {
+  const auto truth = made_up_materials(cells(), 8).table(3);
+  const auto samples = gonio::measure(truth, gonio::random_cells(cells(), 60, 5));
+  const auto fit = decomposition{prior(), tikhonov{1e-6}}.fit(samples);
+  const auto table = fit.tabulate(cells());
+  double error = 0;
+  for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+    const auto at = gonio::locate_cell(cells(), cell);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      error = std::max(error, std::abs(prior().metric().forward(table.at(cell)[c], at) -
+                                       prior().metric().forward(truth.at(cell)[c], at)));
+  }
+  CHECK(error < 0.1);
+  CHECK(fit.found().certificate.maxCoeff() < 1e-9);
+}
+
+TEST_CASE("the system is what the equations say") {
+  const auto truth = made_up_materials(cells(), 8).table(1);
+  const auto chosen = gonio::random_cells(cells(), 7, 1);
+  auto samples = gonio::measure(truth, chosen);
+  samples[2].weight = 0.25;
+  const auto problem = decomposition{prior(), tikhonov{1.0}}.assemble(samples);
+  REQUIRE(problem.equations() == 7);
+  REQUIRE(problem.unknowns() == 10);
+  CHECK(problem.weights()[2] == 0.25);
+  for (std::size_t i = 0; i < 7; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t k = 0; k < 10; ++k)
+      CHECK(problem.rows()(row, static_cast<Eigen::Index>(k)) == doctest::Approx(prior().row(chosen[i])[k]));
+    CHECK(problem.right_hand_side()(row, 1) ==
+          doctest::Approx(prior().metric().forward(truth.at(chosen[i]).y(), chosen[i]) - prior().offset(chosen[i])));
+  }
+}
+
+TEST_CASE("an infinite penalty gives the mean material, whatever was measured") {
+  const auto samples = gonio::measure(made_up_materials(cells(), 8).table(2), gonio::random_cells(cells(), 20, 3));
+  const auto table = decomposition{prior(), tikhonov{1e18}}.fit(samples).tabulate(cells());
+  for (std::size_t cell = 0; cell < cells().size(); cell += 11)
+    CHECK(table.at(cell).x() ==
+          doctest::Approx(std::max(0.0, prior().metric().inverse(prior().offset(cell), cell))).epsilon(1e-4));
+}
+
+TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others, and with any number of threads") {
+  const auto samples = gonio::measure(made_up_materials(cells(), 8).table(4), gonio::random_cells(cells(), 30, 2));
+  const auto fit = decomposition{prior(), tikhonov{0.1}}.fit(samples);
+  for (const auto& over : {cells(), valid_cells(gonio::grid({20, 14, 10})), valid_cells(gonio::grid({18, 27, 36})),
+                           valid_cells(gonio::grid({9, 9, 9}, gonio::cell_anchor::lower_corner))}) {
+    const auto table = fit.tabulate(over, {1}), threaded = fit.tabulate(over, {3});
+    CHECK(std::ranges::equal(table.values(), threaded.values()));
+    const auto simple = fit.tabulate_cells(over);
+    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+      if (over.angles(cell).theta_d == 0.0) continue;  // no phi_d can be told from the directions
+      const auto [wi, wo] = to_directions(over.angles(cell));
+      const rgb direct = fit(wi, wo);
+      const double tolerance = 2e-6 * (1.0 + direct.maxCoeff());
+      REQUIRE((table.at(cell) - direct).abs().maxCoeff() <= tolerance);
+      REQUIRE((simple.at(cell) - direct).abs().maxCoeff() <= tolerance);
+      REQUIRE((direct >= 0.0).all());
+    }
+  }
+}
+
+TEST_CASE("a fit is zero below the horizon") {
+  const auto samples = gonio::measure(made_up_materials(cells(), 8).table(4), gonio::random_cells(cells(), 30, 2));
+  const auto fit = decomposition{prior(), tikhonov{0.1}}.fit(samples);
+  CHECK((fit({0, 0, 1}, {1, 0, 0}) == 0.0).all());
+  CHECK((fit({0, 0, -1}, {0, 0, 1}) == 0.0).all());
+}
+
+TEST_CASE("negative and zero measurements are taken, unusable ones refused") {
+  auto samples = gonio::measure(made_up_materials(cells(), 8).table(4), gonio::random_cells(cells(), 3, 2));
+  samples[0].value = rgb(-0.1, 0.0, 0.2);
+  const decomposition estimator{prior(), tikhonov{1.0}};
+  CHECK(estimator.fit(samples).found().weights.allFinite());
+  CHECK_THROWS_AS(static_cast<void>(estimator.fit(sample_set{})), gonio::error);
+  samples[1].value.x() = std::nan("");
+  CHECK_THROWS_WITH_AS(static_cast<void>(estimator.fit(samples)), doctest::Contains("sample 2"), gonio::error);
+}
+
+TEST_CASE("weights of the wrong size are refused") {
+  gonio::solution wrong;
+  wrong.weights = Eigen::MatrixXd::Zero(4, 3);
+  CHECK_THROWS_AS(gonio::fitted_brdf(prior(), wrong), gonio::error);
+}

@@ -1,0 +1,69 @@
+#include "../made_up_materials.hpp"
+#include <gonio/evaluate/simulated_measurement.hpp>
+
+#include <doctest/doctest.h>
+
+#include <set>
+
+using gonio::measure;
+using gonio::random_cells;
+
+namespace {
+
+const gonio::brdf_table& table() {
+  static const auto made_up = made_up_materials(gonio::valid_cells(gonio::grid({18, 18, 24})), 1).table(0);
+  return made_up;
+}
+
+}  // namespace
+
+TEST_CASE("random cells are different, in order, and given by the seed") {
+  const auto cells = random_cells(table().cells(), 200, 1);
+  CHECK(cells.size() == 200);
+  CHECK(std::set<std::size_t>(cells.begin(), cells.end()).size() == 200);
+  CHECK(std::ranges::is_sorted(cells));
+  CHECK(cells == random_cells(table().cells(), 200, 1));
+  CHECK(cells != random_cells(table().cells(), 200, 2));
+  CHECK(random_cells(table().cells(), table().cells().size(), 3).back() == table().cells().size() - 1);
+  CHECK_THROWS_AS(static_cast<void>(random_cells(table().cells(), 0, 1)), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(random_cells(table().cells(), table().cells().size() + 1, 1)), gonio::error);
+}
+
+TEST_CASE("a clean measurement reads the table") {
+  const auto cells = random_cells(table().cells(), 50, 4);
+  const auto samples = measure(table(), cells);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    CHECK((samples[i].value == table().at(cells[i])).all());
+    CHECK(samples[i].angles.theta_h == table().cells().angles(cells[i]).theta_h);
+    CHECK(samples[i].weight == 1.0);
+  }
+}
+
+TEST_CASE("exactly the asked share of samples are outliers, and they are values of the table") {
+  const auto cells = random_cells(table().cells(), 400, 4);
+  const auto clean = measure(table(), cells), dirty = measure(table(), cells, {.outlier_ratio = 0.25}, 9);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) changed += (clean[i].value != dirty[i].value).any() ? 1u : 0u;
+  CHECK(changed <= 100);
+  CHECK(changed > 90);  // a random other value can happen to be the same
+  const auto again = measure(table(), cells, {.outlier_ratio = 0.25}, 9);
+  for (std::size_t i = 0; i < cells.size(); ++i) REQUIRE((again[i].value == dirty[i].value).all());
+}
+
+TEST_CASE("noise is relative and has the asked deviation") {
+  const auto cells = random_cells(table().cells(), 3000, 4);
+  const auto clean = measure(table(), cells), noisy = measure(table(), cells, {.noise = 0.1}, 9);
+  double sum = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) sum += (noisy[i].value / clean[i].value - 1.0).square().sum();
+  // 9000 draws: the deviation is known to 0.75 %; four of those.
+  CHECK(std::sqrt(sum / 9000) == doctest::Approx(0.1).epsilon(0.03));
+}
+
+TEST_CASE("impossible defects and directions are refused") {
+  const auto cells = random_cells(table().cells(), 5, 4);
+  CHECK_THROWS_AS(static_cast<void>(measure(table(), cells, {.outlier_ratio = 1.5})), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(measure(table(), cells, {.noise = -0.1})), gonio::error);
+  const std::vector<gonio::half_difference> below{{0.1, 0.1, 0.1}, {1.4, 1.4, 0.0}};
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::cells_at(table().cells(), below)), doctest::Contains("direction 2"),
+                       gonio::error);
+}

@@ -1,0 +1,254 @@
+#include "scratch.hpp"
+#include <gonio/io/file.hpp>
+
+#include <sys/mount.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <thread>
+
+using gonio::io::file_writer;
+using gonio::io::read_bytes;
+using gonio::io::write_atomically;
+using scratch::bytes_of;
+using scratch::check_refused;
+
+namespace {
+
+/// While it lives, files cannot grow beyond a size: a disk that fills up.
+class file_size_limit {
+ public:
+  explicit file_size_limit(rlim_t size) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &old_);
+    const rlimit small{size, old_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  file_size_limit(const file_size_limit&) = delete;
+  file_size_limit& operator=(const file_size_limit&) = delete;
+  ~file_size_limit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_{};
+};
+
+/// While it lives, root is nobody: permissions do not bind root.
+class ordinary_user {
+ public:
+  ordinary_user() : was_root_(geteuid() == 0 && seteuid(65534) == 0) {}
+  ordinary_user(const ordinary_user&) = delete;
+  ordinary_user& operator=(const ordinary_user&) = delete;
+  ~ordinary_user() {
+    if (was_root_ && seteuid(0) != 0) std::abort();
+  }
+
+ private:
+  bool was_root_;
+};
+
+/// Unmounts when it goes.
+struct small_disk {
+  const scratch::fs::path& folder;
+  ~small_disk() { CHECK(::umount2(folder.c_str(), MNT_DETACH) == 0); }
+};
+
+void permit(const scratch::fs::path& path, unsigned mode) {
+  scratch::fs::permissions(path, static_cast<scratch::fs::perms>(mode));
+}
+
+}  // namespace
+
+TEST_CASE("a file is read whole") {
+  const scratch::folder here;
+  for (const std::size_t size : {0u, 1u, 4096u, 1'000'003u}) {
+    const std::string content(size, 'x');
+    scratch::put(here / "a", content);
+    CHECK(read_bytes(here / "a") == bytes_of(content));
+  }
+}
+
+TEST_CASE("what is not a readable file is refused") {
+  const scratch::folder here;
+  check_refused([&] { return read_bytes(here / "absent"); }, {"absent", "cannot be read", "No such file"});
+  check_refused([&] { return read_bytes(here.path()); }, {here.path().string(), "is a directory"});
+  check_refused([] { return read_bytes("/dev/null"); }, {"/dev/null", "not a regular file"});
+  check_refused([] { return read_bytes(""); }, {"No such file"});
+  scratch::put(here / "secret", "x");
+  permit(here.path(), 0755);
+  permit(here / "secret", 0);
+  const ordinary_user user;
+  check_refused([&] { return read_bytes(here / "secret"); }, {"secret", "Permission denied"});
+}
+
+TEST_CASE("writing creates and replaces, and leaves nothing else behind") {
+  const scratch::folder here;
+  write_atomically(here / "a", bytes_of("one"));
+  CHECK(scratch::get(here / "a") == "one");
+  write_atomically(here / "a", [](file_writer& file) {
+    file.write(bytes_of("two"));
+    file.write({});
+    file.write(bytes_of(" three"));
+  });
+  CHECK(scratch::get(here / "a") == "two three");
+  CHECK(here.entries() == 1);
+  write_atomically(here / std::string(255, 'n'), bytes_of("the longest name"));
+  CHECK(here.entries() == 2);
+}
+
+TEST_CASE("a relative path without a folder is written") {
+  const scratch::folder here;
+  const auto before = scratch::fs::current_path();
+  scratch::fs::current_path(here.path());
+  write_atomically("a", bytes_of("one"));
+  scratch::fs::current_path(before);
+  CHECK(scratch::get(here / "a") == "one");
+}
+
+TEST_CASE("permissions of a replaced file are kept, a new one follows the umask") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  permit(here / "a", 0640);
+  write_atomically(here / "a", bytes_of("new"));
+  CHECK(scratch::fs::status(here / "a").permissions() == static_cast<scratch::fs::perms>(0640));
+  const mode_t mask = umask(027);
+  write_atomically(here / "b", bytes_of("new"));
+  umask(mask);
+  CHECK(scratch::fs::status(here / "b").permissions() == static_cast<scratch::fs::perms>(0640));
+}
+
+TEST_CASE("a symbolic link stays one") {
+  const scratch::folder here;
+  scratch::fs::create_directory(here / "elsewhere");
+  scratch::fs::create_symlink("elsewhere/target", here / "link");
+  write_atomically(here / "link", bytes_of("one"));
+  write_atomically(here / "link", bytes_of("two"));
+  CHECK(scratch::fs::is_symlink(here / "link"));
+  CHECK(scratch::get(here / "elsewhere/target") == "two");
+  scratch::fs::create_symlink("loop", here / "loop");
+  check_refused(
+      [&] {
+        write_atomically(here / "loop", bytes_of("x"));
+        return 0;
+      },
+      {"loop", "symbolic links"});
+}
+
+TEST_CASE("a failing callback leaves the old file whole") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  check_refused(
+      [&] {
+        write_atomically(here / "a", [](file_writer& file) {
+          file.write(bytes_of("half"));
+          throw gonio::error("changed my mind");
+        });
+        return 0;
+      },
+      {"changed my mind"});
+  CHECK(scratch::get(here / "a") == "old");
+  CHECK(here.entries() == 1);
+}
+
+TEST_CASE("a target that is no file is refused") {
+  const scratch::folder here;
+  const auto write_to = [](const scratch::fs::path& path) {
+    return [path] {
+      write_atomically(path, bytes_of("new"));
+      return 0;
+    };
+  };
+  scratch::fs::create_directory(here / "folder");
+  check_refused(write_to(here / "folder"), {"folder", "cannot be written", "is a directory"});
+  check_refused(write_to(here / "absent" / "a"), {"absent/a", "cannot be written", "No such file"});
+  check_refused(write_to(""), {"cannot be written"});
+  scratch::put(here / "file", "x");
+  check_refused(write_to(here / "file" / "a"), {"file/a", "Not a directory"});
+  // As root, a rename would replace the device itself.
+  scratch::fs::create_symlink("/dev/full", here / "device");
+  check_refused(write_to(here / "device"), {"device", "not a regular file"});
+  CHECK(scratch::fs::is_character_file("/dev/full"));
+  CHECK(here.entries() == 3);
+}
+
+TEST_CASE("an unwritable target is refused and stays whole") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  permit(here.path(), 0555);
+  permit(here / "a", 0666);
+  {
+    const ordinary_user user;
+    check_refused(
+        [&] {
+          write_atomically(here / "a", bytes_of("new"));
+          return 0;
+        },
+        {"a: cannot be written", "Permission denied"});
+  }
+  permit(here.path(), 0777);
+  permit(here / "a", 0444);
+  {
+    const ordinary_user user;
+    check_refused(
+        [&] {
+          write_atomically(here / "a", bytes_of("new"));
+          return 0;
+        },
+        {"a: cannot be written", "Permission denied"});
+  }
+  permit(here.path(), 0755);
+  CHECK(scratch::get(here / "a") == "old");
+  CHECK(here.entries() == 1);
+}
+
+TEST_CASE("a file that grows too large leaves the old one whole") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  const std::vector<std::byte> large(1 << 20);
+  {
+    const file_size_limit limit(10'000);
+    check_refused(
+        [&] {
+          write_atomically(here / "a", large);
+          return 0;
+        },
+        {"a: cannot be written", "File too large"});
+  }
+  CHECK(scratch::get(here / "a") == "old");
+  CHECK(here.entries() == 1);
+}
+
+TEST_CASE("a full disk leaves the old file whole") {
+  const scratch::folder here;
+  if (::mount("tmpfs", here.path().c_str(), "tmpfs", 0, "size=64k") != 0) {
+    MESSAGE("skipped: a small disk can be mounted by root only");
+    return;
+  }
+  const small_disk mounted{here.path()};
+  scratch::put(here / "a", "old");
+  const std::vector<std::byte> large(1 << 20);
+  check_refused(
+      [&] {
+        write_atomically(here / "a", large);
+        return 0;
+      },
+      {"a: cannot be written", "No space left on device"});
+  CHECK(scratch::get(here / "a") == "old");
+  CHECK(here.entries() == 1);
+}
+
+TEST_CASE("writers of one file do not disturb each other") {
+  const scratch::folder here;
+  const auto write = [&](char letter) {
+    for (int i = 0; i < 50; ++i) write_atomically(here / "a", bytes_of(std::string(1000, letter)));
+  };
+  std::thread other(write, 'x');
+  write('y');
+  other.join();
+  const std::string content = scratch::get(here / "a");
+  CHECK((content == std::string(1000, 'x') || content == std::string(1000, 'y')));
+  CHECK(here.entries() == 1);
+}

@@ -1,0 +1,152 @@
+#include "../made_up_materials.hpp"
+#include "scratch.hpp"
+#include <gonio/io/prior.hpp>
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+namespace io = gonio::io;
+
+namespace {
+
+gonio::log_relative_pca small_prior() {
+  return learn(made_up_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5), 8)
+      .with_source("five made-up materials");
+}
+
+std::string refusal(std::span<const std::byte> bytes) {
+  try {
+    static_cast<void>(io::decode_prior(bytes, "x.prior"));
+  } catch (const gonio::error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a prior comes back with the errors of its quantisation and no others") {
+  const auto prior = small_prior(), back = io::decode_prior(io::encode_prior(prior), "x");
+  CHECK(back.cells() == prior.cells());
+  CHECK(back.names() == prior.names());
+  CHECK(back.source() == prior.source());
+  CHECK(back.explained_variance() == prior.explained_variance());
+  CHECK(back.singular_values() == prior.singular_values());
+  CHECK(back.coefficients() == prior.coefficients());
+  for (Eigen::Index k = 0; k < prior.components().cols(); ++k) {
+    const auto column = prior.components().col(k);
+    const float half_step = 0.5f * (column.maxCoeff() - column.minCoeff()) / 255.0f;
+    CHECK((back.components().col(k) - column).cwiseAbs().maxCoeff() <= 1.001f * half_step);
+  }
+  for (std::size_t cell = 0; cell < prior.cells().size(); ++cell) {
+    REQUIRE(back.offset(cell) == doctest::Approx(prior.offset(cell)).epsilon(1e-3));
+    REQUIRE(back.metric().reference()[cell] == doctest::Approx(prior.metric().reference()[cell]).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("what was read is written with the same bytes") {
+  const auto once = io::encode_prior(small_prior());
+  const auto back = io::decode_prior(once, "x");
+  const auto twice = io::encode_prior(back);
+  // The codes are the same; only the exponential and logarithm of the reference may round.
+  CHECK(io::decode_prior(twice, "x").components() == back.components());
+  CHECK(io::decode_prior(twice, "x").mean() == back.mean());
+}
+
+TEST_CASE("the quantised column knows constants and extremes") {
+  const std::vector<float> constant(5, 3.5f), two{-1.0f, 7.0f};
+  const auto flat = io::quantise<std::uint8_t>(std::span<const float>(constant));
+  CHECK(io::dequantise(flat, 3) == 3.5f);
+  const auto span = io::quantise<std::uint16_t>(std::span<const float>(two));
+  CHECK(io::dequantise(span, 0) == -1.0f);
+  CHECK(io::dequantise(span, 1) == doctest::Approx(7.0f));
+  io::byte_writer out;
+  io::put_quantised(out, span);
+  io::byte_reader in(out.bytes(), "x");
+  CHECK(io::take_quantised<std::uint16_t>(in, 2).codes == span.codes);
+  CHECK(in.left() == 0);
+}
+
+TEST_CASE("damaged priors are refused with what is wrong") {
+  const auto whole = io::encode_prior(small_prior());
+  CHECK(refusal({}).find("not a gonio prior") != std::string::npos);
+  CHECK(refusal(std::span(whole).first(5)).find("not a gonio prior") != std::string::npos);
+  for (const std::size_t length :
+       {std::size_t{9}, std::size_t{12}, std::size_t{20}, std::size_t{30}, whole.size() / 2, whole.size() - 1}) {
+    CAPTURE(length);
+    CHECK(refusal(std::span(whole).first(length)).find("x.prior") != std::string::npos);
+  }
+  auto longer = whole;
+  longer.push_back(std::byte{0});
+  CHECK(refusal(longer) != "");
+  auto version = whole;
+  version[9] = std::byte{77};
+  CHECK(refusal(version).find("version 77") != std::string::npos);
+  auto size = whole;
+  size[13 + 7] = std::byte{0xff};
+  CHECK(refusal(size).find("not believable") != std::string::npos);
+}
+
+TEST_CASE("any flipped byte is noticed") {
+  const auto whole = io::encode_prior(small_prior());
+  std::mt19937 generator(3);
+  for (int i = 0; i < 200; ++i) {
+    auto damaged = whole;
+    const std::size_t place = generator() % damaged.size();
+    damaged[place] ^= static_cast<std::byte>(1 + generator() % 255);
+    CAPTURE(place);
+    CHECK(refusal(damaged) != "");
+  }
+}
+
+TEST_CASE("a payload with a right checksum but impossible contents is refused") {
+  // A prior over a grid with a wrong count, as a buggy writer might make it.
+  const auto encode = [](auto&& fill) {
+    io::byte_writer payload;
+    fill(payload);
+    io::byte_writer file;
+    file.put_all(std::span<const char>(io::detail::prior_magic));
+    file.put(io::detail::prior_version);
+    file.put(std::uint64_t{payload.bytes().size()});
+    file.put(io::detail::checksum(payload.bytes()));
+    file.put_all(std::span<const std::byte>(io::compress_bytes(payload.bytes())));
+    return std::vector<std::byte>(file.bytes().begin(), file.bytes().end());
+  };
+  const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components) {
+    for (int axis = 0; axis < 3; ++axis) out.put(extent);
+    out.put(anchor);
+    out.put(0.0);
+    out.put(components);
+    out.put(std::uint32_t{2});
+    out.put(1.0);
+    for (int i = 0; i < 100; ++i) out.put(std::uint64_t{0});
+  };
+  CHECK(refusal(encode([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4000, 0, 3); })).find("more cells") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 9, 3); })).find("anchor") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 0); })).find("impossible") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 700); })).find("impossible") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3); })).find("truncated") != std::string::npos);
+}
+
+TEST_CASE("files: written whole, read back, recognised, and refused where they are no file") {
+  const scratch::folder folder;
+  const auto path = folder / "small.prior";
+  io::write_prior(path, small_prior());
+  CHECK(io::is_prior(path));
+  CHECK(io::read_prior(path).size() == 8);
+  CHECK_FALSE(io::is_prior(folder / "missing.prior"));
+  CHECK_THROWS_WITH_AS(static_cast<void>(io::read_prior(folder / "missing.prior")), doctest::Contains("missing.prior"),
+                       gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(io::read_prior(folder.path())), gonio::error);
+  CHECK_THROWS_AS(io::write_prior(folder / "no-such-folder" / "x.prior", small_prior()), gonio::error);
+}
+
+TEST_CASE("the prior that ships") {
+  const auto prior = io::read_prior(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior");
+  CHECK(prior.size() == 60);
+  CHECK(prior.names().size() == 100);
+  CHECK(prior.explained_variance() > 0.9995);
+}

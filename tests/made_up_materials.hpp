@@ -1,0 +1,36 @@
+#pragma once
+/// A small database for tests: smooth made-up materials over any cells.
+
+#include <gonio/basis/learn_pca.hpp>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+/// Diffuse plus a lobe in theta_h that grows towards grazing; colours, widths and heights at random.
+inline gonio::material_set made_up_materials(const gonio::valid_cells& cells, std::size_t count, unsigned seed = 7) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform;
+  gonio::material_set set{
+      cells, {}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), static_cast<Eigen::Index>(3 * count))};
+  for (std::size_t m = 0; m < count; ++m) {
+    set.names.push_back("material-" + std::to_string(m));
+    const double width = 0.05 + 0.4 * uniform(generator), peak = std::exp(4 * uniform(generator) - 1);
+    const double colour[3] = {uniform(generator), uniform(generator), uniform(generator)};
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      const auto angles = cells.angles(cell);
+      const double lobe = peak * std::exp(-std::pow(angles.theta_h / width, 2)) * (1 + std::pow(angles.theta_d, 5));
+      for (std::size_t c = 0; c < 3; ++c)
+        set.values(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(3 * m + c)) =
+            static_cast<float>(0.3 * colour[c] + lobe);
+    }
+  }
+  return set;
+}
+
+/// A prior learned from such materials.
+inline gonio::log_relative_pca learn(gonio::material_set set, std::size_t components,
+                                     gonio::thread_count threads = {}) {
+  const auto metric = gonio::log_relative::to_median_of(set, threads);
+  return gonio::learn_pca(std::move(set), metric, components, threads);
+}

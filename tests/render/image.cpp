@@ -1,0 +1,70 @@
+#include <gonio/render/image.hpp>
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+using gonio::image;
+using gonio::pixel;
+using gonio::rgb;
+
+namespace {
+
+const rgb red(1.0, 0.0, 0.0), green(0.0, 1.0, 0.0), grey(0.25, 0.5, 0.75);
+
+bool is(const image& picture, std::size_t row, std::size_t column, const rgb& colour) {
+  return (pixel(picture, row, column) == colour).all();
+}
+
+}  // namespace
+
+TEST_CASE("a picture of one colour, and one changed pixel") {
+  image picture = gonio::uniform_image(2, 3, grey);
+  REQUIRE(picture.shape(0) == 2);
+  REQUIRE(picture.shape(1) == 3);
+  REQUIRE(picture.shape(2) == 3);
+  gonio::set_pixel(picture, 1, 2, red);
+  for (std::size_t row = 0; row < 2; ++row)
+    for (std::size_t column = 0; column < 3; ++column)
+      CHECK(is(picture, row, column, row == 1 && column == 2 ? red : grey));
+  // The same places through xtensor's own indices.
+  CHECK(picture(1, 2, 0) == 1.0f);
+  CHECK(picture(1, 2, 1) == 0.0f);
+  CHECK(picture(0, 2, 1) == 0.5f);
+  CHECK(picture(1, 1, 2) == 0.75f);
+}
+
+TEST_CASE("pictures side by side have one margin between them and one around") {
+  const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
+  const image row = gonio::side_by_side(pictures, 2, grey);
+  REQUIRE(row.shape(0) == 2 + 4 + 2);
+  REQUIRE(row.shape(1) == 2 + 3 + 2 + 1 + 2);
+  for (std::size_t r = 0; r < row.shape(0); ++r)
+    for (std::size_t c = 0; c < row.shape(1); ++c) {
+      CAPTURE(r);
+      CAPTURE(c);
+      const bool in_red = r >= 2 && r < 4 && c >= 2 && c < 5, in_green = r >= 2 && r < 6 && c == 7;
+      CHECK(is(row, r, c, in_red ? red : in_green ? green : grey));
+    }
+}
+
+TEST_CASE("stacked pictures are the same from top to bottom") {
+  const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
+  const image column = gonio::stacked(pictures, 1, grey);
+  REQUIRE(column.shape(0) == 1 + 2 + 1 + 4 + 1);
+  REQUIRE(column.shape(1) == 1 + 3 + 1);
+  for (std::size_t r = 0; r < column.shape(0); ++r)
+    for (std::size_t c = 0; c < column.shape(1); ++c) {
+      CAPTURE(r);
+      CAPTURE(c);
+      const bool in_red = r >= 1 && r < 3 && c >= 1 && c < 4, in_green = r >= 4 && r < 8 && c == 1;
+      CHECK(is(column, r, c, in_red ? red : in_green ? green : grey));
+    }
+}
+
+TEST_CASE("no pictures make an empty one, and no margin none") {
+  CHECK(gonio::side_by_side({}).size() == 0);
+  const std::vector one{gonio::uniform_image(2, 2, red)};
+  CHECK(gonio::side_by_side(one) == one.front());
+  CHECK(gonio::stacked(one) == one.front());
+}

@@ -1,0 +1,44 @@
+#include <gonio/solve/least_squares_problem.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using gonio::least_squares_problem;
+using gonio::row_matrix;
+
+TEST_CASE("normal equations and residuals are weighted, and copies share them") {
+  const row_matrix rows = row_matrix::Random(7, 3);
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(7, 2);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Random(7).cwiseAbs();
+  const least_squares_problem problem(rows, right, weights), copy = problem;
+  CHECK(problem.normal().gram.isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
+  CHECK(problem.normal().moment.isApprox(rows.transpose() * weights.asDiagonal() * right, 1e-13));
+  CHECK(&copy.normal() == &problem.normal());
+
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3, 2);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < 7; ++i) sum += weights[i] * std::pow(rows.row(i).dot(x.col(1)) - right(i, 1), 2);
+  CHECK(problem.residual(x)[1] == doctest::Approx(std::sqrt(sum)));
+}
+
+TEST_CASE("no weights means all ones") {
+  const least_squares_problem problem(row_matrix::Ones(2, 1), Eigen::MatrixXd::Ones(2, 1));
+  CHECK(problem.normal().gram(0, 0) == 2.0);
+}
+
+TEST_CASE("unusable problems are refused with the offending row") {
+  const auto refuse = [](row_matrix rows, Eigen::MatrixXd right, Eigen::VectorXd weights, const char* words) {
+    CHECK_THROWS_WITH_AS(least_squares_problem(rows, right, weights), doctest::Contains(words), gonio::error);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  refuse(row_matrix(0, 3), Eigen::MatrixXd(0, 1), {}, "empty");
+  refuse(row_matrix(3, 0), Eigen::MatrixXd::Ones(3, 1), {}, "empty");
+  refuse(row_matrix::Ones(3, 2), Eigen::MatrixXd::Ones(2, 1), {}, "2 right-hand values");
+  refuse(row_matrix::Ones(3, 2), Eigen::MatrixXd::Ones(3, 1), Eigen::VectorXd::Ones(4), "4 weights");
+  row_matrix rows = row_matrix::Ones(3, 2);
+  rows(1, 1) = nan;
+  refuse(rows, Eigen::MatrixXd::Ones(3, 1), {}, "row 1");
+  refuse(row_matrix::Ones(3, 2), Eigen::Vector3d(0, 0, nan), {}, "row 2");
+  refuse(row_matrix::Ones(3, 2), Eigen::MatrixXd::Ones(3, 1), Eigen::Vector3d(1, -1, 1), "row 1");
+}

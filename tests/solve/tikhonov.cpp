@@ -1,0 +1,124 @@
+#include "../golden.hpp"
+#include <gonio/solve/tikhonov.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <random>
+
+using gonio::least_squares_problem;
+using gonio::row_matrix;
+using gonio::tikhonov;
+
+namespace {
+
+row_matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  return row_matrix::NullaryExpr(rows, columns, [&] { return normal(generator); });
+}
+
+}  // namespace
+
+TEST_CASE("the primal and the dual form agree, tall and wide, weighted and not, and are certified") {
+  CHECK(rc::check([] {
+    const auto n = *rc::gen::inRange<Eigen::Index>(1, 40), k = *rc::gen::inRange<Eigen::Index>(1, 40);
+    const auto seed = *rc::gen::arbitrary<unsigned>();
+    const double eta = std::pow(10.0, *rc::gen::inRange(-30, 40) * 0.1);
+    const Eigen::VectorXd weights = random_matrix(n, 1, seed + 2).cwiseAbs();
+    const least_squares_problem problem(random_matrix(n, k, seed), random_matrix(n, 3, seed + 1), weights);
+    const auto primal = tikhonov(eta, tikhonov::form::primal).solve(problem);
+    const auto dual = tikhonov(eta, tikhonov::form::dual).solve(problem);
+    const double scale = 1.0 + primal.weights.cwiseAbs().maxCoeff();
+    RC_ASSERT((primal.weights - dual.weights).cwiseAbs().maxCoeff() < 1e-10 * scale);
+    RC_ASSERT(primal.certificate.maxCoeff() < 1e-9);
+    RC_ASSERT(dual.certificate.maxCoeff() < 1e-9);
+  }));
+}
+
+TEST_CASE("a closed form: one equation, one unknown") {
+  const auto found = tikhonov(3.0).solve({row_matrix::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 7.0)});
+  CHECK(found.weights(0, 0) == doctest::Approx(2.0 * 7.0 / (2.0 * 2.0 + 3.0)));
+  CHECK(found.residual[0] == doctest::Approx(7.0 - 2.0 * 2.0));
+}
+
+TEST_CASE("a sample of weight zero does not count, one of weight two counts twice") {
+  const row_matrix rows = random_matrix(4, 6, 1);
+  const Eigen::MatrixXd right = random_matrix(4, 1, 2);
+  row_matrix repeated(4, 6);
+  repeated << rows.topRows(3), rows.row(2);
+  Eigen::MatrixXd repeated_right(4, 1);
+  repeated_right << right.topRows(3), right.row(2);
+  const auto weighted = tikhonov(0.5).solve({rows, right, Eigen::Vector4d(1, 1, 2, 0)});
+  const auto twice = tikhonov(0.5).solve({repeated, repeated_right});
+  CHECK(weighted.weights.isApprox(twice.weights, 1e-12));
+}
+
+TEST_CASE("the ridge reconstruction of the small golden instance") {
+  // The 11 materials x RGB that the reference trains on, mapped by the log-relative metric of their median;
+  // "yellow-paint" is the test. See /shared/reference/python/golden.py for how the file came about.
+  const auto golden = golden_json("small_ridge.json");
+  const auto table = golden_csv("small_brdf.csv");
+  const auto names = golden["materials"].get<std::vector<std::string>>();
+  const auto& cosine = table.at("cosweight");
+  const auto cells = static_cast<Eigen::Index>(cosine.size());
+  const auto column = [&](std::size_t material, int channel) -> const std::vector<double>& {
+    return table.at(names[material] + "_" + "RGB"[channel]);
+  };
+  std::vector<double> median(cosine.size());
+  for (std::size_t cell = 0; cell < median.size(); ++cell) {
+    std::vector<double> row;
+    for (std::size_t m = 0; m < 11; ++m)
+      for (int c = 0; c < 3; ++c) row.push_back(column(m, c)[cell]);
+    std::ranges::nth_element(row, row.begin() + 16);
+    median[cell] = row[16];
+  }
+  const auto map = [&](double rho, Eigen::Index cell) {
+    const auto i = static_cast<std::size_t>(cell);
+    return std::log((rho * cosine[i] + 1e-3) / (median[i] * cosine[i] + 1e-3));
+  };
+  row_matrix mapped(cells, 33);
+  for (Eigen::Index cell = 0; cell < cells; ++cell)
+    for (Eigen::Index j = 0; j < 33; ++j)
+      mapped(cell, j) =
+          map(column(static_cast<std::size_t>(j / 3), static_cast<int>(j % 3))[static_cast<std::size_t>(cell)], cell);
+  const Eigen::VectorXd mean = mapped.rowwise().mean();
+  mapped.colwise() -= mean;
+  CHECK(mean[3] == doctest::Approx(golden["mu_first20"][3].get<double>()).epsilon(1e-12));
+
+  for (const double eta : {40.0, 1.0}) {
+    const auto& expected = golden[eta == 40.0 ? "eta_40" : "eta_1"];
+    // With all components kept the scaled components are a rotation of the observations themselves, so the
+    // dual weights of the reference are this problem's weights.
+    const auto samples = golden["rows_of_small_brdf"].get<std::vector<Eigen::Index>>();
+    row_matrix rows(5, 33);
+    Eigen::MatrixXd right(5, 3);
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const Eigen::Index cell = samples[static_cast<std::size_t>(i)];
+      rows.row(i) = mapped.row(cell);
+      for (int c = 0; c < 3; ++c) right(i, c) = map(column(11, c)[static_cast<std::size_t>(cell)], cell) - mean[cell];
+    }
+    const auto found = tikhonov(eta).solve({rows, right});
+    for (Eigen::Index j = 0; j < 33; ++j)
+      for (Eigen::Index c = 0; c < 3; ++c)
+        CHECK(found.weights(j, c) ==
+              doctest::Approx(
+                  expected["dual_weights"][static_cast<std::size_t>(j)][static_cast<std::size_t>(c)].get<double>())
+                  .epsilon(1e-9)
+                  .scale(0.01));
+    for (int c = 0; c < 3; ++c) {
+      const Eigen::VectorXd estimate = mapped * found.weights.col(c) + mean;
+      double sum = 0;
+      for (Eigen::Index cell = 0; cell < cells; ++cell)
+        sum += std::pow(estimate[cell] - map(column(11, c)[static_cast<std::size_t>(cell)], cell), 2);
+      CHECK(std::sqrt(sum / static_cast<double>(cells)) ==
+            doctest::Approx(expected["rms_mapped"][static_cast<std::size_t>(c)].get<double>()).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("a penalty that is not positive and finite is refused") {
+  CHECK_THROWS_AS(tikhonov(0.0), gonio::error);
+  CHECK_THROWS_AS(tikhonov(-1.0), gonio::error);
+  CHECK_THROWS_AS(tikhonov(std::nan("")), gonio::error);
+}
