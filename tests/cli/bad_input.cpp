@@ -37,7 +37,7 @@ TEST_CASE("wrong command lines") {
   refuses("sample", {"table"});
   refuses("expand -o x.binary", {"--networks", "--formula"});
   refuses("expand --formula no-such-paint -o x.binary", {"no-such-paint", "red-paint"});
-  refuses("learn -o x.prior", {"source"});
+  refuses("learn -o x.prior", {"--networks", "--merl"});
   refuses("learn --merl /no/such/folder -o x.prior", {"/no/such/folder"});
   refuses("learn --networks /no/such/file.npy -o x.prior", {"/no/such/file.npy"});
 }
@@ -76,7 +76,7 @@ TEST_CASE("bad tables and requests of tables") {
   refuses("sample " + table + " --ratio 1.5" + out, {"ratio"});
   refuses("sample " + table + " --count 5 --outliers 2" + out, {"outlier ratio"});
   refuses("sample " + table + " --count 5 --noise nan" + out, {"noise"});
-  refuses("sample " + table + out, {"where"});
+  refuses("sample " + table + out, {"--count", "--ratio", "--directions"});
   std::filesystem::resize_file(table, 1'000'000);
   for (const char* command : {"render ", "sample --count 3 ", "info "})
     refuses(command + table + (command[0] == 'i' ? "" : " -o " + (folder / "x.out").string()), {"t.binary"});

@@ -113,14 +113,14 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
     file.put_all(std::span<const std::byte>(io::compress_bytes(payload.bytes())));
     return std::vector<std::byte>(file.bytes().begin(), file.bytes().end());
   };
-  const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components) {
+  const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components, int padding = 100) {
     for (int axis = 0; axis < 3; ++axis) out.put(extent);
     out.put(anchor);
     out.put(0.0);
     out.put(components);
     out.put(std::uint32_t{2});
     out.put(1.0);
-    for (int i = 0; i < 100; ++i) out.put(std::uint64_t{0});
+    for (int i = 0; i < padding; ++i) out.put(std::uint64_t{0});
   };
   CHECK(refusal(encode([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);
@@ -128,7 +128,8 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 9, 3); })).find("anchor") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 0); })).find("impossible") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 700); })).find("impossible") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3); })).find("truncated") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 30); })).find("truncated") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 1000); })).find("bytes follow") != std::string::npos);
 }
 
 TEST_CASE("files: written whole, read back, recognised, and refused where they are no file") {

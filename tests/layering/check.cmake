@@ -15,7 +15,7 @@ set(edges
   "model      -> table solve"
   "capture    -> table"
   "render     -> table"
-  "evaluate   -> estimate render"
+  "evaluate   -> estimate render design"
   "shape      -> basis"
   "io         -> basis model render"
   "io/image.hpp -> io" # apart, because it needs stb

@@ -30,47 +30,48 @@ namespace gonio {
 class network_brdf {
  public:
   static constexpr std::size_t parameter_count = 675;
-  static constexpr int width = 21;
+  static constexpr std::size_t width = 21;
   /// exp of more than this is no longer a float.
   static constexpr double largest_output = 88.0;
-
-  using input_weights = Eigen::Matrix<float, 6, width, Eigen::RowMajor>;
-  using hidden_weights = Eigen::Matrix<float, width, width, Eigen::RowMajor>;
-  using output_weights = Eigen::Matrix<float, width, 3, Eigen::RowMajor>;
-  template <int Size>
-  using biases = Eigen::Matrix<float, 1, Size>;
 
   explicit network_brdf(std::span<const float, parameter_count> parameters) noexcept {
     std::ranges::copy(parameters, parameters_.begin());
   }
 
   [[nodiscard]] std::span<const float, parameter_count> parameters() const noexcept { return parameters_; }
-  [[nodiscard]] Eigen::Map<const input_weights> w1() const noexcept { return at<input_weights>(0); }
-  [[nodiscard]] Eigen::Map<const biases<width>> b1() const noexcept { return at<biases<width>>(126); }
-  [[nodiscard]] Eigen::Map<const hidden_weights> w2() const noexcept { return at<hidden_weights>(147); }
-  [[nodiscard]] Eigen::Map<const biases<width>> b2() const noexcept { return at<biases<width>>(588); }
-  [[nodiscard]] Eigen::Map<const output_weights> w3() const noexcept { return at<output_weights>(609); }
-  [[nodiscard]] Eigen::Map<const biases<3>> b3() const noexcept { return at<biases<3>>(672); }
-
   /// Reflectance in sr^-1 from float weights in double arithmetic; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
     const half_difference angles = to_half_difference(wi, wo);
     const direction h = spherical_direction(angles.theta_h, 0.0);
     const direction d = spherical_direction(angles.theta_d, angles.phi_d);
-    Eigen::Matrix<double, 1, 6> input;
-    input << h.x(), 0.0, h.z(), d.x(), d.y(), d.z();
-    using layer = Eigen::Matrix<double, 1, width>;
-    const layer first = (input.lazyProduct(w1().cast<double>()) + b1().cast<double>()).cwiseMax(0.0);
-    const layer second = (first.lazyProduct(w2().cast<double>()) + b2().cast<double>()).cwiseMax(0.0);
-    const Eigen::RowVector3d y = second.lazyProduct(w3().cast<double>()) + b3().cast<double>();
-    return y.transpose().array().unaryExpr([](double v) { return std::expm1(std::clamp(v, 0.0, largest_output)); });
+    const std::array<double, 6> input{h.x(), 0.0, h.z(), d.x(), d.y(), d.z()};
+    const auto first = relu(affine<width>(input, first_layer));
+    const auto second = relu(affine<width>(first, second_layer));
+    const auto y = affine<3>(second, third_layer);
+    const auto value = [](double v) { return std::expm1(std::clamp(v, 0.0, largest_output)); };
+    return {value(y[0]), value(y[1]), value(y[2])};
   }
 
+  /// Where each layer's weights start among the parameters; its biases follow them.
+  static constexpr std::size_t first_layer = 0, second_layer = 147, third_layer = 609;
+
  private:
-  template <class Matrix>
-  [[nodiscard]] Eigen::Map<const Matrix> at(std::size_t offset) const noexcept {
-    return Eigen::Map<const Matrix>(parameters_.data() + offset);
+  template <std::size_t Outputs, std::size_t Inputs>
+  [[nodiscard]] std::array<double, Outputs> affine(const std::array<double, Inputs>& x,
+                                                   std::size_t layer) const noexcept {
+    const float* weights = parameters_.data() + layer;
+    const float* biases = weights + Inputs * Outputs;
+    std::array<double, Outputs> y{};
+    for (std::size_t o = 0; o < Outputs; ++o) y[o] = double{biases[o]};
+    for (std::size_t i = 0; i < Inputs; ++i)
+      for (std::size_t o = 0; o < Outputs; ++o) y[o] += x[i] * double{weights[i * Outputs + o]};
+    return y;
+  }
+
+  [[nodiscard]] static std::array<double, width> relu(std::array<double, width> x) noexcept {
+    for (double& value : x) value = std::max(value, 0.0);
+    return x;
   }
 
   std::array<float, parameter_count> parameters_{};
@@ -86,46 +87,63 @@ struct named_networks {
 
 namespace detail {
 
-/// Evaluates networks at a block of cells in float: hidden layers are matrices of cells x 21, column-major,
-/// so that each product runs along the cells.
+/// Evaluates networks at a block of cells in float. A layer is stored unit by unit, each with all cells, so that
+/// the loops run along the cells and vectorise.
 class network_block {
  public:
-  static constexpr Eigen::Index cells = 256;
-  using layer = Eigen::Matrix<float, Eigen::Dynamic, network_brdf::width>;
+  static constexpr std::size_t cells = 256;
 
   /// Computes the inputs, which all networks share.
-  network_block(const valid_cells& all, block range)
-      : inputs_(static_cast<Eigen::Index>(range.size()), 6),
-        first_(inputs_.rows(), network_brdf::width),
-        second_(inputs_.rows(), network_brdf::width),
-        outputs_(inputs_.rows(), 3) {
-    for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-      const half_difference angles = all.angles(cell);
+  network_block(const valid_cells& all, block range) : count_(range.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      const half_difference angles = all.angles(range.begin + i);
       const direction h = spherical_direction(angles.theta_h, 0.0);
       const direction d = spherical_direction(angles.theta_d, angles.phi_d);
-      Eigen::Matrix<double, 1, 6> input;
-      input << h.x(), 0.0, h.z(), d.x(), d.y(), d.z();
-      inputs_.row(static_cast<Eigen::Index>(cell - range.begin)) = input.cast<float>();
+      const std::array<double, 6> input{h.x(), 0.0, h.z(), d.x(), d.y(), d.z()};
+      for (std::size_t unit = 0; unit < input.size(); ++unit) inputs_[unit][i] = static_cast<float>(input[unit]);
     }
   }
 
-  /// Writes red, green and blue of one network into three columns.
-  template <class Columns>
-  void evaluate(const network_brdf& network, Columns&& columns) {
-    first_.noalias() = inputs_ * network.w1();
-    first_ = (first_.rowwise() + network.b1()).cwiseMax(0.0f);
-    second_.noalias() = first_ * network.w2();
-    second_ = (second_.rowwise() + network.b2()).cwiseMax(0.0f);
-    outputs_.noalias() = second_ * network.w3();
-    outputs_.rowwise() += network.b3();
-    constexpr auto largest = static_cast<float>(network_brdf::largest_output);
-    columns = outputs_.array().max(0.0f).min(largest).expm1().matrix();
+  /// Writes red, green and blue of one network at cell i to out[stride i].
+  void evaluate(const network_brdf& network, float* out, std::size_t stride) {
+    affine(network, network_brdf::first_layer, inputs_, first_);
+    relu(first_);
+    affine(network, network_brdf::second_layer, first_, second_);
+    relu(second_);
+    affine(network, network_brdf::third_layer, second_, outputs_);
+    Eigen::Map<Eigen::Array<float, 3 * cells, 1>> y(outputs_[0].data());
+    y = y.max(0.0f).min(static_cast<float>(network_brdf::largest_output)).expm1();
+    for (std::size_t i = 0; i < count_; ++i)
+      for (std::size_t channel = 0; channel < 3; ++channel) out[i * stride + channel] = outputs_[channel][i];
   }
 
  private:
-  Eigen::Matrix<float, Eigen::Dynamic, 6> inputs_;
-  layer first_, second_;
-  Eigen::Matrix<float, Eigen::Dynamic, 3> outputs_;
+  template <std::size_t Units>
+  using layer = std::array<std::array<float, cells>, Units>;
+
+  template <std::size_t Inputs, std::size_t Outputs>
+  static void affine(const network_brdf& network, std::size_t start, const layer<Inputs>& x,
+                     layer<Outputs>& y) noexcept {
+    const float* weights = network.parameters().data() + start;
+    const float* biases = weights + Inputs * Outputs;
+    for (std::size_t o = 0; o < Outputs; ++o) {
+      y[o].fill(biases[o]);
+      for (std::size_t i = 0; i < Inputs; ++i) {
+        const float weight = weights[i * Outputs + o];
+        for (std::size_t cell = 0; cell < cells; ++cell) y[o][cell] += weight * x[i][cell];
+      }
+    }
+  }
+
+  static void relu(layer<network_brdf::width>& x) noexcept {
+    for (auto& unit : x)
+      for (float& value : unit) value = std::max(value, 0.0f);
+  }
+
+  std::size_t count_;
+  layer<6> inputs_{};
+  layer<network_brdf::width> first_{}, second_{};
+  layer<3> outputs_{};
 };
 
 }  // namespace detail
@@ -135,15 +153,15 @@ class network_block {
 inline void tabulate_networks(std::span<const network_brdf> networks, const valid_cells& cells, cell_matrix& out,
                               thread_count threads = {}, const progress& listener = {}) {
   out.resize(static_cast<Eigen::Index>(cells.size()), 3 * static_cast<Eigen::Index>(networks.size()));
+  const std::size_t columns = 3 * networks.size();
   std::mutex reporting;
   std::size_t done = 0;
   for_each_block(
       cells.size(), detail::network_block::cells,
       [&](block range) {
         detail::network_block work(cells, range);
-        const auto row = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
         for (std::size_t n = 0; n < networks.size(); ++n)
-          work.evaluate(networks[n], out.block(row, 3 * static_cast<Eigen::Index>(n), rows, 3));
+          work.evaluate(networks[n], out.data() + range.begin * columns + 3 * n, columns);
         const std::scoped_lock lock(reporting);
         done += range.size();
         report(listener, "expanding networks", static_cast<double>(done) / static_cast<double>(cells.size()));

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -49,18 +49,22 @@ class least_squares_problem {
   /// O(n k^2) the first time.
   [[nodiscard]] const normal_equations& normal() const {
     std::call_once(normal_->built, [&] {
-      const Eigen::MatrixXd weighted = weights_.cwiseSqrt().asDiagonal() * rows_;
-      Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(unknowns(), unknowns());
-      gram.selfadjointView<Eigen::Lower>().rankUpdate(weighted.transpose());
-      normal_->equations.gram = gram.selfadjointView<Eigen::Lower>();
-      normal_->equations.moment = rows_.transpose() * (weights_.asDiagonal() * right_hand_side_);
+      row_matrix weighted = rows_;
+      for (Eigen::Index row = 0; row < equations(); ++row) weighted.row(row) *= weights_[row];
+      normal_->equations.gram.noalias() = weighted.transpose() * rows_;
+      normal_->equations.moment.noalias() = weighted.transpose() * right_hand_side_;
     });
     return normal_->equations;
   }
 
   /// sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`.
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const {
-    return (weights_.cwiseSqrt().asDiagonal() * (rows_ * x - right_hand_side_)).colwise().norm().transpose();
+    Eigen::MatrixXd misfit = -right_hand_side_;
+    misfit.noalias() += rows_ * x;
+    Eigen::VectorXd norms(misfit.cols());
+    for (Eigen::Index column = 0; column < misfit.cols(); ++column)
+      norms[column] = std::sqrt(weights_.dot(misfit.col(column).cwiseAbs2()));
+    return norms;
   }
 
  private:
@@ -78,7 +82,12 @@ class least_squares_problem {
       throw error("a least-squares problem of " + count(rows_.rows()) + " rows has " + count(right_hand_side_.rows()) +
                   " right-hand values and " + count(weights_.size()) + " weights");
     for (Eigen::Index row = 0; row < rows_.rows(); ++row) {
-      if (!rows_.row(row).allFinite() || !right_hand_side_.row(row).allFinite())
+      const auto finite = [row](const auto& matrix) {
+        for (Eigen::Index column = 0; column < matrix.cols(); ++column)
+          if (!std::isfinite(matrix(row, column))) return false;
+        return true;
+      };
+      if (!finite(rows_) || !finite(right_hand_side_))
         throw error("row " + count(row) + " of a least-squares problem is not finite");
       if (!(weights_[row] >= 0.0 && std::isfinite(weights_[row])))
         throw error("row " + count(row) + " of a least-squares problem has weight " + std::to_string(weights_[row]) +

@@ -40,9 +40,12 @@ concept solver = requires(const Solver& candidate, const least_squares_problem& 
 
 /// The largest entry of each column of a gradient, relative to the largest of the column of A'Wb.
 [[nodiscard]] inline Eigen::VectorXd stationarity(const Eigen::MatrixXd& gradient, const Eigen::MatrixXd& moment) {
-  const auto largest = [](const Eigen::MatrixXd& m) { return m.cwiseAbs().colwise().maxCoeff().transpose().eval(); };
-  const Eigen::VectorXd scale = largest(moment);
-  return (scale.array() > 0.0).select(largest(gradient).cwiseQuotient(scale), largest(gradient));
+  Eigen::VectorXd violation(gradient.cols());
+  for (Eigen::Index column = 0; column < gradient.cols(); ++column) {
+    const double scale = moment.col(column).cwiseAbs().maxCoeff();
+    violation[column] = gradient.col(column).cwiseAbs().maxCoeff() / (scale > 0.0 ? scale : 1.0);
+  }
+  return violation;
 }
 
 }  // namespace gonio

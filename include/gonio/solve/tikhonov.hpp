@@ -28,7 +28,7 @@ class tikhonov {
 
   [[nodiscard]] double eta() const noexcept { return eta_; }
 
-  template <class Problem>
+  template <class Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
     const bool wide = problem.equations() < problem.unknowns();
     const bool through_dual = form_ == form::dual || (form_ == form::automatic && wide);
@@ -46,20 +46,32 @@ class tikhonov {
 
   template <class Problem>
   [[nodiscard]] Eigen::MatrixXd solve_dual(const Problem& problem) const {
-    const Eigen::VectorXd root = problem.weights().cwiseSqrt();
-    const row_matrix rows = root.asDiagonal() * problem.rows();
+    row_matrix rows = problem.rows();
+    Eigen::MatrixXd right = problem.right_hand_side();
+    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+      const double root = std::sqrt(problem.weights()[row]);
+      rows.row(row) *= root;
+      right.row(row) *= root;
+    }
     Eigen::MatrixXd penalised = rows * rows.transpose();
     penalised.diagonal().array() += eta_;
-    return rows.transpose() * penalised.llt().solve(root.asDiagonal() * problem.right_hand_side());
+    const Eigen::MatrixXd dual = penalised.llt().solve(right);
+    return rows.transpose() * dual;
   }
 
   /// The gradient A'W(Ax - b) + eta x vanishes at the optimum.
   template <class Problem>
   [[nodiscard]] Eigen::VectorXd certificate(const Problem& problem, const Eigen::MatrixXd& x) const {
-    const Eigen::MatrixXd misfit = problem.weights().asDiagonal() * (problem.rows() * x - problem.right_hand_side());
-    const Eigen::MatrixXd gradient = problem.rows().transpose() * misfit + eta_ * x;
-    const Eigen::MatrixXd moment =
-        problem.rows().transpose() * (problem.weights().asDiagonal() * problem.right_hand_side());
+    Eigen::MatrixXd misfit = problem.rows() * x;
+    misfit -= problem.right_hand_side();
+    Eigen::MatrixXd weighted = problem.right_hand_side();
+    for (Eigen::Index row = 0; row < misfit.rows(); ++row) {
+      misfit.row(row) *= problem.weights()[row];
+      weighted.row(row) *= problem.weights()[row];
+    }
+    Eigen::MatrixXd gradient = problem.rows().transpose() * misfit;
+    gradient += eta_ * x;
+    const Eigen::MatrixXd moment = problem.rows().transpose() * weighted;
     return stationarity(gradient, moment);
   }
 

@@ -1,0 +1,8 @@
+#include <gonio/gonio.hpp>
+
+int main() {
+  const auto prior = gonio::io::read_prior("materials.prior");
+  const auto samples = gonio::io::read_samples("measurements.csv");
+  const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
+  gonio::io::write_merl("paint.binary", paint);
+}
