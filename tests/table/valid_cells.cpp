@@ -25,7 +25,8 @@ TEST_CASE("the valid cells of MERL's grid are the reference's") {
 
 TEST_CASE("lower corners, and the stricter rule of one database") {
   const gonio::grid corner({}, gonio::cell_anchor::lower_corner);
-  CHECK(valid_cells(corner).size() == 1'111'432);
+  // Two more have a cosine of 1e-17 that is zero but for rounding.
+  CHECK(valid_cells(corner).size() == 1'111'430);
   CHECK(valid_cells(corner, 0.0200023).size() == 1'089'356);
 }
 

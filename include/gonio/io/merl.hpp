@@ -94,58 +94,35 @@ class merl_planes {
   std::size_t cells_;
 };
 
-/// Cosines of this size are zero up to rounding, which differs from one compiler to the next.
-inline constexpr double horizon_band = 1e-9;
-
 /// How an anchor sorts the cells by the smaller of their two cosines.
 struct mark_statistics {
   double largest_marked = -std::numeric_limits<double>::infinity();
   double smallest_unmarked = std::numeric_limits<double>::infinity();
-  /// Is a cell marked which `valid_cells` would take for one just above the horizon?
-  bool horizon_marked = false;
 
   /// How well the anchor explains the marks: 0 not at all; 1 by a threshold, but cells below the horizon
   /// are filled; 2 by a threshold above the horizon; 3 by the horizon itself.
   [[nodiscard]] int rank() const noexcept {
-    if (!std::isfinite(smallest_unmarked) || !(largest_marked + horizon_band < smallest_unmarked)) return 0;
+    if (!std::isfinite(smallest_unmarked) || !(largest_marked + valid_cells::horizon < smallest_unmarked)) return 0;
     if (smallest_unmarked <= 0.0) return 1;
     return largest_marked > 0.0 ? 2 : 3;
   }
 
   /// The threshold that belongs to it, never below the horizon.
   [[nodiscard]] double minimum_cosine() const noexcept {
-    if (rank() == 2) return 0.5 * (largest_marked + smallest_unmarked);
-    return rank() == 3 && horizon_marked ? horizon_band : 0.0;
+    return rank() == 2 ? 0.5 * (largest_marked + smallest_unmarked) : 0.0;
   }
 };
 
 template <std::predicate<std::size_t> Marked>
 [[nodiscard]] mark_statistics sort_marks(const grid& cells, const Marked& marked) {
-  const auto [heights, rows, columns] = cells.extents();
-  std::vector<double> cos_phi(static_cast<std::size_t>(columns));
-  for (int k = 0; k < columns; ++k) cos_phi[static_cast<std::size_t>(k)] = std::abs(std::cos(cells.phi_d(k)));
-
   mark_statistics found;
-  std::size_t linear = 0;
-  for (int i = 0; i < heights; ++i) {
-    for (int j = 0; j < rows; ++j) {
-      const double sum = std::cos(cells.theta_h(i)) * std::cos(cells.theta_d(j));
-      const double difference = std::sin(cells.theta_h(i)) * std::sin(cells.theta_d(j));
-      for (const double cosine : cos_phi) {
-        const double smaller = sum - difference * cosine;
-        const bool mark = marked(linear);
-        if (std::abs(smaller) <= horizon_band) {
-          const cosine_pair exact = cosines(cells.angles(cells.cell(linear)));
-          found.horizon_marked = found.horizon_marked || (mark && exact.i > 0.0 && exact.o > 0.0);
-        } else if (mark) {
-          found.largest_marked = std::max(found.largest_marked, smaller);
-        } else {
-          found.smallest_unmarked = std::min(found.smallest_unmarked, smaller);
-        }
-        ++linear;
-      }
-    }
-  }
+  for_each_smaller_cosine(cells, [&](std::size_t linear, double cosine) {
+    if (std::abs(cosine) <= valid_cells::horizon) return;
+    if (marked(linear))
+      found.largest_marked = std::max(found.largest_marked, cosine);
+    else
+      found.smallest_unmarked = std::min(found.smallest_unmarked, cosine);
+  });
   return found;
 }
 

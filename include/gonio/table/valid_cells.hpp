@@ -5,6 +5,8 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/table/grid.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -15,10 +17,14 @@ namespace gonio {
 /// The valid cells of a grid, numbered from 0 in the grid's linear order.
 ///
 /// A cell is valid by geometry alone, never by the sign of a value stored there: both cosines at its node
-/// exceed `minimum_cosine`. A value type: copies share the index, which costs 4 bytes per grid cell and 4
+/// exceed `minimum_cosine` and `horizon` (whether the cosine of a node on the horizon comes out as 1e-17 or -1e-17
+/// depends on the compiler). A value type: copies share the index, which costs 4 bytes per grid cell and 4
 /// per valid cell.
 class valid_cells {
  public:
+  /// Cosines up to this size are those of directions on the horizon, up to rounding.
+  static constexpr double horizon = 1e-9;
+
   /// O(cells of the grid). Throws gonio::error if no cell is valid.
   explicit valid_cells(const gonio::grid& grid = gonio::grid(), double minimum_cosine = 0.0)
       : index_(std::make_shared<const index>(grid, minimum_cosine)) {}
@@ -61,24 +67,24 @@ class valid_cells {
  private:
   struct index {
     index(const gonio::grid& cells, double threshold) : grid(cells), minimum_cosine(threshold) {
-      const auto [heights, rows, columns] = grid.extents();
-      const std::size_t layer = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+      const auto columns = static_cast<std::size_t>(grid.extents().phi_d);
+      const std::size_t layer = static_cast<std::size_t>(grid.extents().theta_d) * columns;
+      const double limit = std::max(minimum_cosine, horizon);
       representative.resize(grid.size());
       linear.reserve(grid.size());
-      for (std::size_t cell = 0; cell < grid.size(); ++cell) {
-        if (cell % static_cast<std::size_t>(columns) == 0)
-          row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
-        const cosine_pair cosine = cosines(grid.angles(grid.cell(cell)));
-        if (cosine.i > minimum_cosine && cosine.o > minimum_cosine) {
-          representative[cell] = static_cast<std::uint32_t>(linear.size());
+      for_each_smaller_cosine(grid, [&](std::size_t cell, double cosine) {
+        const auto count = static_cast<std::uint32_t>(linear.size());
+        if (cell % columns == 0) row_begin.push_back(count);
+        if (cosine > limit) {
+          representative[cell] = count;
           linear.push_back(static_cast<std::uint32_t>(cell));
         } else if (cell >= layer) {
           // Both cosines fall as theta_h grows, so the layer below has already found the last valid one.
           representative[cell] = representative[cell - layer];
         } else {
-          representative[cell] = linear.empty() ? 0 : static_cast<std::uint32_t>(linear.size() - 1);
+          representative[cell] = count == 0 ? 0 : count - 1;
         }
-      }
+      });
       row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
       if (linear.empty()) throw error("no cell of the grid has both directions above the horizon");
     }
