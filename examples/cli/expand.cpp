@@ -1,10 +1,12 @@
-/// gonio expand: a material as a table, from a network or a formula.
+/// gonio expand: a material as a table, from a network, the prior or a formula.
 
 #include "command.hpp"
 #include "inputs.hpp"
+#include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/model/formula_materials.hpp>
 
+#include <algorithm>
 #include <memory>
 
 namespace cli {
@@ -12,14 +14,26 @@ namespace cli {
 namespace {
 
 struct expand_options {
-  std::filesystem::path networks, output;
+  std::filesystem::path networks, prior, output;
   std::string name, formula;
   gonio::thread_count threads;
 };
 
+/// One of the materials a prior was learned from, by the coefficients that it stores.
+gonio::brdf_table table_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
+  const auto prior = gonio::io::read_prior(options.prior);
+  const auto found = std::ranges::find(prior.names(), options.name);
+  if (found == prior.names().end())
+    throw gonio::error(options.prior.string() + ": there is no material named '" + options.name + "'");
+  gonio::solution stored;
+  stored.weights = prior.weights_of(static_cast<std::size_t>(found - prior.names().begin()));
+  return gonio::fitted_brdf(prior, std::move(stored)).tabulate(cells, options.threads);
+}
+
 gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cells& cells) {
   if (!options.formula.empty())
     return gonio::tabulate(gonio::formula_material(options.formula), cells, options.threads);
+  if (options.networks.empty()) return table_of_prior(options, cells);
   const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
   return gonio::tabulate_networks(chosen, cells, options.threads).table(0);
 }
@@ -27,13 +41,13 @@ gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cel
 }  // namespace
 
 void add_expand(CLI::App& app) {
-  auto* command = app.add_subcommand("expand", "Write a material given by a network or a formula as a MERL table");
+  auto* command =
+      app.add_subcommand("expand", "Write a material given by a network, the prior or a formula as a MERL table");
   const auto options = std::make_shared<expand_options>();
   auto* networks = command->add_option("--networks", options->networks,
                                        "File of networks (.npy, names in merl_names.txt beside it)");
-  auto* name =
-      command->add_option("--name", options->name, "Name of the material in the networks' list")->needs(networks);
-  networks->needs(name);
+  add_prior_option(*command, options->prior);
+  command->add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
   std::string known;
   for (const std::string& formula : gonio::formula_material_names()) known += (known.empty() ? "" : ", ") + formula;
   command->add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
@@ -42,7 +56,7 @@ void add_expand(CLI::App& app) {
   add_threads_option(*command, options->threads);
   command->callback([options] {
     if (options->formula.empty() && options->name.empty())
-      throw gonio::error("expand needs a material: --networks FILE --name NAME, or --formula NAME");
+      throw gonio::error("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
     gonio::io::write_merl(options->output, table_of(*options, gonio::valid_cells()));
   });
 }

@@ -36,6 +36,7 @@ TEST_CASE("wrong command lines") {
   refuses("reconstruckt x", {"gonio --help"});
   refuses("sample", {"table"});
   refuses("expand -o x.binary", {"--networks", "--formula"});
+  refuses("expand --name no-such-stone -o x.binary", {"no-such-stone", "materials.prior"});
   refuses("expand --formula no-such-paint -o x.binary", {"no-such-paint", "red-paint"});
   refuses("learn -o x.prior", {"--networks", "--merl"});
   refuses("learn --merl /no/such/folder -o x.prior", {"/no/such/folder"});

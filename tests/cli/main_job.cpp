@@ -66,6 +66,11 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(kind(at("samples.csv")) == "samples");
     CHECK(kind(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior") == "prior");
   }
+  SUBCASE("the prior expands to the materials it was learned from") {
+    run("expand --name blue-rubber -o " + at("rubber.binary"));
+    const auto rubber = nlohmann::json::parse(gonio_tool("info --json " + at("rubber.binary")).output);
+    CHECK(rubber["mean"][2].get<double>() > 1.5 * rubber["mean"][0].get<double>());
+  }
   SUBCASE("reconstruct says how the fit went") {
     const auto fit = nlohmann::json::parse(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);

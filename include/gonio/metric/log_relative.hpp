@@ -95,12 +95,10 @@ class log_relative {
     values = values.exp();
     for (std::size_t place = 0; place < cosine_weight.size(); ++place) {
       const auto column = static_cast<Eigen::Index>(place);
-      const float inverse_weight = 1.0f / cosine_weight[place];
-      const float scale = values(3, column) + small * inverse_weight, shift = small * inverse_weight;
-      for (std::size_t channel = 0; channel < 3; ++channel) {
-        const float rho = values(static_cast<Eigen::Index>(channel), column) * scale - shift;
-        out[3 * place + channel] = std::max(rho, 0.0f);
-      }
+      const float shift = small / cosine_weight[place];
+      // All four of a column at once; the fourth is not used.
+      const Eigen::Array4f rho = (values.col(column) * (values(3, column) + shift) - shift).max(0.0f);
+      std::copy_n(rho.data(), 3, out.data() + 3 * place);
     }
   }
 

@@ -1,10 +1,6 @@
-#include <gonio/core/error.hpp>
-
-#include <stb/stb_image_write.h>
-
-#include <cstdio>
+#include <gonio/io/image.hpp>
 
 int main() {
-  const unsigned char white[3] = {255, 255, 255};
-  return stbi_write_png("white.png", 1, 1, 3, white, 3) ? 0 : 1;
+  gonio::io::write_png("white.png", gonio::uniform_image(2, 3, gonio::rgb::Ones()));
+  return gonio::io::read_png("white.png").shape(1) == 3 ? 0 : 1;
 }
