@@ -53,6 +53,14 @@ void expand(benchmark::State& state) {
 }
 BENCHMARK(expand)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
+/// The simple version that the tests compare with.
+void expand_cell_by_cell(benchmark::State& state) {
+  const auto fit = gonio::decomposition{prior(), gonio::tikhonov{40.0}}.fit(samples());
+  for (auto _ : state) benchmark::DoNotOptimize(fit.tabulate_cells(cells(), {2}));
+  state.SetBytesProcessed(state.iterations() * moved_bytes());
+}
+BENCHMARK(expand_cell_by_cell)->UseRealTime()->Unit(benchmark::kMillisecond);
+
 /// The yardstick: writing a new table by copying as many bytes as an expansion reads and writes.
 void copy(benchmark::State& state) {
   const std::vector<char> from(static_cast<std::size_t>(moved_bytes() / 2), 1);

@@ -113,7 +113,8 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
     file.put_all(std::span<const std::byte>(io::compress_bytes(payload.bytes())));
     return std::vector<std::byte>(file.bytes().begin(), file.bytes().end());
   };
-  const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components, int padding = 100) {
+  const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components,
+                         int padding = 100) {
     for (int axis = 0; axis < 3; ++axis) out.put(extent);
     out.put(anchor);
     out.put(0.0);

@@ -46,7 +46,8 @@ struct merl_file {
   material_set materials;
   for (std::size_t m = 0; m < files.size(); ++m) {
     report(listener, "reading " + files[m].name, static_cast<double>(m) / static_cast<double>(files.size()));
-    const brdf_table table = m == 0 ? read_merl_any(files[m].path) : read_merl_any(files[m].path, {{}, materials.cells});
+    const brdf_table table =
+        m == 0 ? read_merl_any(files[m].path) : read_merl_any(files[m].path, {{}, materials.cells});
     if (m == 0) {
       materials.cells = table.cells();
       materials.values.resize(static_cast<Eigen::Index>(table.cells().size()),
