@@ -1,3 +1,4 @@
+#include "../archetypes.hpp"
 #include "../made_up_materials.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -87,6 +88,18 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
       REQUIRE((direct >= 0.0).all());
     }
   }
+}
+
+TEST_CASE("archetypes: the least-squares fit of a constant is the weighted mean") {
+  const archetype::constant_basis functions{cells(), 0.5};
+  sample_set samples{{{0.1, 0.2, 0.3}, rgb(1, 2, 3), 1.0}, {{0.4, 0.5, 0.6}, rgb(5, 6, 3), 3.0}};
+  const decomposition estimator{functions, archetype::ordinary_least_squares{}};
+  static_assert(gonio::estimator<decltype(estimator)>);
+  const auto fit = estimator.fit(samples);
+  CHECK((fit({0, 0, 1}, {0, 0, 1}) - rgb(4, 5, 3)).abs().maxCoeff() < 1e-6);
+  CHECK((fit.tabulate(valid_cells(gonio::grid({4, 3, 5}))).at(7) - rgb(4, 5, 3)).abs().maxCoeff() < 1e-6);
+  CHECK(fit.found().residual[0] == doctest::Approx(std::sqrt(9.0 + 3.0)));
+  CHECK(fit.functions().mean == 0.5);
 }
 
 TEST_CASE("a fit is zero below the horizon") {

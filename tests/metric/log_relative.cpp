@@ -7,17 +7,7 @@
 using gonio::log_relative;
 using gonio::valid_cells;
 
-namespace {
-
-/// The archetype of an error metric: depends on nothing.
-struct identity_metric {
-  double forward(double rho, const auto&) const noexcept { return rho; }
-  double inverse(double y, const auto&) const noexcept { return y; }
-};
-static_assert(gonio::error_metric<identity_metric>);
 static_assert(!gonio::error_metric<int>);
-
-}  // namespace
 
 TEST_CASE("the map and its inverse agree with the reference") {
   const auto golden = golden_csv("mapping.csv");

@@ -1,27 +1,14 @@
+#include "../archetypes.hpp"
 #include <gonio/solve/solver.hpp>
 
-#include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
-namespace {
-
-/// The archetype, as in the concept's documentation.
-struct ordinary_least_squares {
-  gonio::solution solve(const gonio::least_squares_problem& problem) const {
-    const auto& [gram, moment] = problem.normal();
-    const Eigen::MatrixXd x = gram.ldlt().solve(moment);
-    return {x, problem.residual(x), gonio::stationarity(gram * x - moment, moment), 0};
-  }
-};
-static_assert(gonio::solver<ordinary_least_squares>);
 static_assert(!gonio::solver<int>);
-
-}  // namespace
 
 TEST_CASE("the archetype of a solver solves and certifies") {
   const gonio::row_matrix rows = gonio::row_matrix::Random(9, 4);
   const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(4, 3);
-  const auto found = ordinary_least_squares().solve({rows, rows * truth});
+  const auto found = archetype::ordinary_least_squares().solve({rows, rows * truth});
   CHECK(found.weights.isApprox(truth, 1e-10));
   CHECK(found.residual.maxCoeff() < 1e-12);
   CHECK(found.certificate.maxCoeff() < 1e-12);

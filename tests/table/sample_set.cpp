@@ -36,5 +36,6 @@ TEST_CASE("what no estimator can use is refused with the sample's number") {
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), inf}, "weight");
   refused({{1.0, 1.2, 0.0}, rgb::Ones(), 1.0}, "horizon");
   refused({{0.1, -0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");
+  refused({{6.9, 0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");  // 400 degrees, whose cosines look innocent
   CHECK_THROWS_WITH_AS(gonio::require_usable(sample_set{}), doctest::Contains("no samples"), gonio::error);
 }

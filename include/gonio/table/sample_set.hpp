@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <numbers>
 #include <ranges>
 #include <string>
 #include <vector>
@@ -41,7 +42,9 @@ void require_usable(const Samples& samples) {
     if (!s.value.isFinite().all()) refuse("a reflectance is not finite");
     if (!std::isfinite(s.weight) || s.weight < 0.0) refuse("the weight must be finite and not negative");
     const cosine_pair cosine = cosines(s.angles);
-    if (theta_h < 0.0 || theta_d < 0.0 || !(cosine.i > 0.0 && cosine.o > 0.0))
+    constexpr double right_angle = std::numbers::pi / 2.0;
+    const bool in_range = theta_h >= 0.0 && theta_h < right_angle && theta_d >= 0.0 && theta_d < right_angle;
+    if (!in_range || !(cosine.i > 0.0 && cosine.o > 0.0))
       refuse("a direction is at or below the horizon (theta_h " + std::to_string(degrees(theta_h)) + ", theta_d " +
              std::to_string(degrees(theta_d)) + ", phi_d " + std::to_string(degrees(phi_d)) + " degrees)");
   }

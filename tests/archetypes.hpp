@@ -1,0 +1,46 @@
+#pragma once
+/// The smallest models of the library's concepts, as the concepts' documentation shows them. Every template is
+/// instantiated with them: a concept checks signatures, not bodies.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/solve/solver.hpp>
+
+#include <Eigen/Cholesky>
+
+#include <span>
+
+namespace archetype {
+
+/// Depends on nothing.
+struct identity_metric {
+  double forward(double rho, const auto&) const noexcept { return rho; }
+  double inverse(double y, const auto&) const noexcept { return y; }
+};
+static_assert(gonio::error_metric<identity_metric>);
+
+/// One function, the constant 1.
+struct constant_basis {
+  gonio::valid_cells over;
+  double mean = 0.0;
+  std::size_t size() const { return 1; }
+  const gonio::valid_cells& cells() const { return over; }
+  std::span<const float> row(std::size_t) const {
+    static constexpr float one = 1;
+    return {&one, 1};
+  }
+  double offset(std::size_t) const { return mean; }
+  identity_metric metric() const { return {}; }
+};
+static_assert(gonio::basis<constant_basis>);
+
+/// The normal equations as they are.
+struct ordinary_least_squares {
+  gonio::solution solve(const gonio::least_squares_problem& problem) const {
+    const auto& [gram, moment] = problem.normal();
+    const Eigen::MatrixXd x = gram.ldlt().solve(moment);
+    return {x, problem.residual(x), gonio::stationarity(gram * x - moment, moment), 0};
+  }
+};
+static_assert(gonio::solver<ordinary_least_squares>);
+
+}  // namespace archetype
