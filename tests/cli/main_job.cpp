@@ -33,8 +33,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   const auto compared = gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary"));
   REQUIRE(compared.exit_code == 0);
   const auto errors = nlohmann::json::parse(compared.output);
-  // The material is in no database; these are what a good reconstruction reaches, with a margin, and a broken one
-  // (the mean material has 1.4 and 25) does not.
+  // Measured: 0.244, 3.26 and 4.25. The mean material, which is what --eta 1e18 gives, has 1.16, 52.0 and 48.9.
   CHECK(errors["mapped_rms"].get<double>() < 0.3);
   CHECK(errors["delta_e_env"].get<double>() < 5.0);
   CHECK(errors["delta_e_lights"].get<double>() < 6.0);
