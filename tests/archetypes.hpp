@@ -36,9 +36,9 @@ static_assert(gonio::basis<constant_basis>);
 /// The normal equations as they are.
 struct ordinary_least_squares {
   gonio::solution solve(const gonio::least_squares_problem& problem) const {
-    const auto& [gram, moment] = problem.normal();
-    const Eigen::MatrixXd x = gram.ldlt().solve(moment);
-    return {x, problem.residual(x), gonio::stationarity(gram * x - moment, moment), 0};
+    const gonio::normal_equations& normal = problem.normal();
+    const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.moment());
+    return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
   }
 };
 static_assert(gonio::solver<ordinary_least_squares>);

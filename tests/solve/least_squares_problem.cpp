@@ -12,8 +12,8 @@ TEST_CASE("normal equations and residuals are weighted, and copies share them") 
   const Eigen::MatrixXd right = Eigen::MatrixXd::Random(7, 2);
   const Eigen::VectorXd weights = Eigen::VectorXd::Random(7).cwiseAbs();
   const least_squares_problem problem(rows, right, weights), copy = problem;
-  CHECK(problem.normal().gram.isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
-  CHECK(problem.normal().moment.isApprox(rows.transpose() * weights.asDiagonal() * right, 1e-13));
+  CHECK(problem.normal().gram().isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
+  CHECK(problem.normal().moment().isApprox(rows.transpose() * weights.asDiagonal() * right, 1e-13));
   CHECK(&copy.normal() == &problem.normal());
 
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3, 2);
@@ -24,7 +24,7 @@ TEST_CASE("normal equations and residuals are weighted, and copies share them") 
 
 TEST_CASE("no weights means all ones") {
   const least_squares_problem problem(row_matrix::Ones(2, 1), Eigen::MatrixXd::Ones(2, 1));
-  CHECK(problem.normal().gram(0, 0) == 2.0);
+  CHECK(problem.normal().gram()(0, 0) == 2.0);
 }
 
 TEST_CASE("unusable problems are refused with the offending row") {
@@ -41,4 +41,44 @@ TEST_CASE("unusable problems are refused with the offending row") {
   refuse(rows, Eigen::MatrixXd::Ones(3, 1), {}, "row 1");
   refuse(row_matrix::Ones(3, 2), Eigen::Vector3d(0, 0, nan), {}, "row 2");
   refuse(row_matrix::Ones(3, 2), Eigen::MatrixXd::Ones(3, 1), Eigen::Vector3d(1, -1, 1), "row 1");
+}
+
+TEST_CASE("rows that are only read give the same problem, and a row that is not finite is named") {
+  const row_matrix rows = row_matrix::Random(3000, 5);
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(3000, 2);
+  const Eigen::VectorXd weights = Eigen::VectorXd::Random(3000).cwiseAbs();
+  const least_squares_problem kept(rows, right, weights), one({gonio::rows_of(rows), right, weights, {1}}),
+      three({gonio::rows_of(rows), right, weights, {3}});
+  CHECK(kept.rows() == rows);
+  CHECK(kept.normal().gram().isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
+  CHECK(kept.normal().energy()[1] ==
+        doctest::Approx((right.col(1).transpose() * weights.asDiagonal() * right.col(1))(0)));
+  CHECK(one.normal().gram() == three.normal().gram());
+  CHECK(one.normal().moment() == three.normal().moment());
+  CHECK(one.residual(Eigen::MatrixXd::Ones(5, 2)) == three.residual(Eigen::MatrixXd::Ones(5, 2)));
+
+  row_matrix broken = rows;
+  broken(2047, 3) = std::numeric_limits<double>::quiet_NaN();
+  const least_squares_problem unread(gonio::rows_of(broken), right);
+  CHECK_THROWS_WITH_AS(unread.normal(),
+                       doctest::Contains("row 2047 of a least-squares problem is not finite in column 3"),
+                       gonio::error);
+}
+
+TEST_CASE("a subset of the columns, and a subset of that, share the rows and the products") {
+  const row_matrix rows = row_matrix::Random(50, 6);
+  const least_squares_problem whole(rows, Eigen::MatrixXd::Random(50, 1));
+  const std::vector<Eigen::Index> chosen{4, 0, 5}, second{2, 0};
+  const auto part = whole.subset(chosen), nested = part.subset(second);
+  CHECK(part.unknowns() == 3);
+  CHECK(part.rows().col(0) == rows.col(4));
+  CHECK(part.normal().gram()(0, 2) == whole.normal().gram()(4, 5));
+  CHECK(nested.rows().col(0) == rows.col(5));
+  CHECK(nested.normal().gram()(0, 1) == whole.normal().gram()(5, 4));
+  CHECK(nested.normal().moment()(1, 0) == whole.normal().moment()(4, 0));
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3, 1);
+  CHECK(part.residual(x)[0] == doctest::Approx(part.normal().residual(x)[0]));
+  const std::vector<Eigen::Index> none, outside{3};
+  CHECK_THROWS_AS(part.subset(none), gonio::error);
+  CHECK_THROWS_AS(part.subset(outside), gonio::error);
 }

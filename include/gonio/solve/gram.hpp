@@ -1,32 +1,133 @@
 #pragma once
-/// Gram matrices of tall float matrices, accumulated in double.
+/// Gram matrices of tall matrices, a block of rows at a time: Q = A'WA and A'Wb of Noell et al. 2014, Eq. 10.
 
 #include <gonio/core/parallel.hpp>
+#include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/row_source.hpp>
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cmath>
 #include <concepts>
 
 namespace gonio {
 
-/// A' A of a tall row-major n x k matrix of floats in double precision: products and sums are double, because the
-/// last eigenvalues of a float Gram matrix are noise. O(n k^2 / 2) multiply-adds, 2 MB of scratch a
-/// thread; same bytes for any number of threads.
-template <class Derived>
+namespace detail {
+
+/// Sums A'A over blocks of the rows of A: products and their sums within a block are `Scalar`, blocks are added in
+/// double. A block lies row-major in a buffer whose row length is a multiple of the tile, so that a tile of the result
+/// stays in registers while it reads the rows once, without packing: on a row-major block A'A is a sum of outer
+/// products of contiguous pieces.
+template <class Scalar>
+class product_sum {
+ public:
+  static constexpr Eigen::Index block_rows = 128;
+
+  explicit product_sum(Eigen::Index columns)
+      : columns_(columns), length_((columns + tile_rows - 1) / tile_rows * tile_rows) {
+    const Eigen::Index reach = (columns + tile_columns - 1) / tile_columns * tile_columns;
+    buffer_.setZero(block_rows, std::max(length_, reach));
+    sum_.setZero(length_, reach);
+  }
+
+  /// Where the next `count` rows, at most block_rows, belong.
+  [[nodiscard]] auto rows(Eigen::Index count) { return buffer_.topLeftCorner(count, columns_); }
+
+  /// Adds the products of the first `count` rows of the buffer.
+  void add(Eigen::Index count) {
+    for (Eigen::Index i = 0; i < columns_; i += tile_rows)
+      for (Eigen::Index j = 0; j < std::min(i + tile_rows, columns_); j += tile_columns) add_tile(count, i, j);
+  }
+
+  product_sum& operator+=(const product_sum& other) {
+    sum_ += other.sum_;
+    return *this;
+  }
+
+  /// A'A, both triangles.
+  [[nodiscard]] Eigen::MatrixXd symmetric() const {
+    Eigen::MatrixXd full(columns_, columns_);
+    for (Eigen::Index j = 0; j < columns_; ++j)
+      for (Eigen::Index i = j; i < columns_; ++i) full(i, j) = full(j, i) = sum_(i, j);
+    return full;
+  }
+
+ private:
+  /// Two vector registers by six columns: twelve sums in flight, which hide the latency of a fused multiply-add.
+  static constexpr Eigen::Index tile_rows = 2 * std::max(EIGEN_MAX_ALIGN_BYTES, 16) / Eigen::Index{sizeof(Scalar)};
+  static constexpr Eigen::Index tile_columns = 6;
+  using piece = Eigen::Array<Scalar, tile_rows, 1>;
+
+  void add_tile(Eigen::Index count, Eigen::Index i, Eigen::Index j) {
+    std::array<piece, tile_columns> products;
+    for (piece& column : products) column.setZero();
+    const Eigen::Index stride = buffer_.outerStride();
+    const Scalar* row = buffer_.data();
+    for (Eigen::Index r = 0; r < count; ++r, row += stride) {
+      const piece left = Eigen::Map<const piece>(row + i);
+      for (std::size_t c = 0; c < tile_columns; ++c) products[c] += left * row[j + static_cast<Eigen::Index>(c)];
+    }
+    for (std::size_t c = 0; c < tile_columns; ++c)
+      sum_.col(j + static_cast<Eigen::Index>(c)).segment(i, tile_rows).array() += products[c].template cast<double>();
+  }
+
+  Eigen::Index columns_;
+  Eigen::Index length_;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> buffer_;
+  Eigen::MatrixXd sum_;
+};
+
+}  // namespace detail
+
+/// A'A of a tall row-major n x k matrix of floats. n k (k + 1) floating-point operations; same bytes for any number of
+/// threads.
+///
+/// `Products` is the precision of the products and of their sums over 128 rows; these sums are added in double. With
+/// `float` it takes little more than half the time, and the entries are off by about 1e-9 of the diagonal: harmless for
+/// NNLS, fatal where the small eigenvalues matter (docs/solvers.md has the figures). Both are `double` by default.
+template <class Products = double, class Derived>
 requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajor)) [[nodiscard]] Eigen::MatrixXd
     gram(const Eigen::MatrixBase<Derived>& rows, thread_count threads = {}) {
-  const Eigen::Index columns = rows.cols();
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(columns, columns);
-  const Eigen::MatrixXd lower = sum_over_blocks(
-      static_cast<std::size_t>(rows.rows()), 512, zero,
-      [&](Eigen::MatrixXd& sum, block range) {
-        // Transposed, a block of row-major rows is a column-major k x n matrix: the cast reads and writes in order.
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-        const Eigen::MatrixXd part = rows.middleRows(begin, count).transpose().template cast<double>();
-        sum.selfadjointView<Eigen::Lower>().rankUpdate(part);
-      },
-      threads);
-  return lower.selfadjointView<Eigen::Lower>();
+  using sum_type = detail::product_sum<Products>;
+  const sum_type zero(rows.cols());
+  return sum_over_blocks(
+             static_cast<std::size_t>(rows.rows()), sum_type::block_rows, zero,
+             [&](sum_type& sum, block range) {
+               const auto begin = static_cast<Eigen::Index>(range.begin),
+                          count = static_cast<Eigen::Index>(range.size());
+               sum.rows(count) = rows.middleRows(begin, count).template cast<Products>();
+               sum.add(count);
+             },
+             threads)
+      .symmetric();
+}
+
+/// The normal equations of weighted rows: A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as blocks of
+/// one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of threads. Throws
+/// gonio::error if the result is not finite.
+[[nodiscard]] inline normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
+                                               const Eigen::VectorXd& weights, thread_count threads = {}) {
+  const Eigen::Index k = rows.columns, r = right_hand_side.cols();
+  const bool weighted = (weights.array() != 1.0).any();
+  using sum_type = detail::product_sum<double>;
+  const sum_type zero(k + r);
+  const Eigen::MatrixXd all = sum_over_blocks(
+                                  static_cast<std::size_t>(rows.rows), sum_type::block_rows, zero,
+                                  [&](sum_type& sum, block range) {
+                                    const auto begin = static_cast<Eigen::Index>(range.begin),
+                                               count = static_cast<Eigen::Index>(range.size());
+                                    auto equations = sum.rows(count);
+                                    rows.read(range, equations.leftCols(k));
+                                    equations.rightCols(r) = right_hand_side.middleRows(begin, count);
+                                    if (weighted)
+                                      for (Eigen::Index row = 0; row < count; ++row)
+                                        equations.row(row) *= std::sqrt(weights[begin + row]);
+                                    sum.add(count);
+                                  },
+                                  threads)
+                                  .symmetric();
+  return {all.topLeftCorner(k, k), all.topRightCorner(k, r), all.diagonal().tail(r)};
 }
 
 }  // namespace gonio

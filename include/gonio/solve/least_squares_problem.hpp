@@ -3,102 +3,193 @@
 /// sides b. Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/core/error.hpp>
+#include <gonio/solve/gram.hpp>
+#include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/row_source.hpp>
 
 #include <Eigen/Core>
 
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gonio {
 
-/// A matrix whose rows are contiguous, as equations come in.
-using row_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Q = A' W A and A' W b, one column of `moment` for each right-hand side.
-struct normal_equations {
-  Eigen::MatrixXd gram;
-  Eigen::MatrixXd moment;
-};
-
 /// The equations of a least-squares problem, tall (a million rows by 99) or wide (5 rows by 300). The
 /// normal equations are built once, on demand, in double precision; asking for them is thread safe, and
-/// copies share them.
+/// copies share them. The rows are read where they are (`row_source`) and not kept.
 class least_squares_problem {
  public:
   /// `rows` is n x k, `right_hand_side` n x r, `weights` n (all 1 if empty). Throws gonio::error if the
   /// sizes do not match, the problem is empty, a number is not finite or a weight is negative, naming the
   /// first offending row.
   least_squares_problem(row_matrix rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {})
-      : rows_(std::move(rows)), right_hand_side_(std::move(right_hand_side)), weights_(std::move(weights)) {
-    if (weights_.size() == 0) weights_ = Eigen::VectorXd::Ones(rows_.rows());
-    require_consistent();
+      : least_squares_problem(rows_of(std::move(rows)), std::move(right_hand_side), std::move(weights)) {
+    require_finite_rows();
   }
 
-  /// A: n x k.
-  [[nodiscard]] const row_matrix& rows() const noexcept { return rows_; }
+  /// The same from rows that are read when they are needed. Those are refused where they are first read, in
+  /// `normal`, if they are not finite.
+  least_squares_problem(row_source rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {},
+                        thread_count threads = {})
+      : equations_(std::make_shared<const stored>(std::move(rows), std::move(right_hand_side), std::move(weights))),
+        threads_(threads) {}
+
   /// b: n x r.
-  [[nodiscard]] const Eigen::MatrixXd& right_hand_side() const noexcept { return right_hand_side_; }
+  [[nodiscard]] const Eigen::MatrixXd& right_hand_side() const noexcept { return equations_->right_hand_side; }
   /// The diagonal of W: n.
-  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return weights_; }
+  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return equations_->weights; }
 
-  [[nodiscard]] Eigen::Index equations() const noexcept { return rows_.rows(); }
-  [[nodiscard]] Eigen::Index unknowns() const noexcept { return rows_.cols(); }
+  [[nodiscard]] Eigen::Index equations() const noexcept { return equations_->rows.rows; }
+  [[nodiscard]] Eigen::Index unknowns() const noexcept {
+    return columns_ ? static_cast<Eigen::Index>(columns_->size()) : equations_->rows.columns;
+  }
 
-  /// O(n k^2) the first time.
+  /// A, gathered: n x k, in double precision. For small problems.
+  [[nodiscard]] row_matrix rows() const {
+    row_matrix gathered(equations(), unknowns());
+    for_each_row_block([&](block range, const row_matrix& part) {
+      gathered.middleRows(static_cast<Eigen::Index>(range.begin), part.rows()) = part;
+    });
+    return gathered;
+  }
+
+  /// O(n k^2) the first time; O(k^2) for a subset whose whole has them already. Throws gonio::error naming the first
+  /// row that is not finite.
   [[nodiscard]] const normal_equations& normal() const {
     std::call_once(normal_->built, [&] {
-      row_matrix weighted = rows_;
-      for (Eigen::Index row = 0; row < equations(); ++row) weighted.row(row) *= weights_[row];
-      normal_->equations.gram.noalias() = weighted.transpose() * rows_;
-      normal_->equations.moment.noalias() = weighted.transpose() * right_hand_side_;
+      if (whole_)
+        normal_->equations = whole_->normal().subset(*columns_);
+      else
+        normal_->equations = assemble_finite();
     });
-    return normal_->equations;
+    return *normal_->equations;
   }
 
-  /// sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`.
+  /// The same equations in some of the unknowns, in the order given. Its normal equations are a submatrix of the
+  /// whole's.
+  [[nodiscard]] least_squares_problem subset(std::span<const Eigen::Index> columns) const {
+    least_squares_problem part(*this);
+    part.whole_ = std::make_shared<const least_squares_problem>(*this);
+    part.normal_ = std::make_shared<lazy_normal_equations>();
+    std::vector<Eigen::Index> chosen(columns.begin(), columns.end());
+    for (Eigen::Index& column : chosen) {
+      if (column < 0 || column >= unknowns())
+        throw error("a least-squares problem of " + std::to_string(unknowns()) + " unknowns has no column " +
+                    std::to_string(column));
+      if (columns_) column = (*columns_)[static_cast<std::size_t>(column)];
+    }
+    if (chosen.empty()) throw error("a least-squares problem needs at least one column");
+    // Columns count from the whole that has no whole itself, so that subsets of subsets do not nest.
+    if (whole_) part.whole_ = whole_;
+    part.columns_ = std::move(chosen);
+    return part;
+  }
+
+  /// sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`. Reads the rows: O(n k
+  /// r).
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd misfit = -right_hand_side_;
-    misfit.noalias() += rows_ * x;
-    Eigen::VectorXd norms(misfit.cols());
-    for (Eigen::Index column = 0; column < misfit.cols(); ++column)
-      norms[column] = std::sqrt(weights_.dot(misfit.col(column).cwiseAbs2()));
-    return norms;
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.cols());
+    const Eigen::VectorXd squares = sum_over_blocks(
+        static_cast<std::size_t>(equations()), block_rows, zero,
+        [&](Eigen::VectorXd& sum, block range) {
+          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const row_matrix part = read(range);
+          for (Eigen::Index column = 0; column < x.cols(); ++column) {
+            const Eigen::VectorXd misfit = part * x.col(column) - right_hand_side().col(column).segment(begin, count);
+            sum[column] += weights().segment(begin, count).dot(misfit.cwiseAbs2());
+          }
+        },
+        threads_);
+    return squares.cwiseSqrt();
   }
 
- private:
-  struct lazy_normal_equations {
-    std::once_flag built;
-    normal_equations equations;
-  };
-
-  void require_consistent() const {
-    const auto count = [](Eigen::Index n) { return std::to_string(n); };
-    if (rows_.size() == 0 || right_hand_side_.cols() == 0)
-      throw error("a least-squares problem of " + count(rows_.rows()) + " rows, " + count(rows_.cols()) +
-                  " unknowns and " + count(right_hand_side_.cols()) + " right-hand sides is empty");
-    if (right_hand_side_.rows() != rows_.rows() || weights_.size() != rows_.rows())
-      throw error("a least-squares problem of " + count(rows_.rows()) + " rows has " + count(right_hand_side_.rows()) +
-                  " right-hand values and " + count(weights_.size()) + " weights");
-    for (Eigen::Index row = 0; row < rows_.rows(); ++row) {
-      const auto finite = [row](const auto& matrix) {
-        for (Eigen::Index column = 0; column < matrix.cols(); ++column)
-          if (!std::isfinite(matrix(row, column))) return false;
-        return true;
-      };
-      if (!finite(rows_) || !finite(right_hand_side_))
-        throw error("row " + count(row) + " of a least-squares problem is not finite");
-      if (!(weights_[row] >= 0.0 && std::isfinite(weights_[row])))
-        throw error("row " + count(row) + " of a least-squares problem has weight " + std::to_string(weights_[row]) +
-                    ": weights must be finite and not negative");
+  /// Calls `use(range, rows)` for blocks of A in double precision, in order, one after the other.
+  template <class Use>
+  void for_each_row_block(Use&& use) const {
+    const auto n = static_cast<std::size_t>(equations());
+    for (std::size_t begin = 0; begin < n; begin += block_rows) {
+      const block range{begin, std::min(n, begin + block_rows)};
+      use(range, read(range));
     }
   }
 
-  row_matrix rows_;
-  Eigen::MatrixXd right_hand_side_;
-  Eigen::VectorXd weights_;
+ private:
+  static constexpr std::size_t block_rows = 1024;
+
+  struct stored {
+    row_source rows;
+    Eigen::MatrixXd right_hand_side;
+    Eigen::VectorXd weights;
+
+    stored(row_source source, Eigen::MatrixXd b, Eigen::VectorXd w)
+        : rows(std::move(source)), right_hand_side(std::move(b)), weights(std::move(w)) {
+      if (weights.size() == 0) weights = Eigen::VectorXd::Ones(rows.rows);
+      const auto text = [](Eigen::Index n) { return std::to_string(n); };
+      if (rows.rows == 0 || rows.columns == 0 || right_hand_side.cols() == 0)
+        throw error("a least-squares problem of " + text(rows.rows) + " rows, " + text(rows.columns) +
+                    " unknowns and " + text(right_hand_side.cols()) + " right-hand sides is empty");
+      if (right_hand_side.rows() != rows.rows || weights.size() != rows.rows)
+        throw error("a least-squares problem of " + text(rows.rows) + " rows has " + text(right_hand_side.rows()) +
+                    " right-hand values and " + text(weights.size()) + " weights");
+      for (Eigen::Index row = 0; row < rows.rows; ++row) {
+        for (Eigen::Index column = 0; column < right_hand_side.cols(); ++column)
+          if (!std::isfinite(right_hand_side(row, column)))
+            throw error("row " + text(row) + " of a least-squares problem is not finite on its right-hand side");
+        if (!(weights[row] >= 0.0 && std::isfinite(weights[row])))
+          throw error("row " + text(row) + " of a least-squares problem has weight " + std::to_string(weights[row]) +
+                      ": weights must be finite and not negative");
+      }
+    }
+  };
+
+  struct lazy_normal_equations {
+    std::once_flag built;
+    std::optional<normal_equations> equations;
+  };
+
+  [[nodiscard]] row_matrix read(block range) const {
+    row_matrix all(static_cast<Eigen::Index>(range.size()), equations_->rows.columns);
+    equations_->rows.read(range, all);
+    if (!columns_) return all;
+    row_matrix chosen(all.rows(), unknowns());
+    for (Eigen::Index column = 0; column < chosen.cols(); ++column)
+      chosen.col(column) = all.col((*columns_)[static_cast<std::size_t>(column)]);
+    return chosen;
+  }
+
+  [[nodiscard]] normal_equations assemble_finite() const {
+    try {
+      return assemble(equations_->rows, right_hand_side(), weights(), threads_);
+    } catch (const error&) {
+      require_finite_rows();  // names the row, which the sums have forgotten
+      throw;
+    }
+  }
+
+  void require_finite_rows() const {
+    for_each_row_block([](block range, const row_matrix& part) {
+      for (Eigen::Index row = 0; row < part.rows(); ++row)
+        for (Eigen::Index column = 0; column < part.cols(); ++column)
+          if (!std::isfinite(part(row, column)))
+            throw error("row " + std::to_string(range.begin + static_cast<std::size_t>(row)) +
+                        " of a least-squares problem is not finite in column " + std::to_string(column));
+    });
+  }
+
+  std::shared_ptr<const stored> equations_;
+  thread_count threads_;
+  std::optional<std::vector<Eigen::Index>> columns_;    // of the whole; absent: all
+  std::shared_ptr<const least_squares_problem> whole_;  // whose normal equations hold ours
   std::shared_ptr<lazy_normal_equations> normal_ = std::make_shared<lazy_normal_equations>();
 };
+
+static_assert(quadratic_problem<least_squares_problem>);
 
 }  // namespace gonio

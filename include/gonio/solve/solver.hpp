@@ -1,6 +1,7 @@
 #pragma once
 /// The concept of a solver, and what it returns.
 
+#include <gonio/solve/kkt.hpp>
 #include <gonio/solve/least_squares_problem.hpp>
 
 #include <Eigen/Core>
@@ -13,8 +14,9 @@ namespace gonio {
 struct solution {
   Eigen::MatrixXd weights;      ///< k x r
   Eigen::VectorXd residual;     ///< weighted norm of A x - b
-  Eigen::VectorXd certificate;  ///< violation of the solver's own optimality (KKT) conditions, relative to |A'Wb|
-  int iterations = 0;           ///< 0 for a direct solver
+  Eigen::VectorXd objective;    ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
+  Eigen::VectorXd certificate;  ///< violation of the solver's own optimality (KKT) conditions, see kkt.hpp
+  int iterations = 0;           ///< of all right-hand sides together; 0 for a direct solver
 };
 
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
@@ -26,26 +28,30 @@ struct solution {
 /// ```cpp
 /// struct ordinary_least_squares {
 ///   gonio::solution solve(const gonio::least_squares_problem& problem) const {
-///     const auto& [gram, moment] = problem.normal();
-///     const Eigen::MatrixXd x = gram.ldlt().solve(moment);
-///     return {x, problem.residual(x), gonio::stationarity(gram * x - moment, moment), 0};
+///     const gonio::normal_equations& normal = problem.normal();
+///     const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.moment());
+///     return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
 ///   }
 /// };
 /// static_assert(gonio::solver<ordinary_least_squares>);
 /// ```
+/// A solver whose weights cannot be negative says so, because no such combination of a basis whose functions have an
+/// arbitrary sign makes sense: `static constexpr bool non_negative = true;`.
 template <class Solver>
 concept solver = requires(const Solver& candidate, const least_squares_problem& problem) {
   { candidate.solve(problem) } -> std::same_as<solution>;
 };
 
-/// The largest entry of each column of a gradient, relative to the largest of the column of A'Wb.
-[[nodiscard]] inline Eigen::VectorXd stationarity(const Eigen::MatrixXd& gradient, const Eigen::MatrixXd& moment) {
-  Eigen::VectorXd violation(gradient.cols());
-  for (Eigen::Index column = 0; column < gradient.cols(); ++column) {
-    const double scale = moment.col(column).cwiseAbs().maxCoeff();
-    violation[column] = gradient.col(column).cwiseAbs().maxCoeff() / (scale > 0.0 ? scale : 1.0);
-  }
-  return violation;
-}
+/// A solver that the normal equations suffice for. It takes subsets and leave-one-out problems without touching data.
+template <class Solver>
+concept normal_solver = solver<Solver> && requires(const Solver& candidate, const normal_equations& normal) {
+  { candidate.solve(normal) } -> std::same_as<solution>;
+};
+
+/// Do all solutions of a solver have weights that are not negative?
+template <class Solver>
+inline constexpr bool solves_non_negative = requires {
+  requires bool(Solver::non_negative);
+};
 
 }  // namespace gonio

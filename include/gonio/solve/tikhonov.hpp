@@ -28,57 +28,57 @@ class tikhonov {
 
   [[nodiscard]] double eta() const noexcept { return eta_; }
 
-  template <class Problem = least_squares_problem>
+  template <quadratic_problem Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
-    const bool wide = problem.equations() < problem.unknowns();
-    const bool through_dual = form_ == form::dual || (form_ == form::automatic && wide);
-    const Eigen::MatrixXd x = through_dual ? solve_dual(problem) : solve_primal(problem);
-    return {x, problem.residual(x), certificate(problem, x), 0};
+    if constexpr (requires { problem.rows(); }) {
+      const bool wide = problem.equations() < problem.unknowns();
+      if (form_ == form::dual || (form_ == form::automatic && wide)) return solve_dual(problem);
+    }
+    return solve_primal(problem);
   }
 
  private:
   template <class Problem>
-  [[nodiscard]] Eigen::MatrixXd solve_primal(const Problem& problem) const {
-    Eigen::MatrixXd penalised = problem.normal().gram;
+  [[nodiscard]] solution solve_primal(const Problem& problem) const {
+    const normal_equations& normal = problem.normal();
+    Eigen::MatrixXd penalised = normal.gram();
     penalised.diagonal().array() += eta_;
-    return penalised.llt().solve(problem.normal().moment);
+    const normal_equations ridge(std::move(penalised), normal.moment());
+    const Eigen::MatrixXd x = ridge.gram().llt().solve(ridge.moment());
+    return {x, problem.residual(x), ridge.objective(x), stationarity(ridge, x)};
   }
 
   template <class Problem>
-  [[nodiscard]] Eigen::MatrixXd solve_dual(const Problem& problem) const {
-    row_matrix rows = problem.rows();
-    Eigen::MatrixXd right = problem.right_hand_side();
-    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-      const double root = std::sqrt(problem.weights()[row]);
-      rows.row(row) *= root;
-      right.row(row) *= root;
-    }
+  [[nodiscard]] solution solve_dual(const Problem& problem) const {
+    const Eigen::VectorXd root = problem.weights().cwiseSqrt();
+    const row_matrix rows = root.asDiagonal() * problem.rows();
+    const Eigen::MatrixXd right = root.asDiagonal() * problem.right_hand_side();
     Eigen::MatrixXd penalised = rows * rows.transpose();
     penalised.diagonal().array() += eta_;
-    const Eigen::MatrixXd dual = penalised.llt().solve(right);
-    return rows.transpose() * dual;
-  }
+    const Eigen::MatrixXd x = rows.transpose() * penalised.llt().solve(right);
 
-  /// The gradient A'W(Ax - b) + eta x vanishes at the optimum.
-  template <class Problem>
-  [[nodiscard]] Eigen::VectorXd certificate(const Problem& problem, const Eigen::MatrixXd& x) const {
-    Eigen::MatrixXd misfit = problem.rows() * x;
-    misfit -= problem.right_hand_side();
-    Eigen::MatrixXd weighted = problem.right_hand_side();
-    for (Eigen::Index row = 0; row < misfit.rows(); ++row) {
-      misfit.row(row) *= problem.weights()[row];
-      weighted.row(row) *= problem.weights()[row];
+    // The gradient A'W(A x - b) + eta x vanishes at the optimum; without the k x k Gram matrix.
+    solution found;
+    const Eigen::MatrixXd misfit = rows * x - right;
+    const Eigen::MatrixXd gradient = rows.transpose() * misfit + eta_ * x;
+    const Eigen::MatrixXd moment = rows.transpose() * right;
+    found.residual = misfit.colwise().norm();
+    found.objective.resize(x.cols());
+    found.certificate.resize(x.cols());
+    for (Eigen::Index column = 0; column < x.cols(); ++column) {
+      found.objective[column] = 0.5 * (misfit.col(column).squaredNorm() - right.col(column).squaredNorm() +
+                                       eta_ * x.col(column).squaredNorm());
+      const double scale = moment.col(column).cwiseAbs().maxCoeff();
+      found.certificate[column] = gradient.col(column).cwiseAbs().maxCoeff() / (scale > 0.0 ? scale : 1.0);
     }
-    Eigen::MatrixXd gradient = problem.rows().transpose() * misfit;
-    gradient += eta_ * x;
-    const Eigen::MatrixXd moment = problem.rows().transpose() * weighted;
-    return stationarity(gradient, moment);
+    found.weights = x;
+    return found;
   }
 
   double eta_;
   form form_;
 };
 
-static_assert(solver<tikhonov>);
+static_assert(normal_solver<tikhonov>);
 
 }  // namespace gonio

@@ -1,0 +1,45 @@
+#pragma once
+/// The matrix of a least-squares problem, read a block of rows at a time wherever it lives: in an array, in the table
+/// of a basis, between its cells. A million rows by 99 need no second copy.
+
+#include <gonio/core/parallel.hpp>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <memory>
+#include <utility>
+
+namespace gonio {
+
+/// A matrix whose rows are contiguous, as equations come in.
+using row_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Where a block of rows is written: contiguous rows, any distance between them.
+using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
+
+/// `rows` x `columns` numbers. `read(range, out)` writes the rows of a range into `out`, which has that many rows; it
+/// is called from several threads at once.
+///
+/// ```cpp
+/// // The powers of 1,000,000 numbers, never stored.
+/// gonio::row_source powers{1'000'000, 4, [](gonio::block range, gonio::row_block out) {
+///   for (std::size_t i = range.begin; i < range.end; ++i)
+///     for (int power = 0; power < 4; ++power) out(i - range.begin, power) = std::pow(1e-6 * i, power);
+/// }};
+/// ```
+struct row_source {
+  Eigen::Index rows = 0;
+  Eigen::Index columns = 0;
+  std::function<void(block range, row_block out)> read;
+};
+
+/// A matrix that is at hand.
+[[nodiscard]] inline row_source rows_of(row_matrix matrix) {
+  const auto shared = std::make_shared<const row_matrix>(std::move(matrix));
+  return {shared->rows(), shared->cols(), [shared](block range, row_block out) {
+            out = shared->middleRows(static_cast<Eigen::Index>(range.begin), static_cast<Eigen::Index>(range.size()));
+          }};
+}
+
+}  // namespace gonio

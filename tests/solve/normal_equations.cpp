@@ -1,0 +1,56 @@
+#include <gonio/solve/normal_equations.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using gonio::normal_equations;
+
+namespace {
+
+const Eigen::MatrixXd& matrix() {
+  static const Eigen::MatrixXd a = Eigen::MatrixXd::Random(20, 5);
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("objective and residual are those of the rows") {
+  const Eigen::MatrixXd& a = matrix();
+  const Eigen::VectorXd b = Eigen::VectorXd::Random(20), x = Eigen::VectorXd::Random(5);
+  const normal_equations normal(a.transpose() * a, a.transpose() * b, Eigen::VectorXd::Constant(1, b.squaredNorm()));
+  CHECK(normal.objective(x)[0] == doctest::Approx(0.5 * (a * x - b).squaredNorm() - 0.5 * b.squaredNorm()));
+  CHECK(normal.residual(x)[0] == doctest::Approx((a * x - b).norm()));
+}
+
+TEST_CASE("leaving a column out is a submatrix of the whole's products") {
+  const Eigen::MatrixXd& a = matrix();
+  const Eigen::MatrixXd gram = a.transpose() * a;
+  const auto columns = gonio::all_but(5, 2);
+  CHECK(columns == std::vector<Eigen::Index>{0, 1, 3, 4});
+  const auto problem = gonio::leave_one_out(gram, 2, columns);
+  CHECK(problem.unknowns() == 4);
+  CHECK(problem.gram()(1, 2) == gram(1, 3));
+  CHECK(problem.moment()(3, 0) == gram(4, 2));
+  CHECK(problem.energy()[0] == gram(2, 2));
+}
+
+TEST_CASE("normal equations that cannot be solved are refused with the offending column") {
+  const auto refuse = [](Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy, const char* words) {
+    CHECK_THROWS_WITH_AS(normal_equations(gram, moment, energy), doctest::Contains(words), gonio::error);
+  };
+  const Eigen::MatrixXd good = Eigen::MatrixXd::Identity(3, 3), right = Eigen::MatrixXd::Ones(3, 1);
+  refuse(Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 1), {}, "empty");
+  refuse(good, Eigen::MatrixXd(3, 0), {}, "empty");
+  refuse(Eigen::MatrixXd::Ones(3, 2), right, {}, "3 x 2");
+  refuse(good, Eigen::MatrixXd::Ones(2, 1), {}, "2 x 1");
+  refuse(good, right, Eigen::VectorXd::Ones(2), "2 right-hand sides");
+  Eigen::MatrixXd broken = good;
+  broken(0, 2) = std::nan("");
+  refuse(broken, right, {}, "column 2");
+  refuse(good, Eigen::Vector3d(0, std::numeric_limits<double>::infinity(), 0), {}, "column 1");
+  broken = good;
+  broken(1, 1) = -1;
+  refuse(broken, right, {}, "column 1");
+  refuse(good, right, Eigen::VectorXd::Constant(1, std::nan("")), "right-hand side");
+}
