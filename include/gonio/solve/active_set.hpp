@@ -1,0 +1,230 @@
+#pragma once
+/// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0: NNLS, Lasso and
+/// non-negative Lasso are one algorithm that differs in the signs it allows.
+///
+/// With x >= 0 and lambda = 0 it is Lawson and Hanson's (Solving Least Squares Problems, 1974, algorithm NNLS) on the
+/// normal equations (Bro and de Jong, J. Chemometrics 11, 1997); with both signs it is the feature-sign search of Lee,
+/// Battle, Raina and Ng (NIPS 2006).
+
+#include <gonio/solve/compensated.hpp>
+#include <gonio/solve/growing_cholesky.hpp>
+#include <gonio/solve/iteration.hpp>
+#include <gonio/solve/kkt.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace gonio {
+
+/// Weights are passive (free, with a sign they must keep) or zero. A step lets the column enter that promises most, and
+/// then moves to the optimum of the passive ones, where those that would change sign leave. The objective falls with
+/// every step, so that no passive set comes back. One step costs O(k p + p^2) for p passive columns, and O(p^2) more
+/// for each that leaves.
+template <sign_rule Signs>
+class active_set {
+ public:
+  /// `lambda` >= 0. Keeps a reference to `normal`.
+  active_set(const normal_equations& normal, Eigen::Index right_hand_side, double lambda = 0.0)
+      : gram_(normal.gram()),
+        moment_(normal.moment().col(right_hand_side)),
+        lambda_(lambda),
+        factor_(normal.unknowns()),
+        sign_(Eigen::VectorXd::Zero(normal.unknowns())),
+        x_(Eigen::VectorXd::Zero(normal.unknowns())),
+        descent_(moment_),
+        norms_(gram_.diagonal().cwiseSqrt()),
+        barred_(static_cast<std::size_t>(normal.unknowns()), false) {
+    for (Eigen::Index j = 0; j < norms_.size(); ++j)
+      if (norms_[j] > 0.0) moment_scale_ = std::max(moment_scale_, std::abs(moment_[j]) / norms_[j]);
+    choose_entering();
+  }
+
+  /// Starts from weights near the optimum, as those of a neighbouring problem are: their signs become the passive set.
+  void start_from(const Eigen::VectorXd& near_optimum) {
+    for (Eigen::Index j = 0; j < near_optimum.size(); ++j) {
+      const bool allowed = Signs == sign_rule::any ? near_optimum[j] != 0.0 : near_optimum[j] > 0.0;
+      if (!allowed || !append(j)) continue;
+      sign_[j] = near_optimum[j] > 0.0 ? 1.0 : -1.0;
+      x_[j] = near_optimum[j];
+    }
+    settle();
+    update_descent();
+    look_for_entering();
+  }
+
+  /// Lets one column enter and settles.
+  void step() {
+    const Eigen::Index entering = entering_;
+    sign_[entering] = descent_[entering] > 0.0 ? 1.0 : -1.0;
+    if (enter(entering)) {
+      barred_.assign(barred_.size(), false);
+      update_descent();
+    } else {
+      sign_[entering] = 0.0;
+      barred_[static_cast<std::size_t>(entering)] = true;
+    }
+    look_for_entering();
+  }
+
+  [[nodiscard]] bool converged() const noexcept { return entering_ < 0; }
+  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+
+ private:
+  /// Returns false if the column cannot enter because of rounding alone.
+  [[nodiscard]] bool enter(Eigen::Index column) {
+    if (!append(column)) return exchange(column);
+    const Eigen::VectorXd z = optimum_of_passive();
+    if (z[z.size() - 1] * sign_[column] > 0.0) {
+      settle();
+      return true;
+    }
+    drop(std::ssize(passive_) - 1);
+    return false;
+  }
+
+  [[nodiscard]] bool append(Eigen::Index column) {
+    Eigen::VectorXd cross(std::ssize(passive_));
+    for (Eigen::Index i = 0; i < cross.size(); ++i) cross[i] = gram_(passive_[static_cast<std::size_t>(i)], column);
+    if (!factor_.append(cross, gram_(column, column))) return false;
+    passive_.push_back(column);
+    return true;
+  }
+
+  /// A column that depends on the passive ones can only shorten |x|_1: move along the direction that leaves A x as it
+  /// is until a passive weight is zero, whose place it takes.
+  [[nodiscard]] bool exchange(Eigen::Index column) {
+    if (lambda_ == 0.0) return false;
+    Eigen::VectorXd combination(std::ssize(passive_));
+    for (Eigen::Index i = 0; i < combination.size(); ++i)
+      combination[i] = gram_(passive_[static_cast<std::size_t>(i)], column);
+    factor_.solve(combination);
+    double length = std::numeric_limits<double>::infinity();
+    Eigen::Index first = -1;
+    for (Eigen::Index i = 0; i < combination.size(); ++i) {
+      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      const double shrinking = combination[i] * sign_[column] * sign_[j];
+      if (shrinking > 0.0 && std::abs(x_[j]) / shrinking < length) {
+        length = std::abs(x_[j]) / shrinking;
+        first = i;
+      }
+    }
+    if (first < 0) return false;
+    for (Eigen::Index i = 0; i < combination.size(); ++i)
+      x_[passive_[static_cast<std::size_t>(i)]] -= length * sign_[column] * combination[i];
+    drop(first);
+    if (!append(column)) return false;
+    x_[column] = length * sign_[column];
+    settle();
+    return true;
+  }
+
+  void drop(Eigen::Index position) {
+    const auto place = passive_.begin() + position;
+    x_[*place] = sign_[*place] = 0.0;
+    factor_.remove(position);
+    passive_.erase(place);
+  }
+
+  /// Q_PP z = m_P - lambda s_P.
+  [[nodiscard]] Eigen::VectorXd optimum_of_passive() const {
+    Eigen::VectorXd z(std::ssize(passive_));
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      z[i] = moment_[j] - lambda_ * sign_[j];
+    }
+    factor_.solve(z);
+    return z;
+  }
+
+  /// Moves to the optimum of the passive columns; as long as signs would change on the way, stops at the first change
+  /// and lets that column leave.
+  void settle() {
+    while (!passive_.empty()) {
+      const Eigen::VectorXd z = optimum_of_passive();
+      double length = 1.0;
+      bool inside = true;
+      for (Eigen::Index i = 0; i < z.size(); ++i) {
+        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        if (z[i] * sign_[j] > 0.0) continue;
+        inside = false;
+        const double distance = std::abs(x_[j]) + std::abs(z[i]);
+        length = std::min(length, distance > 0.0 ? std::abs(x_[j]) / distance : 0.0);
+      }
+      for (Eigen::Index i = 0; i < z.size(); ++i) {
+        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        x_[j] = inside ? z[i] : x_[j] + length * (z[i] - x_[j]);
+      }
+      if (inside) return;
+      for (Eigen::Index i = z.size() - 1; i >= 0; --i) {
+        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(z[i]);
+        if (z[i] * sign_[j] <= 0.0 && x_[j] * sign_[j] <= rounding) drop(i);
+      }
+    }
+  }
+
+  /// One step of iterative refinement with a residual in twice the precision: it makes the optimum of an
+  /// ill-conditioned passive set independent of the order in which its columns came.
+  void refine() {
+    Eigen::VectorXd correction(std::ssize(passive_));
+    for (Eigen::Index i = 0; i < correction.size(); ++i) {
+      const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
+      compensated_sum misfit(moment_[row]);
+      misfit.add(-lambda_ * sign_[row]);
+      for (const Eigen::Index j : passive_) misfit.add_product(-gram_(j, row), x_[j]);
+      correction[i] = misfit.value();
+    }
+    factor_.solve(correction);
+    for (Eigen::Index i = 0; i < correction.size(); ++i) {
+      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      if ((x_[j] + correction[i]) * sign_[j] > 0.0) x_[j] += correction[i];
+    }
+  }
+
+  /// m - Q x.
+  void update_descent() {
+    descent_ = moment_;
+    for (const Eigen::Index j : passive_) descent_ -= x_[j] * gram_.col(j);
+  }
+
+  /// Refines before it decides that nothing can enter any more.
+  void look_for_entering() {
+    choose_entering();
+    if (entering_ >= 0) return;
+    refine();
+    update_descent();
+    choose_entering();
+  }
+
+  /// The column outside whose entering lowers the objective fastest per length of A x, if that is more than rounding.
+  void choose_entering() {
+    double terms = moment_scale_;
+    for (const Eigen::Index j : passive_) terms += std::abs(x_[j]) * norms_[j];
+    double best = 1e-13 * terms;
+    entering_ = -1;
+    for (Eigen::Index j = 0; j < descent_.size(); ++j) {
+      if (sign_[j] != 0.0 || norms_[j] == 0.0 || barred_[static_cast<std::size_t>(j)]) continue;
+      const double slope = Signs == sign_rule::any ? std::abs(descent_[j]) : descent_[j];
+      if (slope - lambda_ <= best * norms_[j]) continue;
+      best = (slope - lambda_) / norms_[j];
+      entering_ = j;
+    }
+  }
+
+  const Eigen::MatrixXd& gram_;
+  Eigen::VectorXd moment_;
+  double lambda_;
+  growing_cholesky<double> factor_;
+  std::vector<Eigen::Index> passive_;  // in the order of the factor
+  Eigen::VectorXd sign_;               // 0: not passive
+  Eigen::VectorXd x_, descent_, norms_;
+  std::vector<bool> barred_;
+  double moment_scale_ = 0.0;
+  Eigen::Index entering_ = -1;
+};
+
+}  // namespace gonio

@@ -1,0 +1,119 @@
+#pragma once
+/// Least squares with a penalty on the sum of the weights' magnitudes: Tibshirani, J. Royal Stat. Soc. B 58, 1996.
+
+#include <gonio/solve/coordinate_descent.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The smallest lambda at which all weights of one right-hand side are zero.
+[[nodiscard]] inline double largest_lambda(const normal_equations& normal, Eigen::Index right_hand_side,
+                                           sign_rule signs) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < normal.unknowns(); ++j) {
+    const double moment = normal.moment()(j, right_hand_side);
+    largest = std::max(largest, signs == sign_rule::any ? std::abs(moment) : moment);
+  }
+  return largest;
+}
+
+namespace detail {
+
+inline void require_penalty(double lambda) {
+  if (!(lambda >= 0.0 && std::isfinite(lambda)))
+    throw error("the penalty lambda of a Lasso must be finite and not negative, not " + std::to_string(lambda));
+}
+
+/// Fills the objective and the certificate of weights found with the penalty.
+template <sign_rule Signs>
+void judge_lasso(solution& found, const normal_equations& normal, double lambda) {
+  found.objective = normal.objective(found.weights);
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
+    found.objective[column] += lambda * found.weights.col(column).cwiseAbs().sum();
+  found.certificate = kkt_violation(normal, found.weights, lambda, Signs);
+}
+
+}  // namespace detail
+
+/// Minimises 1/2 |W^(1/2) (A x - b)|^2 + lambda |x|_1, exactly: coordinate descent finds the support, an active set the
+/// weights. lambda is in the units of A'Wb. Throws gonio::error if it does not converge.
+template <sign_rule Signs>
+class basic_lasso {
+ public:
+  static constexpr bool non_negative = Signs == sign_rule::non_negative;
+  using iteration = coordinate_descent<Signs>;
+
+  /// Throws gonio::error unless lambda is finite and not negative. Zero is least squares (NNLS if x >= 0) with as few
+  /// independent columns as it needs.
+  explicit basic_lasso(double lambda) : lambda_(lambda) { detail::require_penalty(lambda); }
+
+  [[nodiscard]] double lambda() const noexcept { return lambda_; }
+
+  template <quadratic_problem Problem = least_squares_problem>
+  [[nodiscard]] solution solve(const Problem& problem) const {
+    const normal_equations& normal = problem.normal();
+    solution found = solve_by_iteration(problem, 100, "the Lasso",
+                                        [&](Eigen::Index column) { return iteration(normal, column, lambda_); });
+    detail::judge_lasso<Signs>(found, normal, lambda_);
+    return found;
+  }
+
+ private:
+  double lambda_;
+};
+
+using lasso = basic_lasso<sign_rule::any>;
+using non_negative_lasso = basic_lasso<sign_rule::non_negative>;
+
+static_assert(normal_solver<lasso> && normal_solver<non_negative_lasso>);
+
+/// Solutions for falling penalties, each started from the last: the regularisation path.
+struct lasso_path {
+  std::vector<double> lambdas;
+  std::vector<solution> solutions;
+};
+
+/// `count` penalties in geometric progression from `largest_lambda` of the right-hand sides down to `smallest_share` of
+/// it.
+[[nodiscard]] inline std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
+                                                         double smallest_share = 1e-3,
+                                                         sign_rule signs = sign_rule::any) {
+  if (count < 2) throw error("a regularisation path needs at least two penalties, not " + std::to_string(count));
+  if (!(smallest_share > 0.0 && smallest_share < 1.0))
+    throw error("the smallest penalty of a path must be a share in (0, 1) of the largest, not " +
+                std::to_string(smallest_share));
+  double largest = 0.0;
+  for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column)
+    largest = std::max(largest, largest_lambda(normal, column, signs));
+  std::vector<double> lambdas(count);
+  for (std::size_t i = 0; i < count; ++i)
+    lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
+  return lambdas;
+}
+
+/// Solves for each penalty, starting from the solution of the one before. Best given falling. Throws gonio::error for a
+/// penalty that `basic_lasso` refuses, or without convergence.
+template <sign_rule Signs = sign_rule::any, quadratic_problem Problem = least_squares_problem>
+[[nodiscard]] lasso_path solve_lasso_path(const Problem& problem, std::vector<double> lambdas) {
+  const normal_equations& normal = problem.normal();
+  lasso_path path{std::move(lambdas), {}};
+  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(normal.unknowns(), normal.right_hand_sides());
+  for (const double lambda : path.lambdas) {
+    detail::require_penalty(lambda);
+    const auto warm = [&](Eigen::Index column) {
+      active_set<Signs> run(normal, column, lambda);
+      run.start_from(last.col(column));
+      return run;
+    };
+    const int limit = static_cast<int>(20 * normal.unknowns() + 100);
+    path.solutions.push_back(solve_by_iteration(problem, limit, "the Lasso path", warm));
+    detail::judge_lasso<Signs>(path.solutions.back(), normal, lambda);
+    last = path.solutions.back().weights;
+  }
+  return path;
+}
+
+}  // namespace gonio
