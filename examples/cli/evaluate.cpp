@@ -12,6 +12,7 @@ void add_evaluate(CLI::App& app) {
   command->require_subcommand(1);
   add_nielsen_test_materials(*command);
   add_measured_materials(*command);
+  add_linear_combination(*command);
 }
 
 }  // namespace cli

@@ -12,6 +12,7 @@ namespace cli {
 
 void add_nielsen_test_materials(CLI::App& evaluate);
 void add_measured_materials(CLI::App& evaluate);
+void add_linear_combination(CLI::App& evaluate);
 
 /// The means over materials of all measures, with the keys of `gonio compare --json`.
 [[nodiscard]] inline json mean_errors(std::span<const gonio::material_result> results) {
@@ -19,7 +20,8 @@ void add_measured_materials(CLI::App& evaluate);
   return {{"mapped_rms", mean_over(results, [](const auto& e) { return e.mapped_rms.mean(); })},
           {"cosine_rms", mean_over(results, [](const auto& e) { return e.cosine_rms.mean(); })},
           {"delta_e_lights", mean_over(results, [](const auto& e) { return e.delta_e_lights; })},
-          {"delta_e_env", mean_over(results, [](const auto& e) { return e.delta_e_env; })}};
+          {"delta_e_env", mean_over(results, [](const auto& e) { return e.delta_e_env; })},
+          {"peak_ratio", mean_over(results, [](const auto& e) { return e.peak_ratio.mean(); })}};
 }
 
 /// The errors of each material by its name.

@@ -7,8 +7,10 @@
 
 #include <concepts>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace gonio {
 
@@ -40,16 +42,69 @@ concept basis = requires(const Basis& functions, std::size_t cell) {
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
 
+/// Three bases over the same cells with the same number of functions and the same metric, one for each colour channel.
+template <class Basis>
+concept channelwise_basis = requires(const Basis& functions, std::size_t channel) {
+  { functions.size() } -> std::convertible_to<std::size_t>;
+  { functions.cells() } -> std::convertible_to<const valid_cells&>;
+  { functions.channel(channel) } -> basis;
+  requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
+};
+
+/// What an estimator takes: one basis for all three channels, or one for each.
+template <class Basis>
+concept colour_basis = basis<Basis> || channelwise_basis<Basis>;
+
+/// The basis of one colour channel.
+template <colour_basis Basis>
+[[nodiscard]] auto channel_of(const Basis& functions, std::size_t channel) {
+  if constexpr (basis<Basis>)
+    return functions;
+  else
+    return functions.channel(channel);
+}
+
+/// The functions that may take part in a fit, ascending: all, unless the basis offers `columns()`, a range of the
+/// numbers of those that may. The others have weight zero.
+template <colour_basis Basis>
+[[nodiscard]] std::vector<Eigen::Index> columns_of(const Basis& functions) {
+  std::vector<Eigen::Index> columns;
+  if constexpr (requires { functions.columns(); }) {
+    columns.assign(functions.columns().begin(), functions.columns().end());
+  } else {
+    columns.resize(static_cast<std::size_t>(functions.size()));
+    std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  }
+  return columns;
+}
+
+/// Are the signs of the functions arbitrary, as those of principal components are? Such a basis says
+/// `static constexpr bool arbitrary_sign = true;`.
+template <class Basis>
+inline constexpr bool has_arbitrary_sign = requires {
+  requires bool(Basis::arbitrary_sign);
+};
+
+/// Writes the values of all functions at a location, interpolated in the metric's domain, to a row of size() numbers.
+template <basis Basis, class Row>
+void read_row_at(const Basis& functions, const location& at, Row&& out) {
+  for (int corner = 0; corner < at.count; ++corner) {
+    const auto slot = static_cast<std::size_t>(corner);
+    const std::span<const float> values = functions.row(at.cell[slot]);
+    const Eigen::Map<const Eigen::RowVectorXf> part(values.data(), static_cast<Eigen::Index>(values.size()));
+    if (corner == 0)
+      out = at.weight[slot] * part.template cast<double>();
+    else
+      out += at.weight[slot] * part.template cast<double>();
+  }
+}
+
 /// The values of all functions at a location, interpolated in the metric's domain: size() numbers.
 template <basis Basis>
 [[nodiscard]] Eigen::RowVectorXd row_at(const Basis& functions, const location& at) {
-  const auto row = [&](std::size_t cell) {
-    const std::span<const float> values = functions.row(cell);
-    return Eigen::Map<const Eigen::RowVectorXf>(values.data(), static_cast<Eigen::Index>(values.size()))
-        .template cast<double>();
-  };
-  const Eigen::RowVectorXd zero = Eigen::RowVectorXd::Zero(static_cast<Eigen::Index>(functions.size()));
-  return interpolate(at, row, zero);
+  Eigen::RowVectorXd row(static_cast<Eigen::Index>(functions.size()));
+  read_row_at(functions, at, row);
+  return row;
 }
 
 /// The offset at a location, interpolated in the metric's domain.

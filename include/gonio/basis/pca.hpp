@@ -34,6 +34,9 @@ struct pca_parts {
 template <error_metric Metric>
 class pca {
  public:
+  /// A component times -1 is as good a component: see `has_arbitrary_sign`.
+  static constexpr bool arbitrary_sign = true;
+
   /// Throws gonio::error if the sizes of the parts do not match.
   explicit pca(pca_parts<Metric> parts) : parts_(std::make_shared<const pca_parts<Metric>>(std::move(parts))) {
     const auto cells = static_cast<Eigen::Index>(parts_->cells.size());

@@ -3,26 +3,28 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/estimator.hpp>
-#include <gonio/metric/log_relative.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/table/upsample.hpp>
 
+#include <algorithm>
 #include <array>
-#include <span>
+#include <type_traits>
 #include <utility>
-#include <vector>
 
 namespace gonio {
 
 /// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and what the
 /// solver said about it. Evaluation costs O(8 x size of the basis); tabulate for the inner loop of a
 /// renderer.
-template <basis Basis>
+template <colour_basis Basis>
 class fitted_brdf {
  public:
   /// `found.weights` is (size of the basis) x 3, one column per colour channel.
   fitted_brdf(Basis basis, solution found)
-      : basis_(std::move(basis)), found_(std::move(found)), weights_(found_.weights.template cast<float>()) {
+      : basis_(std::move(basis)),
+        channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
+        found_(std::move(found)),
+        weights_(found_.weights.template cast<float>()) {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
       throw error("a fit by " + std::to_string(basis_.size()) +
                   " functions needs as many weights for each of 3 channels");
@@ -43,16 +45,16 @@ class fitted_brdf {
 
   /// The value at a cell of the basis in the metric's domain.
   [[nodiscard]] rgb mapped(std::size_t cell) const noexcept {
-    const std::span<const float> row = basis_.row(cell);
-    const Eigen::Map<const Eigen::RowVectorXf> functions(row.data(), static_cast<Eigen::Index>(row.size()));
-    return (functions * weights_).transpose().template cast<double>().array() + basis_.offset(cell);
+    rgb value;
+    for (std::size_t c = 0; c < 3; ++c) value[static_cast<Eigen::Index>(c)] = mapped(cell, c);
+    return value;
   }
 
   /// Expands the fit to a table: one product of the basis' rows with the weights, which reads the basis once,
   /// and where the cells are others an interpolation of its three channels. Same bytes for any number of
   /// threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
-    if constexpr (std::same_as<std::remove_cvref_t<decltype(basis_.metric())>, log_relative>)
+    if constexpr (row_metric<metric_type>)
       return tabulate_rows(cells, threads);
     else
       return tabulate_cells(cells, threads);
@@ -86,46 +88,41 @@ class fitted_brdf {
     for_each_block(
         basis_.cells().size(), 4096,
         [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-            // Three contiguous dot products run at the speed of reading the row.
-            const Eigen::Map<const Eigen::VectorXf> row(basis_.row(cell).data(), weights_.rows());
-            const auto offset = static_cast<float>(basis_.offset(cell));
-            for (Eigen::Index channel = 0; channel < 3; ++channel)
-              field(channel, static_cast<Eigen::Index>(cell)) = weights_.col(channel).dot(row) + offset;
-          }
+          for (std::size_t cell = range.begin; cell < range.end; ++cell)
+            for (std::size_t c = 0; c < 3; ++c)
+              field(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(cell)) = mapped(cell, c);
         },
         threads);
     return field;
   }
 
  private:
-  /// With the log-relative metric, the logarithm of the reference is interpolated with the three channels and
-  /// a row of cells is mapped back at once.
-  [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const {
-    const auto& metric = basis_.metric();
-    cell_fields<4> fields(4, static_cast<Eigen::Index>(basis_.cells().size()));
-    fields.template topRows<3>() = mapped_field(threads);
-    for (Eigen::Index cell = 0; cell < fields.cols(); ++cell)
-      fields(3, cell) =
-          static_cast<float>(log_relative::log_reference(metric.reference()[static_cast<std::size_t>(cell)]));
+  using metric_type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
+  using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
 
-    const grid& target = cells.grid();
-    std::vector<double> cos_phi;
-    for (int k = 0; k < target.extents().phi_d; ++k) cos_phi.push_back(std::cos(target.phi_d(k)));
+  /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
+  [[nodiscard]] float mapped(std::size_t cell, std::size_t channel) const noexcept {
+    const Eigen::Map<const Eigen::VectorXf> row(channels_[channel].row(cell).data(), weights_.rows());
+    return weights_.col(static_cast<Eigen::Index>(channel)).dot(row) +
+           static_cast<float>(channels_[channel].offset(cell));
+  }
+
+  /// Through the three channels, and what the metric needs beside them, a row of cells at once.
+  [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const {
+    const metric_type& metric = basis_.metric();
+    constexpr int fields_count = 3 + metric_type::companions;
+    cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
+    fields.template topRows<3>() = mapped_field(threads);
+    if constexpr (metric_type::companions > 0)
+      for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
+        const auto companions = metric.companion(static_cast<std::size_t>(cell));
+        std::copy(companions.begin(), companions.end(), fields.col(cell).data() + 3);
+      }
     brdf_table table(cells);
-    upsample<4>(
+    upsample<fields_count>(
         basis_.cells(), fields, cells,
         [&](const cell_row& row, auto& values) {
-          // cos_i cos_o = (sum - difference cos phi_d) (sum + difference cos phi_d), as in `cosines`.
-          const double sum = std::cos(row.theta_h) * std::cos(row.theta_d);
-          const double difference = std::sin(row.theta_h) * std::sin(row.theta_d);
-          std::array<float, 4096> weight;  // no grid has longer rows
-          for (std::size_t i = 0; i < row.count; ++i) {
-            const double part = difference * cos_phi[static_cast<std::size_t>(row.phi_d[i])];
-            weight[i] = static_cast<float>(log_relative::cosine_weight({sum - part, sum + part}));
-          }
-          log_relative::inverse_clamped(values, std::span(weight).first(row.count),
-                                        table.values().subspan(3 * row.first, 3 * row.count));
+          metric.inverse_row(row, values, table.values().subspan(3 * row.first, 3 * row.count));
         },
         threads);
     return table;
@@ -137,6 +134,7 @@ class fitted_brdf {
   }
 
   Basis basis_;
+  std::array<channel_type, 3> channels_;
   solution found_;
   Eigen::Matrix<float, Eigen::Dynamic, 3> weights_;
 };

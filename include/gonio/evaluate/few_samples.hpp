@@ -4,29 +4,14 @@
 
 #include <gonio/basis/project.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/material_result.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <span>
-#include <string>
 #include <vector>
 
 namespace gonio {
-
-/// The ten materials that Nielsen et al. 2015 leave out of the prior (their Figure 2).
-[[nodiscard]] inline const std::vector<std::string>& nielsen_test_materials() {
-  static const std::vector<std::string> names{
-      "black-soft-plastic", "blue-acrylic",          "blue-metallic-paint2",     "green-fabric",     "light-red-paint",
-      "pink-jasper",        "silver-metallic-paint", "specular-violet-phenolic", "two-layer-silver", "white-fabric"};
-  return names;
-}
-
-/// How one material came out.
-struct material_result {
-  std::string name;
-  comparison errors;
-};
 
 /// Measures each truth without defects at the cells nearest to `directions`, reconstructs it by a prior with
 /// Tikhonov's penalty eta (Eq. 12), and compares over the truth's cells in the domain of `metric`.
@@ -60,14 +45,6 @@ template <error_metric Metric>
     results.push_back({truths.names[m], compare(estimate, truth, prior.metric(), judge, threads)});
   }
   return results;
-}
-
-/// The mean over materials, and over channels where there is one value a channel, of a measure.
-template <class Measure>
-[[nodiscard]] double mean_over(std::span<const material_result> results, Measure&& measure) {
-  double sum = 0.0;
-  for (const material_result& result : results) sum += measure(result.errors);
-  return sum / static_cast<double>(results.size());
 }
 
 }  // namespace gonio

@@ -2,9 +2,12 @@
 /// The concept of an error metric: a map of reflectance under which differences are worth squaring.
 
 #include <gonio/table/location.hpp>
+#include <gonio/table/upsample.hpp>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
+#include <span>
 
 namespace gonio {
 
@@ -30,6 +33,19 @@ concept error_metric = requires(const Metric& metric, double value, std::size_t 
   { metric.inverse(value, cell) } -> std::convertible_to<double>;
   { metric.forward(value, at) } -> std::convertible_to<double>;
   { metric.inverse(value, at) } -> std::convertible_to<double>;
+};
+
+/// A metric that maps a whole row of cells back at once, which is how tables are expanded fast.
+///
+/// `companions` fields of its own are interpolated beside the three channels, given cell by cell by
+/// `companion(cell)` (an array of that many floats; not needed if there are none); `inverse_row(row, values, out)`
+/// takes an array of 3 + companions rows and a column for each cell of `row`, which it may destroy, and writes
+/// `inverse` of the three channels, clamped at zero, to `out`, cell by cell.
+template <class Metric>
+concept row_metric = error_metric<Metric> &&
+    requires(const Metric& metric, const cell_row& row, cell_fields<3 + Metric::companions>& values,
+             std::span<float> out) {
+  metric.inverse_row(row, values, out);
 };
 
 }  // namespace gonio

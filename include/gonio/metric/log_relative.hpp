@@ -86,19 +86,21 @@ class log_relative {
     return {cells, std::move(moved)};
   }
 
-  /// `inverse` of three channels at many places at once, clamped at zero, as expanding a table needs it. A column
-  /// of `values` (destroyed) is a place: three mapped channels and the logarithm of the reference as
-  /// `log_reference` gives it; `cosine_weight` and `out` (three channels a place) belong to the columns in order.
+  /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
+  static constexpr int companions = 1;
+  [[nodiscard]] std::array<float, 1> companion(std::size_t cell) const noexcept {
+    return {static_cast<float>(log_reference((*reference_)[cell]))};
+  }
   template <class Values>
-  static void inverse_clamped(Values& values, std::span<const float> cosine_weight, std::span<float> out) {
+  static void inverse_row(const cell_row& row, Values& values, std::span<float> out) {
     constexpr auto small = static_cast<float>(epsilon);
     values = values.exp();
-    for (std::size_t place = 0; place < cosine_weight.size(); ++place) {
-      const auto column = static_cast<Eigen::Index>(place);
-      const float shift = small / cosine_weight[place];
+    for (std::size_t i = 0; i < row.count; ++i) {
+      const auto column = static_cast<Eigen::Index>(i);
+      const float shift = small / static_cast<float>(cosine_weight(row.cosine(i)));
       // All four of a column at once; the fourth is not used.
       const Eigen::Array4f rho = (values.col(column) * (values(3, column) + shift) - shift).max(0.0f);
-      std::copy_n(rho.data(), 3, out.data() + 3 * place);
+      std::copy_n(rho.data(), 3, out.data() + 3 * i);
     }
   }
 
@@ -127,6 +129,6 @@ class log_relative {
   std::shared_ptr<const std::vector<float>> reference_;
 };
 
-static_assert(error_metric<log_relative>);
+static_assert(row_metric<log_relative>);
 
 }  // namespace gonio

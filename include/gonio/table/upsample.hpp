@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <vector>
 
 namespace gonio {
@@ -23,6 +24,15 @@ struct cell_row {
   double theta_h = 0.0;        ///< radians
   double theta_d = 0.0;        ///< radians
   const int* phi_d = nullptr;  ///< index along phi_d of each cell
+  /// cos theta_i and cos theta_o are sum -+ difference cos phi_d, as in `cosines`.
+  double sum = 0.0, difference = 0.0;
+  const double* cos_phi_d = nullptr;  ///< by index along phi_d
+
+  /// The cosines of the i-th cell of the row.
+  [[nodiscard]] cosine_pair cosine(std::size_t i) const noexcept {
+    const double part = difference * cos_phi_d[phi_d[i]];
+    return {sum - part, sum + part};
+  }
 };
 
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
@@ -42,8 +52,11 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
     dense.col(static_cast<Eigen::Index>(linear)) = fields.col(static_cast<Eigen::Index>(from.representative(linear)));
 
   std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
-  for (int k = 0; k < fine.phi_d; ++k)
+  std::vector<double> cos_phi_d(index(fine.phi_d));
+  for (int k = 0; k < fine.phi_d; ++k) {
     along_phi[index(k)] = detail::periodic_interval(source.phi_d_coordinate(target.phi_d(k)), coarse.phi_d);
+    cos_phi_d[index(k)] = std::cos(target.phi_d(k));
+  }
 
   const std::size_t rows = index(fine.theta_h) * index(fine.theta_d);
   for_each_block(
@@ -76,7 +89,15 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
                             static_cast<float>(p.weight[1]) * line.col(p.node[1]);
           }
           auto row_values = values.leftCols(count);
-          use(cell_row{first, static_cast<std::size_t>(count), theta_h, theta_d, phi_d.data()}, row_values);
+          const cell_row row{first,
+                             static_cast<std::size_t>(count),
+                             theta_h,
+                             theta_d,
+                             phi_d.data(),
+                             std::cos(theta_h) * std::cos(theta_d),
+                             std::sin(theta_h) * std::sin(theta_d),
+                             cos_phi_d.data()};
+          use(row, row_values);
         }
       },
       threads);

@@ -1,0 +1,54 @@
+#pragma once
+/// Every material of a database explained by the others: Noell, Koehler and Stricker 2014, section 2, where it
+/// generates the correction functions and gives the linear-combination rival its estimate from full data.
+
+#include <gonio/basis/measured.hpp>
+#include <gonio/estimate/decomposition.hpp>
+
+#include <array>
+
+namespace gonio {
+
+/// Fits materials of a basis by the other ones, over all cells, with weight 1. The Gram matrices of the three channels
+/// are computed once, O(cells size^2); after that a fit touches no data and costs the solver alone.
+///
+/// ```cpp
+/// const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
+/// const auto chrome = others.fit(materials.find("chrome"));   // chrome from everything but chrome
+/// ```
+template <error_metric Metric, normal_solver Solver>
+class leave_one_out_decomposition {
+ public:
+  explicit leave_one_out_decomposition(measured<Metric> basis, Solver solver = Solver(), thread_count threads = {})
+      : basis_(std::move(basis)), solver_(std::move(solver)) {
+    for (std::size_t c = 0; c < 3; ++c) products_[c] = basis_.channel(c).products(threads);
+  }
+
+  [[nodiscard]] const measured<Metric>& basis() const noexcept { return basis_; }
+
+  /// The normal equations of one channel of one material over those that the basis does not leave out, itself excepted.
+  [[nodiscard]] normal_equations problem(std::size_t material, std::size_t channel) const {
+    return leave_one_out(products_[channel], static_cast<Eigen::Index>(material), others(material));
+  }
+
+  /// Throws gonio::error if the material is the only one, or the solver gives up.
+  [[nodiscard]] fitted_brdf<measured<Metric>> fit(std::size_t material) const {
+    const std::vector<Eigen::Index> columns = others(material);
+    std::array<solution, 3> found;
+    for (std::size_t c = 0; c < 3; ++c) found[c] = solver_.solve(problem(material, c));
+    return {basis_, spread(side_by_side(found), columns, static_cast<Eigen::Index>(basis_.size()))};
+  }
+
+ private:
+  [[nodiscard]] std::vector<Eigen::Index> others(std::size_t material) const {
+    std::vector<Eigen::Index> columns = columns_of(basis_);
+    std::erase(columns, static_cast<Eigen::Index>(material));
+    return columns;
+  }
+
+  measured<Metric> basis_;
+  Solver solver_;
+  std::array<Eigen::MatrixXd, 3> products_;
+};
+
+}  // namespace gonio

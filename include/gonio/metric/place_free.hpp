@@ -1,0 +1,38 @@
+#pragma once
+/// What error metrics that are the same at every place have in common.
+
+#include <gonio/metric/error_metric.hpp>
+#include <gonio/table/upsample.hpp>
+
+#include <cstddef>
+#include <span>
+
+namespace gonio {
+
+/// Base of a metric given by `static double map(double rho)`, `static double unmap(double y)` or members of that name,
+/// and `unmap_all(values)` on an array of floats: turns them into an `error_metric` that also maps whole rows back.
+template <class Metric>
+class place_free_metric {
+ public:
+  [[nodiscard]] double forward(double rho, const auto& /*where*/) const noexcept { return metric().map(rho); }
+  [[nodiscard]] double inverse(double y, const auto& /*where*/) const noexcept { return metric().unmap(y); }
+
+  /// The same metric over other cells.
+  [[nodiscard]] const Metric& on(const valid_cells& /*cells*/) const noexcept { return metric(); }
+
+  /// Nothing needs interpolating beside the three channels.
+  static constexpr int companions = 0;
+
+  /// See `row_metric`.
+  template <class Values>
+  void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
+    metric().unmap_all(values);
+    Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, static_cast<Eigen::Index>(row.count)) =
+        values.max(0.0f);
+  }
+
+ private:
+  [[nodiscard]] const Metric& metric() const noexcept { return static_cast<const Metric&>(*this); }
+};
+
+}  // namespace gonio

@@ -1,0 +1,46 @@
+#pragma once
+/// The p-th root of reflectance, the square root unless told otherwise. Noell, Koehler and Stricker 2014, section 3.1.
+
+#include <gonio/core/error.hpp>
+#include <gonio/metric/place_free.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace gonio {
+
+/// forward(rho) = rho^(1/p), continued to negative reflectance as an odd function, -(-rho)^(1/p): a negative
+/// measurement stays one. The slope at zero is infinite (p > 1), so that noise around zero counts for much.
+class root : public place_free_metric<root> {
+ public:
+  /// Throws gonio::error unless p is finite and at least 1.
+  explicit root(double p = 2.0) : p_(p) {
+    if (!(p >= 1.0 && std::isfinite(p)))
+      throw error("the root of a metric must be finite and at least 1, not " + std::to_string(p));
+  }
+
+  [[nodiscard]] double p() const noexcept { return p_; }
+
+  [[nodiscard]] double map(double rho) const noexcept {
+    const double size = std::abs(rho);
+    return std::copysign(p_ == 2.0 ? std::sqrt(size) : std::pow(size, 1.0 / p_), rho);
+  }
+  [[nodiscard]] double unmap(double y) const noexcept {
+    const double size = std::abs(y);
+    return std::copysign(p_ == 2.0 ? size * size : std::pow(size, p_), y);
+  }
+  template <class Values>
+  void unmap_all(Values& values) const {
+    if (p_ == 2.0)
+      values *= values.abs();
+    else
+      values = values.max(0.0f).pow(static_cast<float>(p_));
+  }
+
+ private:
+  double p_;
+};
+
+static_assert(row_metric<root>);
+
+}  // namespace gonio
