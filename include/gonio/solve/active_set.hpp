@@ -167,21 +167,27 @@ class active_set {
     }
   }
 
-  /// One step of iterative refinement with a residual in twice the precision: it makes the optimum of an
-  /// ill-conditioned passive set independent of the order in which its columns came.
+  /// Iterative refinement with residuals in twice the precision: it makes the optimum of an ill-conditioned passive set
+  /// independent of the order in which its columns came.
   void refine() {
     Eigen::VectorXd correction(std::ssize(passive_));
-    for (Eigen::Index i = 0; i < correction.size(); ++i) {
-      const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
-      compensated_sum misfit(moment_[row]);
-      misfit.add(-lambda_ * sign_[row]);
-      for (const Eigen::Index j : passive_) misfit.add_product(-gram_(j, row), x_[j]);
-      correction[i] = misfit.value();
-    }
-    factor_.solve(correction);
-    for (Eigen::Index i = 0; i < correction.size(); ++i) {
-      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
-      if ((x_[j] + correction[i]) * sign_[j] > 0.0) x_[j] += correction[i];
+    for (int round = 0; round < 3; ++round) {
+      for (Eigen::Index i = 0; i < correction.size(); ++i) {
+        const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
+        compensated_sum misfit(moment_[row]);
+        misfit.add(-lambda_ * sign_[row]);
+        for (const Eigen::Index j : passive_) misfit.add_product(-gram_(j, row), x_[j]);
+        correction[i] = misfit.value();
+      }
+      factor_.solve(correction);
+      bool changed = false;
+      for (Eigen::Index i = 0; i < correction.size(); ++i) {
+        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        const double refined = x_[j] + correction[i];
+        changed = changed || std::abs(correction[i]) > 1e-14 * std::abs(x_[j]);
+        if (refined * sign_[j] > 0.0) x_[j] = refined;
+      }
+      if (!changed) return;
     }
   }
 
@@ -204,7 +210,7 @@ class active_set {
   void choose_entering() {
     double terms = moment_scale_;
     for (const Eigen::Index j : passive_) terms += std::abs(x_[j]) * norms_[j];
-    double best = 1e-13 * terms;
+    double best = 1e-15 * terms;
     entering_ = -1;
     for (Eigen::Index j = 0; j < descent_.size(); ++j) {
       if (sign_[j] != 0.0 || norms_[j] == 0.0 || barred_[static_cast<std::size_t>(j)]) continue;

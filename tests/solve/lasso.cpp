@@ -1,0 +1,113 @@
+#include "random_problems.hpp"
+#include <gonio/solve/lasso.hpp>
+#include <gonio/solve/nnls.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+using gonio::lasso;
+using gonio::non_negative_lasso;
+using gonio::normal_equations;
+using gonio::sign_rule;
+
+TEST_CASE("the optimality conditions hold on random problems of all kinds, with both signs and with one") {
+  double worst = 0.0;
+  for (unsigned seed = 0; seed < 1100; ++seed) {
+    random_problem::generator random(seed);
+    const auto normal = random.make(static_cast<random_problem::kind>(seed % random_problem::kinds)).normal();
+    const double share = std::pow(10.0, random.uniform(-6.0, 0.1));
+    CAPTURE(seed);
+    const auto both = lasso(share * gonio::largest_lambda(normal, 0, sign_rule::any)).solve(normal);
+    const auto one =
+        non_negative_lasso(share * gonio::largest_lambda(normal, 0, sign_rule::non_negative)).solve(normal);
+    CHECK(both.certificate[0] <= 1e-9);
+    CHECK(one.certificate[0] <= 1e-9);
+    CHECK(one.weights.minCoeff() >= 0.0);
+    if (share >= 1.0) CHECK(both.weights.isZero(0.0));
+    worst = std::max({worst, both.certificate[0], one.certificate[0]});
+  }
+  MESSAGE("worst certificate ", worst);
+}
+
+TEST_CASE("with orthogonal columns the solution is the soft threshold of least squares") {
+  CHECK(rc::check([] {
+    random_problem::generator random(*rc::gen::arbitrary<unsigned>());
+    const auto k = *rc::gen::inRange<Eigen::Index>(1, 30);
+    Eigen::VectorXd squares(k);
+    for (double& square : squares) square = random.uniform(0.1, 10.0);
+    const Eigen::VectorXd moment = random.gaussian(k, 1);
+    const double lambda = random.uniform(0.0, 2.0);
+    const normal_equations normal(squares.asDiagonal(), moment);
+    const auto both = lasso(lambda).solve(normal), one = non_negative_lasso(lambda).solve(normal);
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const double shrunk = std::max(std::abs(moment[j]) - lambda, 0.0) / squares[j];
+      RC_ASSERT(std::abs(both.weights(j, 0) - std::copysign(shrunk, moment[j])) <= 1e-14 * (1.0 + shrunk));
+      RC_ASSERT(std::abs(one.weights(j, 0) - (moment[j] > 0.0 ? shrunk : 0.0)) <= 1e-14 * (1.0 + shrunk));
+    }
+  }));
+}
+
+TEST_CASE("the objective counts the penalty") {
+  const normal_equations normal(Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 5.0),
+                                Eigen::VectorXd::Constant(1, 25.0));
+  const auto found = lasso(1.0).solve(normal);
+  CHECK(found.weights(0, 0) == doctest::Approx(2.0));
+  CHECK(found.objective[0] == doctest::Approx(0.5 * 2.0 * 4.0 - 5.0 * 2.0 + 2.0));
+}
+
+TEST_CASE("a path is the solutions of its penalties, from nothing to nearly least squares") {
+  for (unsigned seed = 0; seed < 55; ++seed) {
+    random_problem::generator random(seed);
+    const auto problem = random.make(static_cast<random_problem::kind>(seed % random_problem::kinds));
+    const auto normal = problem.normal();
+    if (gonio::largest_lambda(normal, 0, sign_rule::any) == 0.0) continue;
+    CAPTURE(seed);
+    const auto path = gonio::solve_lasso_path(normal, gonio::lambda_sequence(normal, 20, 1e-4));
+    REQUIRE(path.solutions.size() == 20);
+    CHECK(path.solutions[0].weights.isZero(0.0));
+    double last = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < 20; ++i) {
+      const auto alone = lasso(path.lambdas[i]).solve(normal);
+      const double scale = 0.5 * normal.energy()[0];
+      CHECK(path.solutions[i].certificate[0] <= 1e-9);
+      CHECK(std::abs(path.solutions[i].objective[0] - alone.objective[0]) <= 1e-8 * scale);
+      CHECK(path.solutions[i].residual[0] <= last * (1.0 + 1e-12));
+      last = path.solutions[i].residual[0];
+    }
+  }
+}
+
+TEST_CASE("of two equal columns the penalty needs only one, and of two opposite ones too") {
+  Eigen::MatrixXd a(3, 3);
+  a << 1, 1, -1, 0, 0, 0, 2, 2, -2;
+  const Eigen::Vector3d b(1, 5, 2);
+  const auto found = lasso(0.5).solve(normal_equations(a.transpose() * a, a.transpose() * b));
+  CHECK((found.weights.array() != 0.0).count() == 1);
+  CHECK(found.weights.cwiseAbs().sum() == doctest::Approx((5.0 - 0.5) / 5.0));
+}
+
+TEST_CASE("a column that could shorten the weights takes the place of the two it is the sum of") {
+  // Column 2 is the sum of columns 0 and 1: reaching b = a0 + a1 through it costs half as much.
+  Eigen::MatrixXd a(2, 3);
+  a << 1, 0, 1, 0, 1, 1;
+  const normal_equations normal(a.transpose() * a, a.transpose() * Eigen::Vector2d(1, 1));
+  gonio::lasso::iteration cold(normal, 0, 0.01);
+  gonio::active_set<sign_rule::any> warm(normal, 0, 0.01);
+  warm.start_from(Eigen::Vector3d(0.9, 0.9, 0.0));
+  CHECK_FALSE(warm.converged());
+  gonio::run_to_convergence(cold, 100, "cold");
+  gonio::run_to_convergence(warm, 100, "warm");
+  CHECK(warm.weights().isApprox(cold.weights(), 1e-12));
+  CHECK(warm.weights()[0] == 0.0);
+  CHECK(warm.weights()[2] == doctest::Approx((2.0 - 0.01) / 2.0));
+}
+
+TEST_CASE("penalties and paths that mean nothing are refused") {
+  CHECK_THROWS_AS(lasso(-1.0), gonio::error);
+  CHECK_THROWS_AS(lasso(std::nan("")), gonio::error);
+  const normal_equations normal(Eigen::MatrixXd::Identity(2, 2), Eigen::MatrixXd::Ones(2, 1));
+  CHECK_THROWS_AS(gonio::lambda_sequence(normal, 1), gonio::error);
+  CHECK_THROWS_AS(gonio::lambda_sequence(normal, 10, 0.0), gonio::error);
+  CHECK_THROWS_AS(gonio::lambda_sequence(normal, 10, 1.0), gonio::error);
+  CHECK_THROWS_AS(gonio::solve_lasso_path(normal, {1.0, -1.0}), gonio::error);
+}
