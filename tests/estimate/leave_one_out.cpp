@@ -1,0 +1,48 @@
+#include "../made_up_materials.hpp"
+#include <gonio/estimate/leave_one_out.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/solve/nnls.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+const gonio::valid_cells& cells() {
+  static const gonio::valid_cells small(gonio::grid({10, 7, 9}));
+  return small;
+}
+
+}  // namespace
+
+TEST_CASE("leaving one out through the products is fitting its table by a basis without it") {
+  const auto materials = made_up_materials(cells(), 7);
+  const gonio::measured basis{materials, gonio::log{}};
+  const gonio::leave_one_out_decomposition others{basis, gonio::nnls{}};
+  for (const std::size_t material : std::vector<std::size_t>{0, 3, 6}) {
+    const auto quick = others.fit(material);
+    const auto direct =
+        gonio::decomposition{basis.without({materials.names[material]}), gonio::nnls{}}.fit(materials.table(material));
+    CHECK(quick.found().weights.isApprox(direct.found().weights, 1e-6));
+    CHECK(quick.found().weights.row(static_cast<Eigen::Index>(material)).isZero(0.0));
+    CHECK(quick.found().certificate.maxCoeff() <= 1e-9);
+    CHECK(quick.found().residual.isApprox(direct.found().residual, 1e-6));
+    const auto one = quick.tabulate(cells()), other = direct.tabulate(cells());
+    for (std::size_t i = 0; i < one.values().size(); ++i)
+      REQUIRE(one.values()[i] == doctest::Approx(double{other.values()[i]}).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("what the basis leaves out stays out") {
+  const auto materials = made_up_materials(cells(), 5);
+  const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}.without({"material-2"}),
+                                                  gonio::nnls{}};
+  CHECK(others.fit(0).found().weights.row(2).isZero(0.0));
+  CHECK(others.problem(2, 1).unknowns() == 4);
+  CHECK(others.problem(0, 1).unknowns() == 3);
+}
+
+TEST_CASE("the only material has no others") {
+  const gonio::leave_one_out_decomposition alone{gonio::measured{made_up_materials(cells(), 1), gonio::log{}},
+                                                 gonio::nnls{}};
+  CHECK_THROWS_AS(static_cast<void>(alone.fit(0)), gonio::error);
+}

@@ -1,0 +1,41 @@
+#pragma once
+/// What every metric that is the same at all places must do.
+
+#include <gonio/metric/place_free.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+
+/// Increasing, odd, undone by its inverse, the same at a cell and at a location, and a row of cells is mapped back as
+/// one by one.
+template <gonio::row_metric Metric>
+void check_place_free(const Metric& metric) {
+  const gonio::valid_cells cells(gonio::grid({4, 4, 4}));
+  CHECK(rc::check([&] {
+    const double size = std::exp(*rc::gen::inRange(-1500, 900) * 0.01), rho = *rc::gen::element(-1.0, 1.0) * size;
+    const std::size_t cell = *rc::gen::inRange<std::size_t>(0, cells.size());
+    const auto at = gonio::locate_cell(cells, cell);
+    const double y = metric.forward(rho, cell);
+    RC_ASSERT(std::isfinite(y));
+    RC_ASSERT(metric.forward(rho, at) == y);
+    RC_ASSERT(metric.forward(-rho, cell) == -y);
+    RC_ASSERT(metric.forward(rho + 1e-3 * size, cell) > y);
+    RC_ASSERT(std::abs(metric.inverse(y, at) - rho) <= 1e-12 * size);
+  }));
+  CHECK(metric.forward(0.0, std::size_t{0}) == 0.0);
+  CHECK(metric.inverse(0.0, std::size_t{0}) == 0.0);
+
+  gonio::cell_fields<3> values(3, 2);
+  values << 0.5f, -0.5f, 2e-4f, 0.0f, 3.0f, 1.0f;
+  const gonio::cell_fields<3> mapped = values;
+  std::array<float, 6> out{};
+  gonio::cell_row row;
+  row.count = 2;
+  metric.inverse_row(row, values, out);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double one = std::max(metric.inverse(double{mapped.data()[i]}, std::size_t{0}), 0.0);
+    CHECK(double{out[static_cast<std::size_t>(i)]} == doctest::Approx(one).epsilon(1e-6));
+  }
+}
