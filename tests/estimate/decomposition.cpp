@@ -49,7 +49,7 @@ TEST_CASE("the system is what the equations say") {
   const auto chosen = gonio::random_cells(cells(), 7, 1);
   auto samples = gonio::measure(truth, chosen);
   samples[2].weight = 0.25;
-  const auto problem = decomposition{prior(), tikhonov{1.0}}.assemble(samples);
+  const auto problem = gonio::basis_equations{prior(), samples}.problem();
   REQUIRE(problem.equations() == 7);
   REQUIRE(problem.unknowns() == 10);
   CHECK(problem.weights()[2] == 0.25);

@@ -55,12 +55,21 @@ class tikhonov {
     const Eigen::MatrixXd right = root.asDiagonal() * problem.right_hand_side();
     Eigen::MatrixXd penalised = rows * rows.transpose();
     penalised.diagonal().array() += eta_;
-    const Eigen::MatrixXd x = rows.transpose() * penalised.llt().solve(right);
+    const Eigen::LLT<Eigen::MatrixXd> factors(penalised);
+    Eigen::MatrixXd x = rows.transpose() * factors.solve(right);
 
     // The gradient A'W(A x - b) + eta x vanishes at the optimum; without the k x k Gram matrix.
     solution found;
-    const Eigen::MatrixXd misfit = rows * x - right;
-    const Eigen::MatrixXd gradient = rows.transpose() * misfit + eta_ * x;
+    Eigen::MatrixXd misfit, gradient;
+    const auto differentiate = [&] {
+      misfit = rows * x - right;
+      gradient = rows.transpose() * misfit + eta_ * x;
+    };
+    differentiate();
+    // A step of Newton, with the inverse of A~'A~ + eta I through the dual (Woodbury): if eta is small and rows depend
+    // on each other, A~' times a large dual solution has lost digits.
+    x -= (gradient - rows.transpose() * factors.solve(rows * gradient)) / eta_;
+    differentiate();
     const Eigen::MatrixXd moment = rows.transpose() * right;
     found.residual = misfit.colwise().norm();
     found.objective.resize(x.cols());

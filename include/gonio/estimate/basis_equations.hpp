@@ -1,0 +1,127 @@
+#pragma once
+/// The least-squares problems that fitting measurements by a basis amounts to.
+/// Nielsen et al. 2015, Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/solve/solver.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
+/// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis in common
+/// share one system of three right-hand sides. Rows are read from the basis block by block, never copied as a whole.
+template <colour_basis Basis>
+class basis_equations {
+ public:
+  /// Systems to solve: one if the channels share their basis, else three.
+  static constexpr std::size_t systems = basis<Basis> ? 1 : 3;
+
+  /// Throws gonio::error for unusable samples (`require_usable`). O(samples).
+  template <sample_range Samples>
+  basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
+      : basis_(std::move(functions)), threads_(threads) {
+    require_usable(samples);
+    measurements found;
+    const auto count = std::ranges::distance(samples);
+    found.at.reserve(static_cast<std::size_t>(count));
+    found.values.resize(count, 3);
+    found.weights.resize(count);
+    Eigen::Index i = 0;
+    for (const sample& s : samples) {
+      found.at.push_back(locate(basis_.cells(), s.angles));
+      found.values.row(i) = s.value.matrix().transpose();
+      found.weights[i++] = s.weight;
+    }
+    measured_ = std::make_shared<const measurements>(std::move(found));
+  }
+
+  /// Every cell of a table as a measurement of weight 1.
+  basis_equations(Basis functions, const brdf_table& table, thread_count threads = {})
+      : basis_(std::move(functions)), threads_(threads) {
+    const valid_cells& cells = table.cells();
+    const bool own = cells == basis_.cells();
+    const auto count = static_cast<Eigen::Index>(cells.size());
+    measurements found{std::vector<location>(cells.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd::Ones(count)};
+    for_each_block(
+        cells.size(), 4096,
+        [&](block range) {
+          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+            found.at[cell] = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
+            found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
+          }
+        },
+        threads);
+    measured_ = std::make_shared<const measurements>(std::move(found));
+  }
+
+  /// The system of one channel, or of all if they have the basis in common, over all functions of the basis.
+  [[nodiscard]] least_squares_problem problem(std::size_t channel = 0) const {
+    const auto functions = channel_of(basis_, channel);
+    const std::shared_ptr<const measurements> measured = measured_;
+    const row_source rows{static_cast<Eigen::Index>(measured->at.size()), static_cast<Eigen::Index>(functions.size()),
+                          [functions, measured](block range, row_block out) {
+                            for (std::size_t i = range.begin; i < range.end; ++i)
+                              read_row_at(functions, measured->at[i],
+                                          out.row(static_cast<Eigen::Index>(i - range.begin)));
+                          }};
+    return {rows, mapped(functions, static_cast<Eigen::Index>(channel)), measured->weights, threads_};
+  }
+
+  /// The weights of all functions, size() x 3, by a solver of one system; functions that the basis leaves out have
+  /// weight zero. Systems are solved in parallel.
+  [[nodiscard]] solution solve(const std::function<solution(const least_squares_problem&)>& solver) const {
+    const std::vector<Eigen::Index> columns = columns_of(basis_);
+    const auto unknowns = static_cast<Eigen::Index>(basis_.size());
+    std::array<solution, systems> found;
+    for_each_block(
+        systems, 1,
+        [&](block system) {
+          const least_squares_problem whole = problem(system.begin);
+          const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
+          found[system.begin] = solver(all ? whole : whole.subset(columns));
+        },
+        threads_);
+    return spread(side_by_side(found), columns, unknowns);
+  }
+
+ private:
+  /// Where was measured, and what.
+  struct measurements {
+    std::vector<location> at;
+    Eigen::MatrixXd values;  // n x 3, sr^-1
+    Eigen::VectorXd weights;
+  };
+
+  template <class Functions>
+  [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
+    constexpr Eigen::Index channels = 3 / static_cast<Eigen::Index>(systems);
+    Eigen::MatrixXd right(measured_->values.rows(), channels);
+    for_each_block(
+        measured_->at.size(), 4096,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i) {
+            const location& at = measured_->at[i];
+            const double offset = offset_at(functions, at);
+            const auto row = static_cast<Eigen::Index>(i);
+            for (Eigen::Index c = 0; c < channels; ++c)
+              right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
+          }
+        },
+        threads_);
+    return right;
+  }
+
+  Basis basis_;
+  std::shared_ptr<const measurements> measured_;
+  thread_count threads_;
+};
+
+}  // namespace gonio
