@@ -1,5 +1,8 @@
 #include "inputs.hpp"
 
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/io/merl_directory.hpp>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -15,6 +18,25 @@ std::filesystem::path shipped_prior() {
 void add_prior_option(CLI::App& command, std::filesystem::path& prior) {
   prior = shipped_prior();
   command.add_option("--prior", prior, "The learned prior (default: the one shipped with gonio)");
+}
+
+CLI::Option_group* add_material_options(CLI::App& command, material_source& source) {
+  auto* group = command.add_option_group("source", "Where the materials come from (one of)");
+  group->add_option("--networks", source.networks, "File of networks (.npy, names in merl_names.txt beside it)");
+  group->add_option("--merl", source.tables, "Folder of MERL tables (.binary or .binary.gz)");
+  group->require_option(0, 1);
+  command.add_option("--exclude", source.exclude, "Name of a material to leave out (repeatable)")
+      ->expected(1)
+      ->take_all();
+  return group;
+}
+
+gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
+                                   const gonio::progress& listener) {
+  if (!source.tables.empty()) return gonio::io::read_merl_directory(source.tables, source.exclude, listener);
+  if (source.networks.empty()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
+  const auto chosen = networks_except(gonio::io::read_networks(source.networks), source.exclude);
+  return gonio::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
 }
 
 void add_threads_option(CLI::App& command, gonio::thread_count& threads) {

@@ -1,6 +1,7 @@
 #pragma once
 /// What several subcommands read and print.
 
+#include <gonio/core/progress.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/networks.hpp>
@@ -22,6 +23,22 @@ using json = nlohmann::ordered_json;
 
 /// Adds `--prior FILE` with the shipped prior as the default.
 void add_prior_option(CLI::App& command, std::filesystem::path& prior);
+
+/// Where many materials come from: networks, MERL tables, or else the materials that a prior remembers.
+struct material_source {
+  std::filesystem::path networks, tables, prior;
+  std::vector<std::string> exclude;
+
+  [[nodiscard]] bool is_prior() const { return networks.empty() && tables.empty(); }
+};
+
+/// Adds `--networks`, `--merl` and `--exclude`. Returns the first two, of which at most one may be given.
+CLI::Option_group* add_material_options(CLI::App& command, material_source& source);
+
+/// The materials of a source. Networks and tables that are excluded are not read, and a name that does not exist throws
+/// gonio::error; of a prior all materials come, for a basis to leave out.
+[[nodiscard]] gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
+                                                 const gonio::progress& listener = {});
 
 /// Adds `--threads N`.
 void add_threads_option(CLI::App& command, gonio::thread_count& threads);

@@ -4,7 +4,6 @@
 #include "inputs.hpp"
 #include "progress_bar.hpp"
 #include <gonio/basis/learn_pca.hpp>
-#include <gonio/io/merl_directory.hpp>
 
 #include <iostream>
 #include <memory>
@@ -14,25 +13,18 @@ namespace cli {
 namespace {
 
 struct learn_options {
-  std::filesystem::path networks, tables, output;
-  std::vector<std::string> exclude;
+  material_source materials;
+  std::filesystem::path output;
   std::size_t components = 60;
   std::vector<int> thin{3, 5};
   gonio::thread_count threads;
 };
 
-gonio::material_set materials_of(const learn_options& options, const gonio::progress& listener) {
-  if (options.networks.empty()) return gonio::io::read_merl_directory(options.tables, options.exclude, listener);
-  const auto chosen = networks_except(gonio::io::read_networks(options.networks), options.exclude);
-  return gonio::tabulate_networks(chosen, gonio::valid_cells(), options.threads, listener);
-}
-
-std::string source_of(const learn_options& options, std::size_t materials) {
+std::string source_of(const material_source& source, std::size_t materials) {
   std::string text = std::to_string(materials) + " materials of ";
-  text += options.networks.empty() ? "tables in " + options.tables.filename().string()
-                                   : "networks in " + options.networks.filename().string();
-  for (const std::string& name : options.exclude)
-    text += (name == options.exclude.front() ? ", without " : ", ") + name;
+  text += source.networks.empty() ? "tables in " + source.tables.filename().string()
+                                  : "networks in " + source.networks.filename().string();
+  for (const std::string& name : source.exclude) text += (name == source.exclude.front() ? ", without " : ", ") + name;
   return text;
 }
 
@@ -52,13 +44,7 @@ gonio::valid_cells thinned_cells(const gonio::valid_cells& cells, int theta_d, i
 void add_learn(CLI::App& app) {
   auto* command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
   const auto options = std::make_shared<learn_options>();
-  auto* source = command->add_option_group("source", "What to learn from (one of)");
-  source->add_option("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
-  source->add_option("--merl", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  source->require_option(1);
-  command->add_option("--exclude", options->exclude, "Name of a material to leave out (repeatable)")
-      ->expected(1)
-      ->take_all();
+  add_material_options(*command, options->materials)->require_option(1);
   command->add_option("--components", options->components, "Number of components to keep")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
@@ -70,8 +56,8 @@ void add_learn(CLI::App& app) {
   add_threads_option(*command, options->threads);
   command->callback([options] {
     progress_bar bar;
-    auto materials = materials_of(*options, bar.listener());
-    const std::string source_text = source_of(*options, materials.names.size());
+    auto materials = read_materials(options->materials, options->threads, bar.listener());
+    const std::string source_text = source_of(options->materials, materials.names.size());
     const auto cells = thinned_cells(materials.cells, options->thin[0], options->thin[1]);
     const auto metric = gonio::log_relative::to_median_of(materials, options->threads);
     const auto learned =

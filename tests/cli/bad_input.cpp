@@ -22,8 +22,9 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 }  // namespace
 
 TEST_CASE("help is no error") {
-  for (const char* command : {"", "learn ", "expand ", "sample ", "reconstruct ", "compare ", "render ", "info ",
-                              "evaluate ", "evaluate nielsen-test-materials ", "evaluate measured-materials "}) {
+  for (const char* command :
+       {"", "learn ", "expand ", "sample ", "reconstruct ", "compare ", "render ", "info ", "evaluate ",
+        "evaluate nielsen-test-materials ", "evaluate measured-materials ", "evaluate linear-combination "}) {
     const auto result = gonio_tool(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);
@@ -63,6 +64,19 @@ TEST_CASE("bad samples") {
   scratch::put(path, header + "1,2,3,0.1,0.1,0.1\n");
   refuses(reconstruct + " --eta 0", {"eta"});
   refuses(reconstruct + " --eta -3", {"eta"});
+  refuses(reconstruct + " --eta much", {"eta", "gcv", "much"});
+  refuses(reconstruct + " --eta gcv", {"one"});  // one observation: nothing to validate with
+  refuses(reconstruct + " --solver magic", {"magic"});
+  refuses(reconstruct + " --solver nnls", {"nnls", "signs", "--method linear"});
+  refuses(reconstruct + " --metric log", {"log", "--method linear"});
+  refuses(reconstruct + " --exclude chrome", {"--method linear"});
+  const std::string linear = reconstruct + " --method linear";
+  refuses(linear + " --exclude no-such-stone", {"no-such-stone"});
+  refuses(linear + " --metric cosine", {"cosine"});
+  refuses(linear + " --metric root --root 0.5", {"0.5"});
+  refuses(linear + " --solver lasso --lambda 2", {"lambda", "2"});
+  refuses(linear + " --solver tsvd --variance 0", {"variance"});
+  refuses(linear + " --networks a.npy --merl b", {"--networks"});
   refuses(reconstruct + " --prior " + path.string(), {"not a gonio prior"});
   refuses("reconstruct " + folder.path().string() + " -o x.binary", {folder.path().c_str()});
   refuses("reconstruct /no/such.csv -o x.binary", {"/no/such.csv"});

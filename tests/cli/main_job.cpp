@@ -96,3 +96,40 @@ TEST_CASE("learning from a folder of tables") {
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("'silver'") != std::string::npos);
 }
+
+TEST_CASE("every metric and solver of the linear method reconstructs, and says how") {
+  const scratch::folder folder;
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  run("expand --name red-plastic -o " + at("truth.binary"));
+  run("sample " + at("truth.binary") + " --count 300 -o " + at("samples.csv"));
+  const auto reconstruct = [&](const std::string& options) {
+    const auto result = gonio_tool("reconstruct " + at("samples.csv") + " --method linear --exclude red-plastic " +
+                                   options + " --json -o " + at("estimate.binary"));
+    REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
+    const auto fit = nlohmann::json::parse(result.output);
+    for (const double certificate : fit["certificate"]) CHECK(certificate <= 1e-9);
+    return fit;
+  };
+  for (const char* metric : {"lin", "root", "root --root 3", "log", "log-relative"})
+    CHECK(reconstruct(std::string("--metric ") + metric)["samples"] == 300);
+  for (const char* solver : {"qp", "tikhonov", "tikhonov --eta loo", "tikhonov --eta 0.1", "lasso",
+                             "lasso --lambda 0.1", "tsvd --variance 0.999", "ls"})
+    CHECK(reconstruct(std::string("--solver ") + solver)["samples"] == 300);
+
+  // NNLS is the default, and the quadratic program finds the same.
+  const auto own = reconstruct(""), nnls = reconstruct("--solver nnls --metric log"), qp = reconstruct("--solver qp");
+  CHECK(own == nnls);
+  CHECK(own["non_zero_weights"] == qp["non_zero_weights"]);
+  const auto compared =
+      nlohmann::json::parse(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
+  CHECK(compared["delta_e_env"].get<double>() < 15.0);
+}
+
+TEST_CASE("principal components take any solver whose weights have any sign") {
+  const scratch::folder folder;
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  run("expand --formula red-paint -o " + at("truth.binary"));
+  run("sample " + at("truth.binary") + " --count 100 -o " + at("samples.csv"));
+  for (const char* solver : {"tikhonov", "tikhonov --eta gcv", "lasso", "tsvd", "ls"})
+    run("reconstruct " + at("samples.csv") + " --solver " + solver + " -o " + at("estimate.binary"));
+}

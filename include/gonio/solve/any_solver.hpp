@@ -16,10 +16,9 @@ namespace gonio {
 class any_solver {
  public:
   template <solver Solver>
-  requires(!std::same_as<Solver, any_solver>)
-  any_solver(Solver held) : solve_([held = std::move(held)](const least_squares_problem& problem) {
-      return held.solve(problem);
-    }) {}  // NOLINT: conversion is the point
+  requires(!std::same_as<Solver, any_solver>) any_solver(Solver held)
+      : solve_([held = std::move(held)](const least_squares_problem& problem) { return held.solve(problem); }) {
+  }  // NOLINT: conversion is the point
 
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_(problem); }
 

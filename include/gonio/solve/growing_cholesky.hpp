@@ -17,7 +17,7 @@ namespace gonio {
 template <class Scalar = double>
 class growing_cholesky {
  public:
-  explicit growing_cholesky(Eigen::Index capacity) : factor_(capacity, capacity) {}
+  explicit growing_cholesky(Eigen::Index capacity) : factor_(capacity, capacity), inverse_(capacity) {}
 
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   void clear() noexcept { size_ = 0; }
@@ -29,7 +29,7 @@ class growing_cholesky {
     const auto rounding = 4 * std::numeric_limits<Scalar>::epsilon() * static_cast<Scalar>(size_ + 1);
     if (!(pivot > rounding * square)) return false;
     factor_.row(size_).head(size_) = cross.transpose();
-    factor_(size_, size_) = std::sqrt(pivot);
+    set_diagonal(size_, std::sqrt(pivot));
     ++size_;
     return true;
   }
@@ -44,7 +44,7 @@ class growing_cholesky {
     for (Eigen::Index column = position; column < size_; ++column) {
       const Scalar a = factor_(column, column), b = factor_(column, column + 1), length = std::hypot(a, b);
       const Scalar cosine = a / length, sine = b / length;
-      factor_(column, column) = length;
+      set_diagonal(column, length);
       for (Eigen::Index row = column + 1; row < size_; ++row) {
         const Scalar left = factor_(row, column), right = factor_(row, column + 1);
         factor_(row, column) = cosine * left + sine * right;
@@ -56,9 +56,9 @@ class growing_cholesky {
   /// Solves Q_PP z = z in place. O(p^2).
   void solve(Eigen::Ref<Eigen::VectorX<Scalar>> z) const {
     for (Eigen::Index row = 0; row < size_; ++row)
-      z[row] = (z[row] - factor_.row(row).head(row).transpose().dot(z.head(row))) / factor_(row, row);
+      z[row] = (z[row] - factor_.row(row).head(row).transpose().dot(z.head(row))) * inverse_[row];
     for (Eigen::Index row = size_ - 1; row >= 0; --row) {
-      z[row] /= factor_(row, row);
+      z[row] *= inverse_[row];
       z.head(row) -= z[row] * factor_.row(row).head(row).transpose();
     }
   }
@@ -67,11 +67,17 @@ class growing_cholesky {
   /// L^-1 cross in place; returns what is left of the new column's square.
   [[nodiscard]] Scalar forward(Eigen::Ref<Eigen::VectorX<Scalar>> cross, Scalar square) const {
     for (Eigen::Index row = 0; row < size_; ++row)
-      cross[row] = (cross[row] - factor_.row(row).head(row).transpose().dot(cross.head(row))) / factor_(row, row);
+      cross[row] = (cross[row] - factor_.row(row).head(row).transpose().dot(cross.head(row))) * inverse_[row];
     return square - cross.head(size_).squaredNorm();
   }
 
+  void set_diagonal(Eigen::Index row, Scalar value) {
+    factor_(row, row) = value;
+    inverse_[row] = Scalar(1) / value;
+  }
+
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> factor_;
+  Eigen::VectorX<Scalar> inverse_;  // of the diagonal: divisions in a row would wait for one another
   Eigen::Index size_ = 0;
 };
 

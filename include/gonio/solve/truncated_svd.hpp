@@ -114,8 +114,8 @@ class truncated_svd {
     Eigen::MatrixXd within = vectors.transpose() * right;
     triangle.transpose().template triangularView<Eigen::Lower>().solveInPlace(within);
     const Eigen::MatrixXd x = basis * within;
-    const Eigen::MatrixXd image = rows * x, span = rows * basis;
-    return judged(problem, x, columns * right, basis, columns * image, columns * span, values);
+    const Eigen::MatrixXd projected_image = rows * x, span = rows * basis;
+    return judged(problem, x, columns * right, basis, columns * projected_image, columns * span, values);
   }
 
   template <class Matrix>
@@ -129,16 +129,16 @@ class truncated_svd {
   /// With A'WA x and A'WA V at hand.
   template <class Problem>
   [[nodiscard]] static solution judged(const Problem& problem, const Eigen::MatrixXd& x, const Eigen::MatrixXd& moment,
-                                       const Eigen::MatrixXd& basis, const Eigen::MatrixXd& image,
+                                       const Eigen::MatrixXd& basis, const Eigen::MatrixXd& projected_image,
                                        const Eigen::MatrixXd& span, const Eigen::VectorXd& values) {
     const double largest = values.size() > 0 ? values[values.size() - 1] : 0.0;
     const double led_out = relative(span - basis * (basis.transpose() * span), largest);
-    const Eigen::MatrixXd gradient = basis.transpose() * (image - moment);
+    const Eigen::MatrixXd gradient = basis.transpose() * (projected_image - moment);
     const Eigen::MatrixXd outside = x - basis * (basis.transpose() * x);
     solution found{x, problem.residual(x), Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols())};
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
       const double norm = x.col(column).norm();
-      found.objective[column] = x.col(column).dot(0.5 * image.col(column) - moment.col(column));
+      found.objective[column] = x.col(column).dot(0.5 * projected_image.col(column) - moment.col(column));
       found.certificate[column] =
           std::max({led_out, relative(gradient.col(column), moment.col(column).norm() + largest * norm),
                     relative(outside.col(column), norm)});

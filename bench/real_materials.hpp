@@ -1,0 +1,17 @@
+#pragma once
+/// The materials that benchmarks run on: the surrogates of the MERL materials at full resolution where the networks are
+/// at hand, else what the shipped prior remembers of them, on its own cells.
+
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/prior.hpp>
+
+#include <filesystem>
+#include <utility>
+
+inline gonio::material_set real_materials() {
+  const std::filesystem::path networks = GONIO_BENCH_NETWORKS;
+  if (std::filesystem::exists(networks))
+    return gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells());
+  return gonio::expand(gonio::io::read_prior(GONIO_SOURCE_PRIOR));
+}

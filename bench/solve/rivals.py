@@ -1,0 +1,79 @@
+"""The other side of against_python.cpp: times numpy, scipy and scikit-learn on the matrices in a folder, prints JSON.
+
+usage: rivals.py FOLDER   (with rows.npy, gram.npy, moment.npy; OPENBLAS_NUM_THREADS set before)"""
+import json
+import subprocess
+import sys
+import time
+import warnings
+
+import numpy as np
+from scipy.linalg import cholesky, solve_triangular
+from scipy.optimize import nnls
+from sklearn.linear_model import lasso_path
+
+
+def best_of(runs, run):
+    """The least of several runs, in microseconds."""
+    best = float("inf")
+    for _ in range(runs):
+        start = time.perf_counter()
+        run()
+        best = min(best, time.perf_counter() - start)
+    return 1e6 * best
+
+
+def blas_library():
+    """The shared library that numpy's products really run in."""
+    with open("/proc/self/maps") as maps:
+        names = {line.split()[-1] for line in maps if "blas" in line}
+    return ", ".join(sorted(name.rsplit("/", 1)[-1] for name in names)) or "unknown"
+
+
+folder = sys.argv[1]
+rows = np.load(folder + "/rows.npy")
+gram = np.load(folder + "/gram.npy")
+moment = np.load(folder + "/moment.npy").ravel()
+result = {}
+
+# A'A of one array is a symmetric update to numpy. The faster of both layouts counts; so does, in double, the faster of
+# one product of a copy made before and of blocks converted on the way.
+columns = np.ascontiguousarray(rows.T)
+result["gram_float"] = min(best_of(5, lambda: rows.T @ rows), best_of(5, lambda: columns @ columns.T))
+
+
+def gram_by_blocks():
+    total = np.zeros((len(columns), len(columns)))
+    for start in range(0, columns.shape[1], 1 << 15):
+        part = columns[:, start : start + (1 << 15)].astype(np.float64)
+        total += part @ part.T
+    return total
+
+
+by_blocks = best_of(5, gram_by_blocks)
+columns = columns.astype(np.float64)
+result["gram_double"] = min(by_blocks, best_of(5, lambda: columns @ columns.T))
+del columns, rows
+
+# min |A x - b| over x >= 0 through the Cholesky factor of A'A, which is given.
+factor = cholesky(gram)
+right = solve_triangular(factor, moment, trans="T")
+result["nnls"] = best_of(200, lambda: nnls(factor, right))
+
+# scikit-learn minimises |A x - b|^2 / (2 n) + alpha |x|_1; alphas for n = 99 rows of the factor. Its default tolerance.
+n = len(factor)
+alphas = np.abs(moment).max() / n * np.geomspace(1.0, 1e-3, 50)
+path = lambda: lasso_path(factor, right, alphas=alphas, precompute=gram, Xy=moment, check_input=False)
+with warnings.catch_warnings():
+    warnings.simplefilter("ignore")
+    result["lasso_path"] = best_of(3, path)
+    _, weights, _ = path()
+worst = 0.0
+for alpha, x in zip(alphas, weights.T):
+    slope, penalty = gram @ x - moment, alpha * n
+    off = np.where(x == 0, np.maximum(np.abs(slope) - penalty, 0), np.abs(slope + penalty * np.sign(x)))
+    norms = np.sqrt(np.diag(gram))
+    worst = max(worst, float((off / norms).max() / ((np.abs(gram) @ np.abs(x) + np.abs(moment)) / norms).max()))
+result["lasso_certificate"] = worst
+result["blas"] = blas_library()
+print(json.dumps(result))

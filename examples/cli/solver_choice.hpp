@@ -1,0 +1,28 @@
+#pragma once
+/// The command line's choice of a solver: `--solver` and the options that each takes.
+
+#include <gonio/solve/any_solver.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace cli {
+
+struct solver_choice {
+  std::string name;  ///< empty: the method's own
+  std::string eta;   ///< a number, gcv or loo; empty: the method's own
+  double lambda = 0.001;
+  double variance = 0.99;
+};
+
+/// Adds `--solver`, `--eta`, `--lambda` and `--variance`.
+void add_solver_options(CLI::App& command, solver_choice& choice);
+
+/// The solver chosen, where `own` has what is not said. Throws gonio::error if an option's value is impossible.
+[[nodiscard]] gonio::any_solver make_solver(solver_choice choice, const solver_choice& own);
+
+/// Can the weights of that solver not be negative?
+[[nodiscard]] bool is_non_negative(const std::string& solver);
+
+}  // namespace cli

@@ -1,0 +1,202 @@
+#pragma once
+/// Linear constraints on the weights of a least-squares problem, and the certificate of optimality under them.
+/// Noell, Koehler and Stricker 2014, Eq. 10.
+
+#include <gonio/core/error.hpp>
+#include <gonio/solve/kkt.hpp>
+#include <gonio/solve/normal_equations.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <string>
+#include <type_traits>
+
+namespace gonio {
+
+/// D x <= d, E x = e and, if `non_negative`, x >= 0, which costs no rows. Either part may be empty.
+struct linear_constraints {
+  Eigen::MatrixXd D = {};  ///< inequalities x k
+  Eigen::VectorXd d = {};  ///< inequalities
+  Eigen::MatrixXd E = {};  ///< equalities x k
+  Eigen::VectorXd e = {};  ///< equalities
+  bool non_negative = false;
+
+  /// Throws gonio::error unless the sizes match each other and `unknowns` and all numbers are finite, naming the row.
+  void require_consistent(Eigen::Index unknowns) const {
+    require_consistent(D, d, unknowns, "inequality");
+    require_consistent(E, e, unknowns, "equality");
+  }
+
+  /// The constraints as their own policy (`constraint_policy`): the same for every problem. Throws as
+  /// `require_consistent`.
+  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const {
+    require_consistent(unknowns);
+    return *this;
+  }
+
+ private:
+  static void require_consistent(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right, Eigen::Index unknowns,
+                                 const std::string& kind) {
+    const auto text = [](Eigen::Index n) { return std::to_string(n); };
+    if (rows.rows() != right.size())
+      throw error(text(rows.rows()) + " rows of " + kind + " constraints have " + text(right.size()) +
+                  " right-hand values");
+    if (rows.rows() > 0 && rows.cols() != unknowns)
+      throw error("row 0 of the " + kind + " constraints has " + text(rows.cols()) + " coefficients for " +
+                  text(unknowns) + " unknowns");
+    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+      for (Eigen::Index column = 0; column < rows.cols(); ++column)
+        if (!std::isfinite(rows(row, column)))
+          throw error("row " + text(row) + " of the " + kind + " constraints is not finite in column " + text(column));
+      if (!std::isfinite(right[row]))
+        throw error("row " + text(row) + " of the " + kind + " constraints is not finite on its right-hand side");
+    }
+  }
+};
+
+/// Makes the constraints of a problem with so many unknowns. A policy all of whose constraints include x >= 0 says so
+/// by `static constexpr bool non_negative = true;`.
+template <class Policy>
+concept constraint_policy = requires(const Policy& policy, Eigen::Index unknowns) {
+  { policy(unknowns) } -> std::same_as<linear_constraints>;
+};
+
+/// x >= 0.
+struct non_negative_weights {
+  static constexpr bool non_negative = true;
+  [[nodiscard]] linear_constraints operator()(Eigen::Index) const { return {.non_negative = true}; }
+};
+
+/// x >= 0 and the weights sum to 1.
+struct convex_weights {
+  static constexpr bool non_negative = true;
+  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const {
+    return {.E = Eigen::MatrixXd::Ones(1, unknowns), .e = Eigen::VectorXd::Ones(1), .non_negative = true};
+  }
+};
+
+static_assert(constraint_policy<linear_constraints> && constraint_policy<non_negative_weights> &&
+              constraint_policy<convex_weights>);
+
+/// Does a policy promise x >= 0 to the compiler? (linear_constraints has the flag at run time only: it does not.)
+template <class Policy>
+inline constexpr bool promises_non_negative = false;
+template <class Policy>
+requires requires { typename std::bool_constant<Policy::non_negative>; }
+inline constexpr bool promises_non_negative<Policy> = Policy::non_negative;
+
+/// The Lagrange multipliers of the rows: at the optimum Q x - m + D' `inequality` + E' `equality` is zero, or not
+/// negative where x >= 0 holds with equality.
+struct constraint_multipliers {
+  Eigen::VectorXd inequality;  ///< >= 0, as many as rows of D
+  Eigen::VectorXd equality;    ///< of any sign, as many as rows of E
+};
+
+/// What one unit of each weight is measured by: sqrt(Q_jj), the length of its column. A column of zeros has the size of
+/// its coefficients in the rows instead, relative to the rows' largest coefficient per unit of the other weights; 1
+/// without any. O(k rows).
+template <class Constraints = linear_constraints>
+[[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const Constraints& constraints) {
+  const Eigen::VectorXd norms = normal.gram().diagonal().cwiseSqrt();
+  Eigen::VectorXd lengths = norms;
+  const auto raise_for_zeros = [&](const auto& row) {
+    double curved = 0.0, any = 0.0;
+    for (Eigen::Index j = 0; j < norms.size(); ++j) {
+      any = std::max(any, std::abs(row[j]));
+      if (norms[j] > 0.0) curved = std::max(curved, std::abs(row[j]) / norms[j]);
+    }
+    const double largest = curved > 0.0 ? curved : any;
+    for (Eigen::Index j = 0; j < norms.size(); ++j)
+      if (norms[j] == 0.0 && largest > 0.0) lengths[j] = std::max(lengths[j], std::abs(row[j]) / largest);
+  };
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) raise_for_zeros(constraints.D.row(i));
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) raise_for_zeros(constraints.E.row(i));
+  for (double& length : lengths)
+    if (length == 0.0) length = 1.0;
+  return lengths;
+}
+
+namespace detail {
+
+/// One row at x, in units in which the columns have length 1.
+struct judged_row {
+  double activity = 0.0;  ///< D_i x
+  double largest = 0.0;   ///< |D_ij| / length_j
+
+  template <class Row, class Vector>
+  judged_row(const Row& row, const Eigen::VectorXd& lengths, const Eigen::MatrixBase<Vector>& x) {
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      activity += row[j] * x[j];
+      largest = std::max(largest, std::abs(row[j]) / lengths[j]);
+    }
+  }
+  /// `size` is the largest |x_j| length_j.
+  [[nodiscard]] double relative_slack(double bound, double size) const {
+    const double scale = std::abs(bound) + largest * size;
+    return scale > 0.0 ? (bound - activity) / scale : 0.0;
+  }
+};
+
+/// The gradient Q x - m + D' inequality + E' equality of the Lagrangian.
+template <class Vector>
+[[nodiscard]] scaled_gradient lagrangian_gradient(const normal_equations& normal, Eigen::Index right_hand_side,
+                                                  const Eigen::MatrixBase<Vector>& x,
+                                                  const linear_constraints& constraints,
+                                                  const constraint_multipliers& multipliers) {
+  Eigen::VectorXd sum = -normal.moment().col(right_hand_side), terms = sum.cwiseAbs();
+  const auto add = [&](double factor, const auto& column) {
+    if (factor == 0.0) return;
+    sum += factor * column;
+    terms += std::abs(factor) * column.cwiseAbs();
+  };
+  for (Eigen::Index i = 0; i < x.size(); ++i) add(x[i], normal.gram().col(i));
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i)
+    add(multipliers.inequality[i], constraints.D.row(i).transpose());
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i)
+    add(multipliers.equality[i], constraints.E.row(i).transpose());
+  const Eigen::VectorXd lengths = column_lengths(normal, constraints);
+  const double scale = terms.cwiseQuotient(lengths).maxCoeff();
+  return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
+}
+
+}  // namespace detail
+
+/// The KKT conditions of min 1/2 x'Q x - m'x under linear constraints for one right-hand side: the worst of
+/// - stationarity of the Lagrangian (only the sign of its gradient where x_j = 0 under x >= 0), in units of
+///   `column_lengths` and relative to the largest sum of terms in it, as in `scaled_gradient`;
+/// - each row's violation, relative to |d_i| and the size of its coefficients times that of the weights;
+/// - a negative multiplier of an inequality, relative to the gradient's terms;
+/// - complementarity: the smaller of an inequality's relative multiplier and its relative slack.
+/// With x >= 0 alone it is `kkt_violation(normal, x, 0.0, sign_rule::non_negative)`. O(k (r + s)) for r rows and s
+/// weights that are not zero.
+template <class Vector>
+[[nodiscard]] double kkt_violation(const normal_equations& normal, Eigen::Index right_hand_side,
+                                   const Eigen::MatrixBase<Vector>& x, const linear_constraints& constraints,
+                                   const constraint_multipliers& multipliers) {
+  const scaled_gradient gradient = detail::lagrangian_gradient(normal, right_hand_side, x, constraints, multipliers);
+  if (!x.allFinite() || !gradient.value.allFinite()) return std::numeric_limits<double>::infinity();
+  double worst = 0.0, size = 0.0;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    if (constraints.non_negative && x[j] < 0.0) return std::numeric_limits<double>::infinity();
+    const bool at_bound = constraints.non_negative && x[j] == 0.0;
+    worst = std::max(worst, (at_bound ? -gradient.value[j] : std::abs(gradient.value[j])) / gradient.scale);
+    size = std::max(size, std::abs(x[j]) * gradient.column_norms[j]);
+  }
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
+    const detail::judged_row row(constraints.D.row(i), gradient.column_norms, x);
+    const double slack = row.relative_slack(constraints.d[i], size);
+    const double multiplier = multipliers.inequality[i] * row.largest / gradient.scale;
+    worst = std::max({worst, -slack, -multiplier, std::min(multiplier, slack)});
+  }
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) {
+    const detail::judged_row row(constraints.E.row(i), gradient.column_norms, x);
+    worst = std::max(worst, std::abs(row.relative_slack(constraints.e[i], size)));
+  }
+  return worst;
+}
+
+}  // namespace gonio

@@ -1,0 +1,205 @@
+#include "../golden.hpp"
+#include "random_problems.hpp"
+#include <gonio/solve/lasso.hpp>
+#include <gonio/solve/nnls.hpp>
+#include <gonio/solve/nnls_block_pivoting.hpp>
+#include <gonio/solve/nnls_coordinate_descent.hpp>
+#include <gonio/solve/quadratic_program.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+using gonio::normal_equations;
+
+namespace {
+
+/// Every way to solve NNLS, certified.
+std::vector<std::pair<std::string, gonio::solution>> all_ways(const normal_equations& normal) {
+  return {{"active set", gonio::nnls().solve(normal)},
+          {"block principal pivoting", gonio::nnls_block_pivoting().solve(normal)},
+          {"coordinate descent", gonio::nnls_coordinate_descent().solve(normal)},
+          {"quadratic program", gonio::quadratic_program().solve(normal)},
+          {"non-negative Lasso without a penalty", gonio::non_negative_lasso(0.0).solve(normal)}};
+}
+
+/// By all supports of independent columns, one of which has the optimum: the feasible one with the least objective. For
+/// a handful of columns.
+double least_objective(const random_problem::problem& problem) {
+  const Eigen::Index k = problem.matrix.cols();
+  const normal_equations normal = problem.normal();
+  double least = 0.0;
+  for (unsigned support = 1; support < 1u << k; ++support) {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index j = 0; j < k; ++j)
+      if (support >> j & 1u) columns.push_back(j);
+    const Eigen::MatrixXd part = problem.matrix(Eigen::all, columns);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(part);
+    factor.setThreshold(1e-10);
+    if (factor.rank() < part.cols()) continue;
+    const Eigen::VectorXd x = factor.solve(problem.right);
+    if ((x.array() < 0.0).any()) continue;
+    least = std::min(least, normal.subset(columns).objective(x)[0]);
+  }
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("2,200 random problems: all solvers satisfy the KKT conditions to 1e-9 and agree to 1e-8 in the objective") {
+  double worst_certificate = 0.0, worst_disagreement = 0.0;
+  for (unsigned seed = 0; seed < 2200; ++seed) {
+    random_problem::generator random(seed);
+    const auto what = static_cast<random_problem::kind>(seed % random_problem::kinds);
+    const auto problem = random.make(what);
+    const normal_equations normal = problem.normal();
+    const auto ways = all_ways(normal);
+    const double scale = 0.5 * normal.energy()[0];
+    for (const auto& [name, found] : ways) {
+      CAPTURE(seed);
+      CAPTURE(name);
+      CAPTURE(static_cast<int>(what));
+      CHECK(found.certificate[0] <= 1e-9);
+      CHECK(found.weights.minCoeff() >= 0.0);
+      CHECK(std::abs(found.objective[0] - ways[0].second.objective[0]) <= 1e-8 * scale);
+      worst_certificate = std::max(worst_certificate, found.certificate[0]);
+      worst_disagreement =
+          std::max(worst_disagreement, std::abs(found.objective[0] - ways[0].second.objective[0]) / scale);
+    }
+  }
+  MESSAGE("worst certificate ", worst_certificate, ", worst disagreement ", worst_disagreement);
+}
+
+TEST_CASE("the optimum is that of trying every support") {
+  CHECK(rc::check([] {
+    random_problem::generator random(*rc::gen::arbitrary<unsigned>());
+    const auto what = static_cast<random_problem::kind>(*rc::gen::inRange(0, random_problem::kinds));
+    RC_PRE(what != random_problem::kind::ill_conditioned && what != random_problem::kind::badly_scaled);
+    const auto problem = random.make(what, 7);
+    const double least = least_objective(problem), scale = 0.5 * problem.right.squaredNorm();
+    for (const auto& [name, found] : all_ways(problem.normal()))
+      RC_ASSERT(std::abs(found.objective[0] - least) <= 1e-10 * scale);
+  }));
+}
+
+TEST_CASE("the golden instances, a real 99 x 99 Gram matrix of condition 4e7 among them") {
+  for (const auto& instance : golden_json("nnls.json")) {
+    const auto q = instance["Q"].get<std::vector<std::vector<double>>>();
+    const auto c = instance["c"].get<std::vector<double>>(), x = instance["x"].get<std::vector<double>>();
+    const auto k = static_cast<Eigen::Index>(c.size());
+    Eigen::MatrixXd gram(k, k);
+    for (Eigen::Index row = 0; row < k; ++row)
+      gram.row(row) = Eigen::Map<const Eigen::RowVectorXd>(q[static_cast<std::size_t>(row)].data(), k);
+    const normal_equations normal(gram, Eigen::Map<const Eigen::VectorXd>(c.data(), k));
+    const Eigen::VectorXd expected = Eigen::Map<const Eigen::VectorXd>(x.data(), k);
+    const double objective = normal.objective(expected)[0];
+    for (const auto& [name, found] : all_ways(normal)) {
+      CAPTURE(instance["kind"].get<std::string>());
+      CAPTURE(name);
+      CHECK(found.certificate[0] <= 1e-9);
+      CHECK(found.objective[0] == doctest::Approx(objective).epsilon(1e-10));
+      if (instance["kind"] != "dup")  // whose optimum is not unique
+        CHECK((found.weights.col(0) - expected).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + expected.maxCoeff()));
+    }
+  }
+}
+
+TEST_CASE(
+    "the linear combinations of the small golden instance, with outliers and without, and each of its leave-one-outs") {
+  // Eleven materials, the twelfth measured on every third row; see /shared/reference/python/golden.py.
+  const auto golden = golden_json("small_noell.json");
+  const auto names = golden_json("small_ridge.json")["materials"].get<std::vector<std::string>>();
+  const auto table = golden_csv("small_brdf.csv");
+  const auto measured = golden["measured_rows"].get<std::vector<std::size_t>>();
+  const auto outliers = golden["outlier_positions"].get<std::vector<std::size_t>>();
+  const auto sources = golden["outlier_source_rows"].get<std::vector<std::size_t>>();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto column = [&](std::size_t material) { return table.at(names[material] + "_" + "RGB"[c]); };
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(column(0).size()), 12);
+    for (std::size_t m = 0; m < 12; ++m)
+      all.col(static_cast<Eigen::Index>(m)) =
+          Eigen::Map<const Eigen::VectorXd>(column(m).data(), all.rows()).array().log1p();
+    const auto expect = [](const gonio::solution& found, const nlohmann::json& expected) {
+      const auto alpha = expected.get<std::vector<double>>();
+      CHECK(found.certificate[0] <= 1e-9);
+      for (std::size_t i = 0; i < alpha.size(); ++i)
+        CHECK(found.weights(static_cast<Eigen::Index>(i), 0) == doctest::Approx(alpha[i]).epsilon(1e-6).scale(1e-3));
+    };
+
+    const Eigen::MatrixXd known = all.leftCols(11), gram = known.transpose() * known;
+    for (Eigen::Index target = 0; target < 11; ++target)
+      expect(gonio::nnls().solve(gonio::leave_one_out(gram, target, gonio::all_but(11, target))),
+             golden["channels"][c]["loo_alpha"][static_cast<std::size_t>(target)]);
+
+    gonio::row_matrix rows(static_cast<Eigen::Index>(measured.size()), 11);
+    Eigen::MatrixXd clean(rows.rows(), 1);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      rows.row(static_cast<Eigen::Index>(i)) = known.row(static_cast<Eigen::Index>(measured[i]));
+      clean(static_cast<Eigen::Index>(i), 0) = all(static_cast<Eigen::Index>(measured[i]), 11);
+    }
+    Eigen::MatrixXd disturbed = clean;
+    for (std::size_t i = 0; i < outliers.size(); ++i)
+      disturbed(static_cast<Eigen::Index>(outliers[i]), 0) = all(static_cast<Eigen::Index>(sources[i]), 11);
+    const auto& channel = golden["channels"][c];
+    expect(gonio::nnls().solve(gonio::least_squares_problem(rows, clean)), channel["clean_gamma0"]["alpha"]);
+    expect(gonio::nnls().solve(gonio::least_squares_problem(rows, disturbed)), channel["outliers_gamma3"]["alpha"]);
+  }
+}
+
+TEST_CASE("several right-hand sides are solved one by one") {
+  random_problem::generator random(5);
+  const auto problem = random.make(random_problem::kind::ordinary);
+  const Eigen::MatrixXd right = random.gaussian(problem.matrix.rows(), 3);
+  const gonio::row_matrix rows = problem.matrix;
+  const auto together = gonio::nnls().solve(gonio::least_squares_problem(rows, right));
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const auto alone = gonio::nnls().solve(gonio::least_squares_problem(rows, right.col(c)));
+    CHECK(together.weights.col(c) == alone.weights.col(0));
+    CHECK(together.residual[c] == doctest::Approx((problem.matrix * alone.weights - right.col(c)).norm()));
+  }
+}
+
+TEST_CASE("the iteration steps by hand, and the objective never rises") {
+  random_problem::generator random(11);
+  const auto normal = random.make(random_problem::kind::non_negative_data, 40).normal();
+  double last = 0.0;
+  int steps = 0;
+  for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step(), ++steps) {
+    const double objective = normal.objective(run.weights())[0];
+    CHECK(objective <= last);
+    last = objective;
+  }
+  CHECK(steps > 0);
+}
+
+TEST_CASE("a warm start from the optimum has nothing to do") {
+  random_problem::generator random(12);
+  const auto normal = random.make(random_problem::kind::non_negative_data, 40).normal();
+  const auto found = gonio::nnls().solve(normal);
+  gonio::nnls::iteration run(normal, 0);
+  run.start_from(found.weights.col(0));
+  CHECK(run.converged());
+  CHECK(run.weights().isApprox(found.weights.col(0), 1e-12));
+}
+
+TEST_CASE("an iteration that does not end is an error") {
+  struct endless {
+    Eigen::VectorXd x;
+    void step() {}
+    bool converged() const { return false; }
+    const Eigen::VectorXd& weights() const { return x; }
+  };
+  endless run;
+  CHECK_THROWS_WITH_AS(gonio::run_to_convergence(run, 50, "this method"),
+                       doctest::Contains("this method has not converged after 50 steps"), gonio::error);
+}
+
+TEST_CASE("an indefinite matrix is no Gram matrix: an answer is certified or there is none") {
+  Eigen::MatrixXd indefinite(2, 2);
+  indefinite << 1, -2, -2, 1;
+  try {
+    const auto found = gonio::nnls().solve(normal_equations(indefinite, Eigen::Vector2d(1, 1)));
+    CHECK(found.certificate[0] > 1e-9);
+  } catch (const gonio::error& refused) {
+    CHECK(std::string(refused.what()).find("NNLS") != std::string::npos);
+  }
+}
