@@ -7,6 +7,12 @@
 #include <random>
 #include <string>
 
+/// A grid of few cells.
+inline const gonio::valid_cells& small_cells() {
+  static const gonio::valid_cells cells(gonio::grid({10, 7, 9}));
+  return cells;
+}
+
 /// Diffuse plus a lobe in theta_h that grows towards grazing; colours, widths and heights at random.
 inline gonio::material_set made_up_materials(const gonio::valid_cells& cells, std::size_t count, unsigned seed = 7) {
   std::mt19937 generator(seed);

@@ -7,15 +7,6 @@
 
 using gonio::valid_cells;
 
-namespace {
-
-const valid_cells& small_cells() {
-  static const valid_cells cells(gonio::grid({18, 9, 12}));
-  return cells;
-}
-
-}  // namespace
-
 TEST_CASE("components are those of a dense singular value decomposition") {
   const auto set = made_up_materials(small_cells(), 6);
   const auto prior = learn(set, 18);

@@ -7,28 +7,18 @@
 #include <doctest/doctest.h>
 
 using gonio::measured;
-using gonio::valid_cells;
 
 static_assert(gonio::basis<gonio::measured_channel<gonio::log>>);
 static_assert(gonio::channelwise_basis<measured<gonio::log>> && !gonio::basis<measured<gonio::log>>);
 static_assert(gonio::colour_basis<measured<gonio::log_relative>> && gonio::colour_basis<gonio::log_relative_pca>);
 static_assert(gonio::has_arbitrary_sign<gonio::log_relative_pca> && !gonio::has_arbitrary_sign<measured<gonio::log>>);
 
-namespace {
-
-const valid_cells& cells() {
-  static const valid_cells small(gonio::grid({10, 7, 9}));
-  return small;
-}
-
-}  // namespace
-
 TEST_CASE("function i of a channel is that channel of material i, mapped") {
-  const auto materials = made_up_materials(cells(), 5);
+  const auto materials = made_up_materials(small_cells(), 5);
   const measured basis{materials, gonio::log{}};
   CHECK(basis.size() == 5);
   CHECK(basis.names() == materials.names);
-  for (const std::size_t cell : {std::size_t{0}, cells().size() / 2, cells().size() - 1})
+  for (const std::size_t cell : {std::size_t{0}, small_cells().size() / 2, small_cells().size() - 1})
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = basis.channel(c);
       REQUIRE(channel.row(cell).size() == 5);
@@ -40,17 +30,17 @@ TEST_CASE("function i of a channel is that channel of material i, mapped") {
 }
 
 TEST_CASE("the products of a channel are its Gram matrix over all cells") {
-  const measured basis{made_up_materials(cells(), 4), gonio::lin{}};
+  const measured basis{made_up_materials(small_cells(), 4), gonio::lin{}};
   const auto channel = basis.channel(1);
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < cells().size(); ++cell)
+  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
     sum += double{channel.row(cell)[2]} * double{channel.row(cell)[3]};
   CHECK(channel.products()(2, 3) == doctest::Approx(sum).epsilon(1e-12));
   CHECK(channel.products({1}) == channel.products({3}));
 }
 
 TEST_CASE("materials are left out without copying: the rows stay where they are") {
-  const measured basis{made_up_materials(cells(), 5), gonio::log{}};
+  const measured basis{made_up_materials(small_cells(), 5), gonio::log{}};
   const auto fewer = basis.without({"material-1", "material-4"}), fewest = fewer.without({"material-0"});
   CHECK(std::ranges::equal(basis.columns(), std::vector<Eigen::Index>{0, 1, 2, 3, 4}));
   CHECK(std::ranges::equal(fewer.columns(), std::vector<Eigen::Index>{0, 2, 3}));
@@ -62,25 +52,25 @@ TEST_CASE("materials are left out without copying: the rows stay where they are"
 }
 
 TEST_CASE("a basis from what a prior remembers is that from the materials") {
-  const auto materials = made_up_materials(cells(), 6);
+  const auto materials = made_up_materials(small_cells(), 6);
   const auto remembered = gonio::expand(learn(materials, 18));
   CHECK(remembered.names == materials.names);
   REQUIRE(remembered.values.rows() == materials.values.rows());
   CHECK((remembered.values - materials.values).cwiseAbs().maxCoeff() < 2e-3f * materials.values.maxCoeff());
   const measured from_prior{remembered, gonio::log{}}, from_materials{materials, gonio::log{}};
-  for (std::size_t cell = 0; cell < cells().size(); cell += 13)
+  for (std::size_t cell = 0; cell < small_cells().size(); cell += 13)
     for (std::size_t i = 0; i < 6; ++i)
       CHECK(from_prior.channel(2).row(cell)[i] ==
             doctest::Approx(double{from_materials.channel(2).row(cell)[i]}).epsilon(0.01));
 }
 
 TEST_CASE("materials that cannot be used are refused by name") {
-  auto broken = made_up_materials(cells(), 3);
+  auto broken = made_up_materials(small_cells(), 3);
   broken.values(5, 7) = std::nanf("");
   CHECK_THROWS_WITH_AS((measured{broken, gonio::log{}}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
-  CHECK_THROWS_AS((measured{gonio::material_set{cells(), {}, {}}, gonio::log{}}), gonio::error);
-  auto short_set = made_up_materials(cells(), 3);
+  CHECK_THROWS_AS((measured{gonio::material_set{small_cells(), {}, {}}, gonio::log{}}), gonio::error);
+  auto short_set = made_up_materials(small_cells(), 3);
   short_set.names.pop_back();
   CHECK_THROWS_AS((measured{short_set, gonio::log{}}), gonio::error);
 }

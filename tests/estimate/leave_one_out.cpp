@@ -5,17 +5,8 @@
 
 #include <doctest/doctest.h>
 
-namespace {
-
-const gonio::valid_cells& cells() {
-  static const gonio::valid_cells small(gonio::grid({10, 7, 9}));
-  return small;
-}
-
-}  // namespace
-
 TEST_CASE("leaving one out through the products is fitting its table by a basis without it") {
-  const auto materials = made_up_materials(cells(), 7);
+  const auto materials = made_up_materials(small_cells(), 7);
   const gonio::measured basis{materials, gonio::log{}};
   const gonio::leave_one_out_decomposition others{basis, gonio::nnls{}};
   for (const std::size_t material : std::vector<std::size_t>{0, 3, 6}) {
@@ -26,14 +17,14 @@ TEST_CASE("leaving one out through the products is fitting its table by a basis 
     CHECK(quick.found().weights.row(static_cast<Eigen::Index>(material)).isZero(0.0));
     CHECK(quick.found().certificate.maxCoeff() <= 1e-9);
     CHECK(quick.found().residual.isApprox(direct.found().residual, 1e-6));
-    const auto one = quick.tabulate(cells()), other = direct.tabulate(cells());
+    const auto one = quick.tabulate(small_cells()), other = direct.tabulate(small_cells());
     for (std::size_t i = 0; i < one.values().size(); ++i)
       REQUIRE(one.values()[i] == doctest::Approx(double{other.values()[i]}).epsilon(1e-3));
   }
 }
 
 TEST_CASE("what the basis leaves out stays out") {
-  const auto materials = made_up_materials(cells(), 5);
+  const auto materials = made_up_materials(small_cells(), 5);
   const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}.without({"material-2"}),
                                                   gonio::nnls{}};
   CHECK(others.fit(0).found().weights.row(2).isZero(0.0));
@@ -42,7 +33,7 @@ TEST_CASE("what the basis leaves out stays out") {
 }
 
 TEST_CASE("the only material has no others") {
-  const gonio::leave_one_out_decomposition alone{gonio::measured{made_up_materials(cells(), 1), gonio::log{}},
+  const gonio::leave_one_out_decomposition alone{gonio::measured{made_up_materials(small_cells(), 1), gonio::log{}},
                                                  gonio::nnls{}};
   CHECK_THROWS_AS(static_cast<void>(alone.fit(0)), gonio::error);
 }

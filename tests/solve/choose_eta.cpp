@@ -1,3 +1,4 @@
+#include "random_problems.hpp"
 #include <gonio/solve/choose_eta.hpp>
 
 #include <doctest/doctest.h>
@@ -18,14 +19,8 @@ namespace {
 
 constexpr eta_criterion criteria[] = {eta_criterion::generalised_cross_validation, eta_criterion::leave_one_out};
 
-Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
-
 /// Rows of columns whose lengths fall, right-hand sides with noise, and weights of which some are zero.
-least_squares_problem random_problem(Eigen::Index n, Eigen::Index k, double noise, unsigned seed) {
+least_squares_problem noisy_problem(Eigen::Index n, Eigen::Index k, double noise, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   for (Eigen::Index column = 0; column < k; ++column) rows.col(column) *= std::pow(0.8, static_cast<double>(column));
   const Eigen::MatrixXd right = rows * random_matrix(k, 2, seed + 1) + noise * random_matrix(n, 2, seed + 2);
@@ -74,7 +69,7 @@ double score(const least_squares_problem& problem, eta_criterion criterion, doub
 TEST_CASE("leave-one-out is refitting without each row, generalised cross-validation is its definition") {
   CHECK(rc::check([] {
     const auto n = *rc::gen::inRange<Eigen::Index>(2, 20), k = *rc::gen::inRange<Eigen::Index>(1, 20);
-    const auto problem = random_problem(n, k, 0.3, *rc::gen::arbitrary<unsigned>());
+    const auto problem = noisy_problem(n, k, 0.3, *rc::gen::arbitrary<unsigned>());
     Eigen::VectorXd etas(3);
     for (double& eta : etas) eta = std::pow(10.0, *rc::gen::inRange(-30, 30) * 0.1);
     const auto refitted = cross_validate(problem, eta_criterion::leave_one_out, etas);
@@ -88,7 +83,7 @@ TEST_CASE("leave-one-out is refitting without each row, generalised cross-valida
 }
 
 TEST_CASE("more rows than a block holds") {
-  const auto problem = random_problem(2500, 4, 0.3, 5);
+  const auto problem = noisy_problem(2500, 4, 0.3, 5);
   const double eta = 7.0;
   const Eigen::MatrixXd x = tikhonov(eta).solve(problem).weights;
   const Eigen::MatrixXd inverse =
@@ -119,7 +114,7 @@ TEST_CASE("the score of the chosen eta is within 1 % of the least on a dense sca
   for (const auto& [n, k] : {std::pair{5, 40}, {12, 12}, {13, 12}, {40, 12}, {300, 20}})
     for (const double noise : {0.0, 0.01, 0.3, 3.0, 100.0})
       for (const eta_criterion criterion : criteria) {
-        const auto problem = random_problem(n, k, noise, ++seed);
+        const auto problem = noisy_problem(n, k, noise, ++seed);
         CAPTURE(n);
         CAPTURE(noise);
         const double eta = choose_eta(problem, criterion);
@@ -169,7 +164,7 @@ TEST_CASE("dependent columns and rows, tall and wide") {
 TEST_CASE("the solver is Tikhonov's with the chosen eta, and rows without weight do not matter") {
   for (const eta_criterion criterion : criteria)
     for (const auto& [n, k] : {std::pair{30, 8}, {8, 30}}) {
-      const auto problem = random_problem(n, k, 0.3, 11);
+      const auto problem = noisy_problem(n, k, 0.3, 11);
       const double eta = choose_eta(problem, criterion);
       const auto found = automatic_tikhonov(criterion).solve(problem);
       CHECK(found.weights == tikhonov(eta).solve(problem).weights);

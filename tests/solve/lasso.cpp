@@ -13,8 +13,8 @@ using gonio::sign_rule;
 TEST_CASE("the optimality conditions hold on random problems of all kinds, with both signs and with one") {
   double worst = 0.0;
   for (unsigned seed = 0; seed < 1100; ++seed) {
-    random_problem::generator random(seed);
-    const auto normal = random.make(static_cast<random_problem::kind>(seed % random_problem::kinds)).normal();
+    random_problems::generator random(seed);
+    const auto normal = random.make(static_cast<random_problems::kind>(seed % random_problems::kinds)).normal();
     const double share = std::pow(10.0, random.uniform(-6.0, 0.1));
     CAPTURE(seed);
     const auto both = lasso(share * gonio::largest_lambda(normal, 0, sign_rule::any)).solve(normal);
@@ -31,7 +31,7 @@ TEST_CASE("the optimality conditions hold on random problems of all kinds, with 
 
 TEST_CASE("with orthogonal columns the solution is the soft threshold of least squares") {
   CHECK(rc::check([] {
-    random_problem::generator random(*rc::gen::arbitrary<unsigned>());
+    random_problems::generator random(*rc::gen::arbitrary<unsigned>());
     const auto k = *rc::gen::inRange<Eigen::Index>(1, 30);
     Eigen::VectorXd squares(k);
     for (double& square : squares) square = random.uniform(0.1, 10.0);
@@ -57,8 +57,8 @@ TEST_CASE("the objective counts the penalty") {
 
 TEST_CASE("a path is the solutions of its penalties, from nothing to nearly least squares") {
   for (unsigned seed = 0; seed < 55; ++seed) {
-    random_problem::generator random(seed);
-    const auto problem = random.make(static_cast<random_problem::kind>(seed % random_problem::kinds));
+    random_problems::generator random(seed);
+    const auto problem = random.make(static_cast<random_problems::kind>(seed % random_problems::kinds));
     const auto normal = problem.normal();
     if (gonio::largest_lambda(normal, 0, sign_rule::any) == 0.0) continue;
     CAPTURE(seed);

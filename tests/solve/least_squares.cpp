@@ -1,3 +1,4 @@
+#include "random_problems.hpp"
 #include <gonio/solve/least_squares.hpp>
 
 #include <doctest/doctest.h>
@@ -13,12 +14,6 @@ using gonio::normal_equations;
 using gonio::row_matrix;
 
 namespace {
-
-Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
 
 /// Orthonormal columns.
 Eigen::MatrixXd random_orthonormal(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
@@ -85,8 +80,6 @@ reference by_svd(const least_squares_problem& problem) {
   return found;
 }
 
-double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / (1.0 + b.norm()); }
-
 }  // namespace
 
 TEST_CASE("the minimum-norm solution is that of the singular value decomposition, for any shape and rank") {
@@ -100,11 +93,11 @@ TEST_CASE("the minimum-norm solution is that of the singular value decomposition
     RC_PRE(tolerance < 1e-6);
     const auto found = least_squares().solve(problem);
     RC_ASSERT(least_squares().rank(problem) == expected.rank);
-    RC_ASSERT(distance(found.weights, expected.x) < tolerance);
+    RC_ASSERT(relative_distance(found.weights, expected.x) < tolerance);
     RC_ASSERT(found.certificate.maxCoeff() < 1e-13);
     RC_ASSERT(found.iterations == 0);
-    RC_ASSERT(distance(found.residual, problem.residual(expected.x)) < 1e-12 * expected.condition);
-    RC_ASSERT(distance(found.objective, problem.normal().objective(expected.x)) < 1e-12 * expected.condition);
+    RC_ASSERT(relative_distance(found.residual, problem.residual(expected.x)) < 1e-12 * expected.condition);
+    RC_ASSERT(relative_distance(found.objective, problem.normal().objective(expected.x)) < 1e-12 * expected.condition);
   }));
 }
 
@@ -118,7 +111,7 @@ TEST_CASE("the normal equations alone give the same, where their Gram matrix can
     RC_PRE(expected.condition < 1e4);
     const auto found = least_squares().solve(problem.normal());
     RC_ASSERT(least_squares().rank(problem.normal()) == expected.rank);
-    RC_ASSERT(distance(found.weights, expected.x) < 1e-12 * expected.condition * expected.condition);
+    RC_ASSERT(relative_distance(found.weights, expected.x) < 1e-12 * expected.condition * expected.condition);
     RC_ASSERT(found.certificate.maxCoeff() < 1e-9);
   }));
 }
@@ -167,10 +160,10 @@ TEST_CASE("what the Gram matrix has lost, the rows still have: the matrix of Lae
   rows << 1, 1, small, 0, 0, small;
   const least_squares_problem problem(rows, Eigen::Vector3d(3, small, 2 * small));
   const auto found = least_squares().solve(problem);
-  CHECK(distance(found.weights, Eigen::Vector2d(1, 2)) < 1e-6);
+  CHECK(relative_distance(found.weights, Eigen::Vector2d(1, 2)) < 1e-6);
   CHECK(least_squares().rank(problem) == 2);
   CHECK(least_squares().rank(problem.normal()) == 1);
-  CHECK(distance(least_squares().solve(problem.normal()).weights, Eigen::Vector2d(1.5, 1.5)) < 1e-12);
+  CHECK(relative_distance(least_squares().solve(problem.normal()).weights, Eigen::Vector2d(1.5, 1.5)) < 1e-12);
 }
 
 TEST_CASE("a condition number of 1e14") {

@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, gonio::solution>> all_ways(const normal_equat
 
 /// By all supports of independent columns, one of which has the optimum: the feasible one with the least objective. For
 /// a handful of columns.
-double least_objective(const random_problem::problem& problem) {
+double least_objective(const random_problems::problem& problem) {
   const Eigen::Index k = problem.matrix.cols();
   const normal_equations normal = problem.normal();
   double least = 0.0;
@@ -48,8 +48,8 @@ double least_objective(const random_problem::problem& problem) {
 TEST_CASE("2,200 random problems: all solvers satisfy the KKT conditions to 1e-9 and agree to 1e-8 in the objective") {
   double worst_certificate = 0.0, worst_disagreement = 0.0;
   for (unsigned seed = 0; seed < 2200; ++seed) {
-    random_problem::generator random(seed);
-    const auto what = static_cast<random_problem::kind>(seed % random_problem::kinds);
+    random_problems::generator random(seed);
+    const auto what = static_cast<random_problems::kind>(seed % random_problems::kinds);
     const auto problem = random.make(what);
     const normal_equations normal = problem.normal();
     const auto ways = all_ways(normal);
@@ -71,9 +71,9 @@ TEST_CASE("2,200 random problems: all solvers satisfy the KKT conditions to 1e-9
 
 TEST_CASE("the optimum is that of trying every support") {
   CHECK(rc::check([] {
-    random_problem::generator random(*rc::gen::arbitrary<unsigned>());
-    const auto what = static_cast<random_problem::kind>(*rc::gen::inRange(0, random_problem::kinds));
-    RC_PRE(what != random_problem::kind::ill_conditioned && what != random_problem::kind::badly_scaled);
+    random_problems::generator random(*rc::gen::arbitrary<unsigned>());
+    const auto what = static_cast<random_problems::kind>(*rc::gen::inRange(0, random_problems::kinds));
+    RC_PRE(what != random_problems::kind::ill_conditioned && what != random_problems::kind::badly_scaled);
     const auto problem = random.make(what, 7);
     const double least = least_objective(problem), scale = 0.5 * problem.right.squaredNorm();
     for (const auto& [name, found] : all_ways(problem.normal()))
@@ -146,8 +146,8 @@ TEST_CASE(
 }
 
 TEST_CASE("several right-hand sides are solved one by one") {
-  random_problem::generator random(5);
-  const auto problem = random.make(random_problem::kind::ordinary);
+  random_problems::generator random(5);
+  const auto problem = random.make(random_problems::kind::ordinary);
   const Eigen::MatrixXd right = random.gaussian(problem.matrix.rows(), 3);
   const gonio::row_matrix rows = problem.matrix;
   const auto together = gonio::nnls().solve(gonio::least_squares_problem(rows, right));
@@ -159,8 +159,8 @@ TEST_CASE("several right-hand sides are solved one by one") {
 }
 
 TEST_CASE("the iteration steps by hand, and the objective never rises") {
-  random_problem::generator random(11);
-  const auto normal = random.make(random_problem::kind::non_negative_data, 40).normal();
+  random_problems::generator random(11);
+  const auto normal = random.make(random_problems::kind::non_negative_data, 40).normal();
   double last = 0.0;
   int steps = 0;
   for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step(), ++steps) {
@@ -172,8 +172,8 @@ TEST_CASE("the iteration steps by hand, and the objective never rises") {
 }
 
 TEST_CASE("a warm start from the optimum has nothing to do") {
-  random_problem::generator random(12);
-  const auto normal = random.make(random_problem::kind::non_negative_data, 40).normal();
+  random_problems::generator random(12);
+  const auto normal = random.make(random_problems::kind::non_negative_data, 40).normal();
   const auto found = gonio::nnls().solve(normal);
   gonio::nnls::iteration run(normal, 0);
   run.start_from(found.weights.col(0));

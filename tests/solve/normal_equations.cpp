@@ -8,7 +8,7 @@ using gonio::normal_equations;
 
 namespace {
 
-const Eigen::MatrixXd& matrix() {
+const Eigen::MatrixXd& five_columns() {
   static const Eigen::MatrixXd a = Eigen::MatrixXd::Random(20, 5);
   return a;
 }
@@ -16,7 +16,7 @@ const Eigen::MatrixXd& matrix() {
 }  // namespace
 
 TEST_CASE("objective and residual are those of the rows") {
-  const Eigen::MatrixXd& a = matrix();
+  const Eigen::MatrixXd& a = five_columns();
   const Eigen::VectorXd b = Eigen::VectorXd::Random(20), x = Eigen::VectorXd::Random(5);
   const normal_equations normal(a.transpose() * a, a.transpose() * b, Eigen::VectorXd::Constant(1, b.squaredNorm()));
   CHECK(normal.objective(x)[0] == doctest::Approx(0.5 * (a * x - b).squaredNorm() - 0.5 * b.squaredNorm()));
@@ -24,7 +24,7 @@ TEST_CASE("objective and residual are those of the rows") {
 }
 
 TEST_CASE("leaving a column out is a submatrix of the whole's products") {
-  const Eigen::MatrixXd& a = matrix();
+  const Eigen::MatrixXd& a = five_columns();
   const Eigen::MatrixXd gram = a.transpose() * a;
   const auto columns = gonio::all_but(5, 2);
   CHECK(columns == std::vector<Eigen::Index>{0, 1, 3, 4});

@@ -31,7 +31,6 @@ using programs::extended;
 using programs::matrix;
 using programs::numbers;
 using programs::random_constraints;
-using programs::random_matrix;
 using programs::random_problem;
 using programs::scaled;
 using programs::times;

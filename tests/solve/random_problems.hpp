@@ -10,7 +10,21 @@
 #include <string>
 #include <vector>
 
-namespace random_problem {
+/// Standard normal numbers.
+inline Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  Eigen::MatrixXd matrix(rows, columns);
+  for (double& value : matrix.reshaped()) value = normal(generator);
+  return matrix;
+}
+
+/// How far two solutions are apart, relative to their size but where they are small.
+inline double relative_distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return (a - b).norm() / (1.0 + b.norm());
+}
+
+namespace random_problems {
 
 /// What is special about a problem.
 enum class kind {
@@ -95,4 +109,4 @@ class generator {
   std::mt19937 engine_;
 };
 
-}  // namespace random_problem
+}  // namespace random_problems

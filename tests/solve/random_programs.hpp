@@ -1,6 +1,7 @@
 #pragma once
 /// Random quadratic programs of every kind that solvers find hard, and their optimum by brute force.
 
+#include "random_problems.hpp"
 #include <gonio/solve/linear_constraints.hpp>
 #include <gonio/solve/normal_equations.hpp>
 
@@ -19,15 +20,6 @@ namespace programs {
 
 using matrix = Eigen::MatrixXd;
 using vector = Eigen::VectorXd;
-
-inline matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  matrix made(rows, columns);
-  for (Eigen::Index j = 0; j < columns; ++j)
-    for (Eigen::Index i = 0; i < rows; ++i) made(i, j) = normal(generator);
-  return made;
-}
 
 /// One product for all, compiled once.
 inline matrix times(const matrix& a, const matrix& b) { return a * b; }

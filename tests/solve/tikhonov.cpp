@@ -1,4 +1,5 @@
 #include "../golden.hpp"
+#include "random_problems.hpp"
 #include <gonio/solve/tikhonov.hpp>
 
 #include <doctest/doctest.h>
@@ -9,16 +10,6 @@
 using gonio::least_squares_problem;
 using gonio::row_matrix;
 using gonio::tikhonov;
-
-namespace {
-
-row_matrix random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return row_matrix::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
-
-}  // namespace
 
 TEST_CASE("the primal and the dual form agree, tall and wide, weighted and not, and are certified") {
   CHECK(rc::check([] {

@@ -1,3 +1,4 @@
+#include "random_problems.hpp"
 #include <gonio/solve/truncated_svd.hpp>
 
 #include <Eigen/SVD>
@@ -14,14 +15,8 @@ using gonio::truncated_svd;
 
 namespace {
 
-Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> normal;
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(generator); });
-}
-
 /// Columns whose lengths fall by `factor` each, times a random matrix; about every fifth weight is zero.
-least_squares_problem random_problem(Eigen::Index n, Eigen::Index k, double factor, unsigned seed) {
+least_squares_problem fading_problem(Eigen::Index n, Eigen::Index k, double factor, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   for (Eigen::Index column = 0; column < k; ++column) rows.col(column) *= std::pow(factor, static_cast<double>(column));
   const Eigen::MatrixXd mixed = rows * random_matrix(k, k, seed + 1);
@@ -30,14 +25,14 @@ least_squares_problem random_problem(Eigen::Index n, Eigen::Index k, double fact
   return {mixed, random_matrix(n, 2, seed + 3), weights};
 }
 
-struct reference {
+struct truncated_reference {
   Eigen::MatrixXd x;
   Eigen::Index kept;
   double margin;     // how far the sums of squares stay from the share: less, and rounding decides
   double condition;  // of what is kept
 };
 
-reference by_svd(const least_squares_problem& problem, double share) {
+truncated_reference by_truncated_svd(const least_squares_problem& problem, double share) {
   const Eigen::VectorXd root = problem.weights().cwiseSqrt();
   const Eigen::MatrixXd rows = root.asDiagonal() * problem.rows();
   const Eigen::MatrixXd right = root.asDiagonal() * problem.right_hand_side();
@@ -57,27 +52,25 @@ reference by_svd(const least_squares_problem& problem, double share) {
   return found;
 }
 
-double distance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return (a - b).norm() / (1.0 + b.norm()); }
-
 }  // namespace
 
 TEST_CASE("tall and wide problems agree with the truncated singular value decomposition") {
   CHECK(rc::check([] {
     const auto n = *rc::gen::inRange<Eigen::Index>(1, 20), k = *rc::gen::inRange<Eigen::Index>(1, 20);
     const double share = *rc::gen::inRange(1, 999) * 0.001, factor = *rc::gen::inRange(5, 10) * 0.1;
-    const auto problem = random_problem(n, k, factor, *rc::gen::arbitrary<unsigned>());
-    const auto expected = by_svd(problem, share);
+    const auto problem = fading_problem(n, k, factor, *rc::gen::arbitrary<unsigned>());
+    const auto expected = by_truncated_svd(problem, share);
     RC_PRE(expected.margin > 1e-9 && expected.condition < 1e3);
     const auto found = truncated_svd(share).solve(problem);
     RC_ASSERT(truncated_svd(share).kept(problem) == expected.kept);
-    RC_ASSERT(distance(found.weights, expected.x) < 1e-8);
-    RC_ASSERT(distance(found.residual, problem.residual(expected.x)) < 1e-9);
-    RC_ASSERT(distance(found.objective, problem.normal().objective(expected.x)) < 1e-9);
+    RC_ASSERT(relative_distance(found.weights, expected.x) < 1e-8);
+    RC_ASSERT(relative_distance(found.residual, problem.residual(expected.x)) < 1e-9);
+    RC_ASSERT(relative_distance(found.objective, problem.normal().objective(expected.x)) < 1e-9);
     RC_ASSERT(found.certificate.maxCoeff() < 1e-12);
     // Without the rows, through the k x k normal equations in any case.
     const auto primal = truncated_svd(share).solve(problem.normal());
     RC_ASSERT(truncated_svd(share).kept(problem.normal()) == expected.kept);
-    RC_ASSERT(distance(primal.weights, expected.x) < 1e-8);
+    RC_ASSERT(relative_distance(primal.weights, expected.x) < 1e-8);
     RC_ASSERT(primal.certificate.maxCoeff() < 1e-12);
   }));
 }
@@ -86,7 +79,7 @@ TEST_CASE("certificates hold for any share, also where singular values fall to r
   CHECK(rc::check([] {
     const auto n = *rc::gen::inRange<Eigen::Index>(1, 30), k = *rc::gen::inRange<Eigen::Index>(1, 30);
     const double share = 1.0 - std::pow(10.0, -*rc::gen::inRange(0, 160) * 0.1) * 0.999;
-    const auto problem = random_problem(n, k, 0.1, *rc::gen::arbitrary<unsigned>());
+    const auto problem = fading_problem(n, k, 0.1, *rc::gen::arbitrary<unsigned>());
     RC_ASSERT(truncated_svd(share).solve(problem).certificate.maxCoeff() < 1e-9);
     RC_ASSERT(truncated_svd(1.0).solve(problem).certificate.maxCoeff() < 1e-9);
     RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).certificate.maxCoeff() < 1e-9);
@@ -97,9 +90,9 @@ TEST_CASE("a closed form: on a diagonal matrix unknowns are solved for or left a
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(4, 3);
   rows.diagonal() << 1, 3, 2;  // squares 9, 4, 1 of 14
   const least_squares_problem problem(rows, Eigen::Vector4d(5, 6, 8, 1));
-  CHECK(distance(truncated_svd(9.0 / 14 - 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 0)) < 1e-14);
-  CHECK(distance(truncated_svd(9.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 4)) < 1e-14);
-  CHECK(distance(truncated_svd(13.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(5, 2, 4)) < 1e-14);
+  CHECK(relative_distance(truncated_svd(9.0 / 14 - 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 0)) < 1e-14);
+  CHECK(relative_distance(truncated_svd(9.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(0, 2, 4)) < 1e-14);
+  CHECK(relative_distance(truncated_svd(13.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(5, 2, 4)) < 1e-14);
   CHECK(truncated_svd(1e-300).kept(problem) == 1);
   const auto found = truncated_svd(0.7).solve(problem);
   CHECK(found.residual[0] == doctest::Approx(std::sqrt(26.0)));
@@ -115,9 +108,9 @@ TEST_CASE("a share of 1 is the minimum-norm solution: copied columns share the w
     const least_squares_problem problem(rows, random_matrix(n, 1, 4));
     CHECK(truncated_svd(1.0).kept(problem) == std::min<Eigen::Index>(n, 8));
     const auto found = truncated_svd(1.0).solve(problem);
-    CHECK(distance(found.weights.topRows(8), found.weights.bottomRows(8)) < 1e-12);
+    CHECK(relative_distance(found.weights.topRows(8), found.weights.bottomRows(8)) < 1e-12);
     const auto once = truncated_svd(1.0).solve({half, problem.right_hand_side()});
-    CHECK(distance(2.0 * found.weights.topRows(8), once.weights) < 1e-10);
+    CHECK(relative_distance(2.0 * found.weights.topRows(8), once.weights) < 1e-10);
     CHECK(found.residual[0] == doctest::Approx(once.residual[0]).scale(1.0));
   }
 }
