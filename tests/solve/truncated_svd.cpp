@@ -39,7 +39,7 @@ truncated_reference by_truncated_svd(const least_squares_problem& problem, doubl
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& singular = svd.singularValues();
   const double total = singular.squaredNorm();
-  reference found{Eigen::MatrixXd::Zero(rows.cols(), right.cols()), 0, 1.0, 1.0};
+  truncated_reference found{Eigen::MatrixXd::Zero(rows.cols(), right.cols()), 0, 1.0, 1.0};
   double sum = 0.0;
   while (found.kept < singular.size() && sum < share * total) {
     const Eigen::Index i = found.kept++;
