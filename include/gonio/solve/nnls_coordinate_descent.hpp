@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/solvers.md says when which is faster.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/solvers.md has both measured.
 class nnls_coordinate_descent {
  public:
   static constexpr bool non_negative = true;

@@ -53,8 +53,9 @@ struct solution {
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
 /// What the compiler cannot check, and a model must keep: the certificate is computed from the problem and
-/// the returned weights, not from the solver's internal state, and is at most about 1e-9 on success; a
-/// solver that gives up throws gonio::error; solving is const and thread safe.
+/// the returned weights, not from the solver's internal state, and is at most about 1e-9 on success (`least_squares`
+/// says where normal equations alone do not hold that much); a solver that gives up throws gonio::error; solving is
+/// const and thread safe.
 ///
 /// ```cpp
 /// struct ordinary_least_squares {
