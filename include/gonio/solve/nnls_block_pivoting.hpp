@@ -98,8 +98,8 @@ class block_pivoting {
   int chances_ = 3;
 };
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/solvers.md says when it
-/// is faster. On a problem with dependent columns it may pivot for ever: it then hands over to `active_set` after 3 k +
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/solvers.md has both
+/// measured. On a problem with dependent columns it may pivot for ever: it then hands over to `active_set` after 3 k +
 /// 20 steps, whose limit is the end of it (gonio::error).
 class nnls_block_pivoting {
  public:
