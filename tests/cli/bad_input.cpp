@@ -65,7 +65,7 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --eta 0", {"eta"});
   refuses(reconstruct + " --eta -3", {"eta"});
   refuses(reconstruct + " --eta much", {"eta", "gcv", "much"});
-  refuses(reconstruct + " --eta gcv", {"one"});  // one observation: nothing to validate with
+  refuses(reconstruct + " --eta gcv", {"2 rows", "not 1"});  // one observation: nothing to validate with
   refuses(reconstruct + " --solver magic", {"magic"});
   refuses(reconstruct + " --solver nnls", {"nnls", "signs", "--method linear"});
   refuses(reconstruct + " --metric log", {"log", "--method linear"});

@@ -110,16 +110,15 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
     for (const double certificate : fit["certificate"]) CHECK(certificate <= 1e-9);
     return fit;
   };
-  for (const char* metric : {"lin", "root", "root --root 3", "log", "log-relative"})
-    CHECK(reconstruct(std::string("--metric ") + metric)["samples"] == 300);
-  for (const char* solver : {"qp", "tikhonov", "tikhonov --eta loo", "tikhonov --eta 0.1", "lasso",
-                             "lasso --lambda 0.1", "tsvd --variance 0.999", "ls"})
-    CHECK(reconstruct(std::string("--solver ") + solver)["samples"] == 300);
+  for (const char* options :
+       {"--metric lin --solver lasso --lambda 0.1", "--metric root --root 3 --solver tikhonov --eta loo",
+        "--metric log-relative --solver tsvd --variance 0.999", "--metric root --solver ls"})
+    CHECK(reconstruct(options)["samples"] == 300);
 
   // NNLS is the default, and the quadratic program finds the same.
-  const auto own = reconstruct(""), nnls = reconstruct("--solver nnls --metric log"), qp = reconstruct("--solver qp");
-  CHECK(own == nnls);
+  const auto own = reconstruct(""), qp = reconstruct("--metric log --solver qp");
   CHECK(own["non_zero_weights"] == qp["non_zero_weights"]);
+  CHECK(own["mapped_residual_rms"][0].get<double>() == doctest::Approx(qp["mapped_residual_rms"][0].get<double>()));
   const auto compared =
       nlohmann::json::parse(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
   CHECK(compared["delta_e_env"].get<double>() < 15.0);
@@ -130,6 +129,6 @@ TEST_CASE("principal components take any solver whose weights have any sign") {
   const auto at = [&](const char* name) { return (folder / name).string(); };
   run("expand --formula red-paint -o " + at("truth.binary"));
   run("sample " + at("truth.binary") + " --count 100 -o " + at("samples.csv"));
-  for (const char* solver : {"tikhonov", "tikhonov --eta gcv", "lasso", "tsvd", "ls"})
+  for (const char* solver : {"tikhonov --eta gcv", "ls"})
     run("reconstruct " + at("samples.csv") + " --solver " + solver + " -o " + at("estimate.binary"));
 }

@@ -193,6 +193,16 @@ TEST_CASE("an iteration that does not end is an error") {
                        doctest::Contains("this method has not converged after 50 steps"), gonio::error);
 }
 
+TEST_CASE("numbers that overflow end in an error or in weights that are certified, and do end") {
+  Eigen::MatrixXd huge = Eigen::MatrixXd::Constant(3, 3, 1e308);
+  huge.diagonal().array() *= 1.5;
+  const normal_equations normal(huge, Eigen::Vector3d(1e308, -1e308, 1e-308));
+  try {
+    CHECK_FALSE(gonio::nnls().solve(normal).weights.hasNaN());
+  } catch (const gonio::error&) {
+  }
+}
+
 TEST_CASE("an indefinite matrix is no Gram matrix: an answer is certified or there is none") {
   Eigen::MatrixXd indefinite(2, 2);
   indefinite << 1, -2, -2, 1;

@@ -143,7 +143,9 @@ class active_set {
   /// Moves to the optimum of the passive columns; as long as signs would change on the way, stops at the first change
   /// and lets that column leave.
   void settle() {
-    while (!passive_.empty()) {
+    const Eigen::Index limit = 10 * x_.size() + 100;  // far beyond what rounding can take: numbers are not finite
+    for (Eigen::Index round = 0; !passive_.empty(); ++round) {
+      if (round > limit) throw error("an active set does not settle: the normal equations overflow");
       const Eigen::VectorXd z = optimum_of_passive();
       double length = 1.0;
       bool inside = true;
@@ -203,14 +205,43 @@ class active_set {
     if (entering_ >= 0) return;
     refine();
     update_descent();
+    while (drop_unresolved()) {
+      settle();
+      refine();
+      update_descent();
+    }
     choose_entering();
+  }
+
+  /// A column that depends on others but for rounding may have become passive, and then the passive weights are not at
+  /// their optimum: the one with the smallest pivot goes, and is barred. Returns whether there was one.
+  [[nodiscard]] bool drop_unresolved() {
+    double worst = 0.0, least = std::numeric_limits<double>::infinity();
+    std::ptrdiff_t weakest = -1;
+    for (std::ptrdiff_t i = 0; i < std::ssize(passive_); ++i) {
+      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      worst = std::max(worst, std::abs(descent_[j] - lambda_ * sign_[j]) / norms_[j]);
+      const double share = factor_.pivot(i) / gram_(j, j);
+      if (share >= least) continue;
+      least = share;
+      weakest = i;
+    }
+    if (weakest < 0 || worst <= 1e-11 * terms()) return false;
+    barred_[static_cast<std::size_t>(passive_[static_cast<std::size_t>(weakest)])] = true;
+    drop(weakest);
+    return true;
+  }
+
+  /// The size of what cancels in the gradient, in columns of length 1.
+  [[nodiscard]] double terms() const {
+    double sum = moment_scale_;
+    for (const Eigen::Index j : passive_) sum += std::abs(x_[j]) * norms_[j];
+    return sum;
   }
 
   /// The column outside whose entering lowers the objective fastest per length of A x, if that is more than rounding.
   void choose_entering() {
-    double terms = moment_scale_;
-    for (const Eigen::Index j : passive_) terms += std::abs(x_[j]) * norms_[j];
-    double best = 1e-15 * terms;
+    double best = 1e-15 * terms();
     entering_ = -1;
     for (Eigen::Index j = 0; j < descent_.size(); ++j) {
       if (sign_[j] != 0.0 || norms_[j] == 0.0 || barred_[static_cast<std::size_t>(j)]) continue;

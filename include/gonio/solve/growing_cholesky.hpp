@@ -20,6 +20,10 @@ class growing_cholesky {
   explicit growing_cholesky(Eigen::Index capacity) : factor_(capacity, capacity), inverse_(capacity) {}
 
   [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
+  /// What the columns before leave of the square of the one at `position`.
+  [[nodiscard]] Scalar pivot(Eigen::Index position) const {
+    return factor_(position, position) * factor_(position, position);
+  }
   void clear() noexcept { size_ = 0; }
 
   /// Adds the column whose products with those present are `cross` (size() values, destroyed) and with itself `square`.
