@@ -113,7 +113,7 @@ void scaling(benchmark::State& state, const Solver& solver) {
 }
 
 double lambda(std::int64_t step) {
-  return 1e-3 * gonio::largest_lambda(problem_of(step).normal(), 0, gonio::sign_rule::any);
+  return 1e-3 * gonio::largest_lambda(problem_of(step).normal(), gonio::sign_rule::any);
 }
 
 void lasso_path(benchmark::State& state) {

@@ -19,11 +19,7 @@ struct relative_lasso {
   double share = 0.0;
 
   [[nodiscard]] gonio::solution solve(const gonio::least_squares_problem& problem) const {
-    const gonio::normal_equations& normal = problem.normal();
-    double largest = 0.0;
-    for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column)
-      largest = std::max(largest, gonio::largest_lambda(normal, column, gonio::sign_rule::any));
-    return gonio::lasso(share * largest).solve(problem);
+    return gonio::lasso(share * gonio::largest_lambda(problem.normal(), gonio::sign_rule::any)).solve(problem);
   }
 };
 

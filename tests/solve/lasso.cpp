@@ -17,9 +17,8 @@ TEST_CASE("the optimality conditions hold on random problems of all kinds, with 
     const auto normal = random.make(static_cast<random_problems::kind>(seed % random_problems::kinds)).normal();
     const double share = std::pow(10.0, random.uniform(-6.0, 0.1));
     CAPTURE(seed);
-    const auto both = lasso(share * gonio::largest_lambda(normal, 0, sign_rule::any)).solve(normal);
-    const auto one =
-        non_negative_lasso(share * gonio::largest_lambda(normal, 0, sign_rule::non_negative)).solve(normal);
+    const auto both = lasso(share * gonio::largest_lambda(normal, sign_rule::any)).solve(normal);
+    const auto one = non_negative_lasso(share * gonio::largest_lambda(normal, sign_rule::non_negative)).solve(normal);
     CHECK(both.certificate[0] <= 1e-9);
     CHECK(one.certificate[0] <= 1e-9);
     CHECK(one.weights.minCoeff() >= 0.0);
@@ -47,6 +46,17 @@ TEST_CASE("with orthogonal columns the solution is the soft threshold of least s
   }));
 }
 
+TEST_CASE("at the largest penalty all weights of all right-hand sides are zero, and not below it") {
+  const Eigen::MatrixXd moment{{1.0, -7.0}, {3.0, 2.0}};
+  const normal_equations normal(Eigen::MatrixXd::Identity(2, 2), moment);
+  CHECK(gonio::largest_lambda(normal, sign_rule::any) == 7.0);
+  CHECK(gonio::largest_lambda(normal, sign_rule::non_negative) == 3.0);
+  CHECK(lasso(7.0).solve(normal).weights.isZero(0.0));
+  CHECK_FALSE(lasso(6.9).solve(normal).weights.isZero(0.0));
+  CHECK(non_negative_lasso(3.0).solve(normal).weights.isZero(0.0));
+  CHECK_FALSE(non_negative_lasso(2.9).solve(normal).weights.isZero(0.0));
+}
+
 TEST_CASE("the objective counts the penalty") {
   const normal_equations normal(Eigen::MatrixXd::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 5.0),
                                 Eigen::VectorXd::Constant(1, 25.0));
@@ -60,7 +70,7 @@ TEST_CASE("a path is the solutions of its penalties, from nothing to nearly leas
     random_problems::generator random(seed);
     const auto problem = random.make(static_cast<random_problems::kind>(seed % random_problems::kinds));
     const auto normal = problem.normal();
-    if (gonio::largest_lambda(normal, 0, sign_rule::any) == 0.0) continue;
+    if (gonio::largest_lambda(normal, sign_rule::any) == 0.0) continue;
     CAPTURE(seed);
     const auto path = gonio::solve_lasso_path(normal, gonio::lambda_sequence(normal, 20, 1e-4));
     REQUIRE(path.solutions.size() == 20);

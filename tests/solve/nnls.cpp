@@ -13,7 +13,8 @@ using gonio::normal_equations;
 
 namespace {
 
-/// Every way to solve NNLS, certified.
+/// Every way to solve NNLS, certified. There are four: the non-negative Lasso without a penalty is coordinate descent
+/// under another name, and is here to show that it is.
 std::vector<std::pair<std::string, gonio::solution>> all_ways(const normal_equations& normal) {
   return {{"active set", gonio::nnls().solve(normal)},
           {"block principal pivoting", gonio::nnls_block_pivoting().solve(normal)},
@@ -179,6 +180,19 @@ TEST_CASE("a warm start from the optimum has nothing to do") {
   run.start_from(found.weights.col(0));
   CHECK(run.converged());
   CHECK(run.weights().isApprox(found.weights.col(0), 1e-12));
+}
+
+TEST_CASE("block pivoting steps by hand to the weights of the active set, where nothing is free too") {
+  random_problems::generator random(13);
+  const auto problem = random.make(random_problems::kind::non_negative_data, 40);
+  const auto normal = problem.normal();
+  const normal_equations against(normal.gram(), -normal.gram().rowwise().sum());
+  for (const auto& [equations, expected] : {std::pair{normal, gonio::nnls().solve(normal).weights},
+                                            {against, Eigen::MatrixXd::Zero(normal.unknowns(), 1).eval()}}) {
+    gonio::nnls_block_pivoting::iteration run(equations, 0);
+    gonio::run_to_convergence(run, gonio::step_limit(equations.unknowns()), "block principal pivoting");
+    CHECK(run.weights().isApprox(expected.col(0), 1e-10));
+  }
 }
 
 TEST_CASE("an iteration that does not end is an error") {

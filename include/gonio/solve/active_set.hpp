@@ -16,14 +16,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace gonio {
 
 /// Weights are passive (free, with a sign they must keep) or zero. A step lets the column enter that promises most, and
-/// then moves to the optimum of the passive ones, where those that would change sign leave. The objective falls with
-/// every step, so that no passive set comes back. One step costs O(k p + p^2) for p passive columns, and O(p^2) more
-/// for each that leaves.
+/// then moves to the optimum of the passive ones, where those that would change sign leave. As long as the passive
+/// columns are independent the objective falls with every step, so that no passive set comes back. One that turns out
+/// to depend on others but for rounding leaves again, which may raise the objective: it is barred until another has
+/// entered, and `step_limit` is the end of what goes in circles. One step costs O(k p + p^2) for p passive columns, and
+/// O(p^2) more for each that leaves.
 template <sign_rule Signs>
 class active_set {
  public:
@@ -143,9 +146,8 @@ class active_set {
   /// Moves to the optimum of the passive columns; as long as signs would change on the way, stops at the first change
   /// and lets that column leave.
   void settle() {
-    const Eigen::Index limit = 10 * x_.size() + 100;  // far beyond what rounding can take: numbers are not finite
-    for (Eigen::Index round = 0; !passive_.empty(); ++round) {
-      if (round > limit) throw error("an active set does not settle: the normal equations overflow");
+    for (int round = 0; !passive_.empty(); ++round) {
+      if (round > step_limit(x_.size())) throw error("an active set does not settle: the normal equations overflow");
       const Eigen::VectorXd z = optimum_of_passive();
       double length = 1.0;
       bool inside = true;
@@ -263,5 +265,37 @@ class active_set {
   double moment_scale_ = 0.0;
   Eigen::Index entering_ = -1;
 };
+
+/// The optimum, from weights near it: what a method that finds the support ends with. Throws gonio::error naming the
+/// `method` without convergence.
+template <sign_rule Signs>
+[[nodiscard]] Eigen::VectorXd finish_by_active_set(const normal_equations& normal, Eigen::Index right_hand_side,
+                                                   double lambda, const Eigen::VectorXd& near_optimum,
+                                                   const std::string& method) {
+  active_set<Signs> exact(normal, right_hand_side, lambda);
+  exact.start_from(near_optimum);
+  run_to_convergence(exact, step_limit(normal.unknowns()), method);
+  return exact.weights();
+}
+
+/// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, every right-hand side by the iteration that
+/// `start(column)` makes, and certifies what it finds. Throws gonio::error naming the `method` without convergence.
+template <sign_rule Signs, quadratic_problem Problem, class Start>
+[[nodiscard]] solution solve_signed(const Problem& problem, double lambda, const std::string& method, Start&& start) {
+  const normal_equations& normal = problem.normal();
+  solution found;
+  found.weights.resize(normal.unknowns(), normal.right_hand_sides());
+  for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
+    auto run = start(column);
+    found.iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
+    found.weights.col(column) = run.weights();
+  }
+  found.residual = problem.residual(found.weights);
+  found.objective = normal.objective(found.weights);
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
+    found.objective[column] += lambda * found.weights.col(column).cwiseAbs().sum();
+  found.certificate = kkt_violation(normal, found.weights, lambda, Signs);
+  return found;
+}
 
 }  // namespace gonio

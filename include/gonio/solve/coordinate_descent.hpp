@@ -57,10 +57,7 @@ class coordinate_descent {
   }
 
   void finish() {
-    active_set<Signs> exact(normal_, right_hand_side_, lambda_);
-    exact.start_from(x_);
-    run_to_convergence(exact, static_cast<int>(10 * x_.size() + 100), "coordinate descent");
-    x_ = exact.weights();
+    x_ = finish_by_active_set<Signs>(normal_, right_hand_side_, lambda_, x_, "coordinate descent");
     finished_ = true;
   }
 

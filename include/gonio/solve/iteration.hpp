@@ -33,20 +33,7 @@ int run_to_convergence(Iteration& run, int limit, const std::string& method) {
   return steps;
 }
 
-/// Solves every right-hand side by the iteration that `start(column)` makes; fills all of the solution but its
-/// objective and certificate.
-template <quadratic_problem Problem, class Start>
-[[nodiscard]] solution solve_by_iteration(const Problem& problem, int limit, const std::string& method, Start&& start) {
-  const normal_equations& normal = problem.normal();
-  solution found;
-  found.weights.resize(normal.unknowns(), normal.right_hand_sides());
-  for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
-    auto run = start(column);
-    found.iterations += run_to_convergence(run, limit, method);
-    found.weights.col(column) = run.weights();
-  }
-  found.residual = problem.residual(found.weights);
-  return found;
-}
+/// Steps that no problem of so many unknowns has needed by far: whoever takes more goes in circles.
+[[nodiscard]] inline int step_limit(Eigen::Index unknowns) { return static_cast<int>(10 * unknowns + 100); }
 
 }  // namespace gonio

@@ -9,14 +9,11 @@
 
 namespace gonio {
 
-/// The smallest lambda at which all weights of one right-hand side are zero.
-[[nodiscard]] inline double largest_lambda(const normal_equations& normal, Eigen::Index right_hand_side,
-                                           sign_rule signs) {
+/// The smallest lambda at which all weights of all right-hand sides are zero.
+[[nodiscard]] inline double largest_lambda(const normal_equations& normal, sign_rule signs) {
   double largest = 0.0;
-  for (Eigen::Index j = 0; j < normal.unknowns(); ++j) {
-    const double moment = normal.moment()(j, right_hand_side);
+  for (const double moment : normal.moment().reshaped())
     largest = std::max(largest, signs == sign_rule::any ? std::abs(moment) : moment);
-  }
   return largest;
 }
 
@@ -25,15 +22,6 @@ namespace detail {
 inline void require_penalty(double lambda) {
   if (!(lambda >= 0.0 && std::isfinite(lambda)))
     throw error("the penalty lambda of a Lasso must be finite and not negative, not " + std::to_string(lambda));
-}
-
-/// Fills the objective and the certificate of weights found with the penalty.
-template <sign_rule Signs>
-void judge_lasso(solution& found, const normal_equations& normal, double lambda) {
-  found.objective = normal.objective(found.weights);
-  for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
-    found.objective[column] += lambda * found.weights.col(column).cwiseAbs().sum();
-  found.certificate = kkt_violation(normal, found.weights, lambda, Signs);
 }
 
 }  // namespace detail
@@ -54,11 +42,8 @@ class basic_lasso {
 
   template <quadratic_problem Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
-    const normal_equations& normal = problem.normal();
-    solution found = solve_by_iteration(problem, 100, "the Lasso",
-                                        [&](Eigen::Index column) { return iteration(normal, column, lambda_); });
-    detail::judge_lasso<Signs>(found, normal, lambda_);
-    return found;
+    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column, lambda_); };
+    return solve_signed<Signs>(problem, lambda_, "the Lasso", start);
   }
 
  private:
@@ -76,8 +61,7 @@ struct lasso_path {
   std::vector<solution> solutions;
 };
 
-/// `count` penalties in geometric progression from `largest_lambda` of the right-hand sides down to `smallest_share` of
-/// it.
+/// `count` penalties in geometric progression from `largest_lambda` down to `smallest_share` of it.
 [[nodiscard]] inline std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
                                                          double smallest_share = 1e-3,
                                                          sign_rule signs = sign_rule::any) {
@@ -85,9 +69,7 @@ struct lasso_path {
   if (!(smallest_share > 0.0 && smallest_share < 1.0))
     throw error("the smallest penalty of a path must be a share in (0, 1) of the largest, not " +
                 std::to_string(smallest_share));
-  double largest = 0.0;
-  for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column)
-    largest = std::max(largest, largest_lambda(normal, column, signs));
+  const double largest = largest_lambda(normal, signs);
   std::vector<double> lambdas(count);
   for (std::size_t i = 0; i < count; ++i)
     lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
@@ -108,9 +90,7 @@ template <sign_rule Signs = sign_rule::any, quadratic_problem Problem = least_sq
       run.start_from(last.col(column));
       return run;
     };
-    const int limit = static_cast<int>(20 * normal.unknowns() + 100);
-    path.solutions.push_back(solve_by_iteration(problem, limit, "the Lasso path", warm));
-    detail::judge_lasso<Signs>(path.solutions.back(), normal, lambda);
+    path.solutions.push_back(solve_signed<Signs>(problem, lambda, "the Lasso path", warm));
     last = path.solutions.back().weights;
   }
   return path;

@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0. Throws gonio::error if it does not end within 10 k + 100 steps.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0. Throws gonio::error if it does not end within `step_limit`.
 ///
 /// ```cpp
 /// const gonio::solution found = gonio::nnls().solve(problem);   // a least_squares_problem, or normal_equations
@@ -18,13 +18,8 @@ class nnls {
 
   template <quadratic_problem Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
-    const normal_equations& normal = problem.normal();
-    const int limit = static_cast<int>(10 * normal.unknowns() + 100);
-    solution found =
-        solve_by_iteration(problem, limit, "NNLS", [&](Eigen::Index column) { return iteration(normal, column); });
-    found.objective = normal.objective(found.weights);
-    found.certificate = kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative);
-    return found;
+    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
+    return solve_signed<sign_rule::non_negative>(problem, 0.0, "NNLS", start);
   }
 };
 

@@ -14,12 +14,14 @@ namespace gonio {
 /// Guesses which weights are free, solves for them, and exchanges all that came out with the wrong sign at once, a
 /// weight below zero or a gradient that points inside: few steps, each with a factorisation of its own, O(p^3 / 3 + k
 /// p). Where exchanging everything does not reduce the number of wrong signs for three steps only the last wrong one is
-/// exchanged (Murty's rule), which cannot cycle where the free columns are independent.
+/// exchanged (Murty's rule), which cannot cycle where the free columns are independent. Once no sign is wrong, or after
+/// 3 k + 20 steps of what cycles, `active_set` finishes from there.
 class block_pivoting {
  public:
   /// Keeps a reference to `normal`.
   block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side)
       : normal_(normal),
+        right_hand_side_(right_hand_side),
         moment_(normal.moment().col(right_hand_side)),
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
         free_(static_cast<std::size_t>(normal.unknowns()), false),
@@ -27,8 +29,19 @@ class block_pivoting {
     find_wrong(Eigen::VectorXd(-moment_));
   }
 
+  /// Exchanges, or finishes.
   template <class Factor = growing_cholesky<double>>
   void step() {
+    if (!wrong_.empty()) exchange<Factor>();
+    if (wrong_.empty() || ++steps_ >= 3 * x_.size() + 20) finish<sign_rule::non_negative>();
+  }
+
+  [[nodiscard]] bool converged() const noexcept { return finished_; }
+  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+
+ private:
+  template <class Factor>
+  void exchange() {
     const auto wrong = std::ssize(wrong_);
     if (wrong < fewest_wrong_) {
       fewest_wrong_ = wrong;
@@ -44,10 +57,12 @@ class block_pivoting {
     solve_free<Factor>();
   }
 
-  [[nodiscard]] bool converged() const noexcept { return wrong_.empty(); }
-  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+  template <sign_rule Signs>
+  void finish() {
+    x_ = finish_by_active_set<Signs>(normal_, right_hand_side_, 0.0, x_, "block principal pivoting");
+    finished_ = true;
+  }
 
- private:
   template <class Factor>
   void solve_free() {
     Factor factor(normal_.unknowns());
@@ -90,17 +105,19 @@ class block_pivoting {
   }
 
   const normal_equations& normal_;
+  Eigen::Index right_hand_side_;
   Eigen::VectorXd moment_;
   Eigen::VectorXd x_;
   std::vector<bool> free_;
   std::vector<Eigen::Index> wrong_;
   std::ptrdiff_t fewest_wrong_;
   int chances_ = 3;
+  Eigen::Index steps_ = 0;
+  bool finished_ = false;
 };
 
 /// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/solvers.md has both
-/// measured. On a problem with dependent columns it may pivot for ever: it then hands over to `active_set` after 3 k +
-/// 20 steps, whose limit is the end of it (gonio::error).
+/// measured. Throws gonio::error if the active set that finishes does not end.
 class nnls_block_pivoting {
  public:
   static constexpr bool non_negative = true;
@@ -108,25 +125,8 @@ class nnls_block_pivoting {
 
   template <quadratic_problem Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
-    const normal_equations& normal = problem.normal();
-    solution found;
-    found.weights.resize(normal.unknowns(), normal.right_hand_sides());
-    for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
-      block_pivoting pivoting(normal, column);
-      const int limit = static_cast<int>(3 * normal.unknowns() + 20);
-      int steps = 0;
-      for (; steps < limit && !pivoting.converged(); ++steps) pivoting.step();
-      // Nothing is left to do for the active set but to refine, or to end what cycles.
-      active_set<sign_rule::non_negative> exact(normal, column);
-      exact.start_from(pivoting.weights());
-      steps += run_to_convergence(exact, static_cast<int>(10 * normal.unknowns() + 100), "block principal pivoting");
-      found.weights.col(column) = exact.weights();
-      found.iterations += steps;
-    }
-    found.residual = problem.residual(found.weights);
-    found.objective = normal.objective(found.weights);
-    found.certificate = kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative);
-    return found;
+    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
+    return solve_signed<sign_rule::non_negative>(problem, 0.0, "block principal pivoting", start);
   }
 };
 

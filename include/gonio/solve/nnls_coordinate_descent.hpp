@@ -6,7 +6,8 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/solvers.md has both measured.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/solvers.md has both measured. It is
+/// `non_negative_lasso` without a penalty under the name by which NNLS knows it.
 class nnls_coordinate_descent {
  public:
   static constexpr bool non_negative = true;
@@ -14,12 +15,8 @@ class nnls_coordinate_descent {
 
   template <quadratic_problem Problem = least_squares_problem>
   [[nodiscard]] solution solve(const Problem& problem) const {
-    const normal_equations& normal = problem.normal();
-    solution found = solve_by_iteration(problem, 100, "projected coordinate descent",
-                                        [&](Eigen::Index column) { return iteration(normal, column); });
-    found.objective = normal.objective(found.weights);
-    found.certificate = kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative);
-    return found;
+    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
+    return solve_signed<sign_rule::non_negative>(problem, 0.0, "projected coordinate descent", start);
   }
 };
 
