@@ -65,6 +65,41 @@ TEST_CASE("rows that are only read give the same problem, and a row that is not 
                        gonio::error);
 }
 
+TEST_CASE("whatever reads a row that is not finite refuses it by name, and large numbers are none") {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  row_matrix broken = row_matrix::Ones(3000, 4);
+  broken(2047, 3) = inf;
+  broken(2050, 3) = -inf;
+  const least_squares_problem problem(gonio::rows_of(broken), Eigen::MatrixXd::Ones(3000, 1));
+  const std::vector<Eigen::Index> last{3};
+  const auto refused = [](const auto& read) {
+    CHECK_THROWS_WITH_AS(read(), "row 2047 of a least-squares problem is not finite in column 3", gonio::error);
+  };
+  refused([&] { (void)problem.rows(); });
+  refused([&] { (void)problem.weighted_rows(); });
+  refused([&] { (void)problem.residual(Eigen::MatrixXd::Zero(4, 1)); });
+  refused([&] { (void)problem.normal(); });
+  refused([&] { (void)problem.subset(last).rows(); });
+  // Their sum overflows.
+  CHECK(least_squares_problem(row_matrix::Constant(2, 2, 1e308), Eigen::MatrixXd::Ones(2, 1)).rows()(1, 1) == 1e308);
+}
+
+TEST_CASE("weighted equations are those of the rows of positive weight") {
+  const row_matrix rows = row_matrix::Random(2000, 3);
+  const Eigen::MatrixXd right = Eigen::MatrixXd::Random(2000, 2);
+  Eigen::VectorXd weights = Eigen::VectorXd::Random(2000).cwiseAbs();
+  weights.segment(1000, 500).setZero();
+  const least_squares_problem problem(rows, right, weights);
+  REQUIRE(problem.observations() == 1500);
+  const row_matrix weighted = problem.weighted_rows();
+  const Eigen::MatrixXd weighted_right = problem.weighted_right_hand_side();
+  REQUIRE(weighted.rows() == 1500);
+  REQUIRE(weighted_right.rows() == 1500);
+  CHECK(weighted.row(1000) == std::sqrt(weights[1500]) * rows.row(1500));
+  CHECK((weighted.transpose() * weighted).isApprox(problem.normal().gram(), 1e-13));
+  CHECK((weighted.transpose() * weighted_right).isApprox(problem.normal().moment(), 1e-13));
+}
+
 TEST_CASE("a subset of the columns, and a subset of that, share the rows and the products") {
   const row_matrix rows = row_matrix::Random(50, 6);
   const least_squares_problem whole(rows, Eigen::MatrixXd::Random(50, 1));

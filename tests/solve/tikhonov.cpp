@@ -108,6 +108,25 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
   }
 }
 
+TEST_CASE("without a row of positive weight the penalty alone decides, in both forms") {
+  const least_squares_problem ignored(row_matrix::Ones(2, 3), Eigen::MatrixXd::Ones(2, 1), Eigen::Vector2d::Zero());
+  for (const auto form : {tikhonov::form::primal, tikhonov::form::dual}) {
+    const auto found = tikhonov(1.0, form).solve(ignored);
+    CHECK(found.weights.isZero(0.0));
+    CHECK(found.certificate[0] == 0.0);
+    CHECK(found.residual[0] == 0.0);
+  }
+}
+
+TEST_CASE("a row that turns out not to be finite where it is read is refused by name, in both forms") {
+  row_matrix rows = row_matrix::Ones(2, 3);
+  rows(1, 2) = std::nan("");
+  const least_squares_problem broken(gonio::rows_of(rows), Eigen::MatrixXd::Ones(2, 1));
+  for (const auto form : {tikhonov::form::automatic, tikhonov::form::primal, tikhonov::form::dual})
+    CHECK_THROWS_WITH_AS(tikhonov(1.0, form).solve(broken),
+                         "row 1 of a least-squares problem is not finite in column 2", gonio::error);
+}
+
 TEST_CASE("a penalty that is not positive and finite is refused") {
   CHECK_THROWS_AS(tikhonov(0.0), gonio::error);
   CHECK_THROWS_AS(tikhonov(-1.0), gonio::error);

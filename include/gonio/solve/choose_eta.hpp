@@ -30,7 +30,7 @@ template <class Problem>
 class eta_scores {
  public:
   eta_scores(const Problem& problem, eta_criterion criterion) : problem_(problem), criterion_(criterion) {
-    count_ = (problem.weights().array() > 0.0).count();
+    count_ = problem.observations();
     if (count_ < 2)
       throw error("choosing eta by cross-validation needs at least 2 rows of positive weight, not " +
                   std::to_string(count_));
@@ -61,21 +61,8 @@ class eta_scores {
   }
 
   void decompose_dual() {
-    Eigen::MatrixXd rows(count_, problem_.unknowns()), right(count_, problem_.right_hand_side().cols());
-    Eigen::Index filled = 0;
-    problem_.for_each_row_block([&](block range, const row_matrix& part) {
-      for (Eigen::Index row = 0; row < part.rows(); ++row) {
-        const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
-        if (problem_.weights()[at] == 0.0) continue;
-        if (!part.row(row).allFinite())
-          throw error("row " + std::to_string(at) + " of a least-squares problem is not finite");
-        const double root = std::sqrt(problem_.weights()[at]);
-        rows.row(filled) = root * part.row(row);
-        right.row(filled++) = root * problem_.right_hand_side().row(at);
-      }
-    });
-    const Eigen::MatrixXd columns = rows.transpose();
-    decompose(rows * columns, right);
+    const Eigen::MatrixXd rows = problem_.weighted_rows(), columns = rows.transpose();
+    decompose(rows * columns, problem_.weighted_right_hand_side());
   }
 
   /// eta / (values + eta): what the penalty leaves of the misfit in each direction, directions x etas.
@@ -154,7 +141,7 @@ class eta_scores {
 
   const Problem& problem_;
   eta_criterion criterion_;
-  Eigen::Index count_ = 0;  // rows of positive weight
+  Eigen::Index count_ = 0;  // observations
   bool dual_ = false;
   Eigen::VectorXd values_;        // ascending
   Eigen::MatrixXd vectors_;       // of the dual (U) or of A'WA (V)

@@ -19,7 +19,7 @@ namespace detail {
 /// [W^(1/2) A, W^(1/2) b] multiplied by an orthogonal matrix from the left: as it is if it has at most k + r rows, else
 /// the triangle of its QR factorisation, (k + r) x (k + r). Rows are stacked on the triangle of the rows before, and
 /// factorised when the buffer is full, so that a million rows need the memory of about a thousand. 2 n (k + r)^2
-/// operations or a little more. Throws gonio::error naming a row that is not finite.
+/// operations or a little more.
 template <class Problem>
 [[nodiscard]] Eigen::MatrixXd triangular_equations(const Problem& problem) {
   const Eigen::MatrixXd& right = problem.right_hand_side();
@@ -36,8 +36,6 @@ template <class Problem>
   problem.for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row) {
       const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
-      if (!part.row(row).allFinite())
-        throw error("row " + std::to_string(at) + " of a least-squares problem is not finite");
       if (filled == stacked.rows()) triangularise();
       const double root = std::sqrt(problem.weights()[at]);
       stacked.row(filled).head(k) = root * part.row(row);

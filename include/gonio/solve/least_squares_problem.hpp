@@ -31,11 +31,12 @@ class least_squares_problem {
   /// first offending row.
   least_squares_problem(row_matrix rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {})
       : least_squares_problem(rows_of(std::move(rows)), std::move(right_hand_side), std::move(weights)) {
-    require_finite_rows();
+    read_all();
   }
 
-  /// The same from rows that are read when they are needed. Those are refused where they are first read, in
-  /// `normal`, if they are not finite.
+  /// The same from rows that are read when they are needed. Whatever reads them throws gonio::error naming the row and
+  /// the column (of the whole, for a subset) of a number that is not finite: every member function but sizes,
+  /// right-hand side and weights.
   least_squares_problem(row_source rows, Eigen::MatrixXd right_hand_side, Eigen::VectorXd weights = {},
                         thread_count threads = {})
       : equations_(std::make_shared<const stored>(std::move(rows), std::move(right_hand_side), std::move(weights))),
@@ -57,6 +58,31 @@ class least_squares_problem {
     for_each_row_block([&](block range, const row_matrix& part) {
       gathered.middleRows(static_cast<Eigen::Index>(range.begin), part.rows()) = part;
     });
+    return gathered;
+  }
+
+  /// How many rows have a positive weight: all others say nothing.
+  [[nodiscard]] Eigen::Index observations() const { return (weights().array() > 0.0).count(); }
+
+  /// W^(1/2) A, gathered from the rows of positive weight: observations() x k. For small problems.
+  [[nodiscard]] row_matrix weighted_rows() const {
+    row_matrix gathered(observations(), unknowns());
+    Eigen::Index filled = 0;
+    for_each_row_block([&](block range, const row_matrix& part) {
+      for (Eigen::Index row = 0; row < part.rows(); ++row) {
+        const double weight = weights()[static_cast<Eigen::Index>(range.begin) + row];
+        if (weight > 0.0) gathered.row(filled++) = std::sqrt(weight) * part.row(row);
+      }
+    });
+    return gathered;
+  }
+
+  /// W^(1/2) b of the same rows: observations() x r.
+  [[nodiscard]] Eigen::MatrixXd weighted_right_hand_side() const {
+    Eigen::MatrixXd gathered(observations(), right_hand_side().cols());
+    Eigen::Index filled = 0;
+    for (Eigen::Index row = 0; row < equations(); ++row)
+      if (weights()[row] > 0.0) gathered.row(filled++) = std::sqrt(weights()[row]) * right_hand_side().row(row);
     return gathered;
   }
 
@@ -93,7 +119,7 @@ class least_squares_problem {
   }
 
   /// sqrt(sum of w (a x - b)^2) for each right-hand side, given its solution as a column of `x`. Reads the rows: O(n k
-  /// r).
+  /// r). Throws gonio::error if one is not finite.
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const {
     const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.cols());
     const Eigen::VectorXd squares = sum_over_blocks(
@@ -154,9 +180,12 @@ class least_squares_problem {
     std::optional<normal_equations> equations;
   };
 
+  /// The one place where rows come in.
   [[nodiscard]] row_matrix read(block range) const {
     row_matrix all(static_cast<Eigen::Index>(range.size()), equations_->rows.columns);
     equations_->rows.read(range, all);
+    // A finite sum has finite terms, and is one vectorised pass; terms of a sum that overflows may be finite too.
+    if (!std::isfinite(all.sum())) require_finite(all, range.begin);
     if (!columns_) return all;
     row_matrix chosen(all.rows(), unknowns());
     for (Eigen::Index column = 0; column < chosen.cols(); ++column)
@@ -164,23 +193,25 @@ class least_squares_problem {
     return chosen;
   }
 
+  static void require_finite(const row_matrix& part, std::size_t first_row) {
+    for (Eigen::Index row = 0; row < part.rows(); ++row)
+      for (Eigen::Index column = 0; column < part.cols(); ++column)
+        if (!std::isfinite(part(row, column)))
+          throw error("row " + std::to_string(first_row + static_cast<std::size_t>(row)) +
+                      " of a least-squares problem is not finite in column " + std::to_string(column));
+  }
+
+  void read_all() const {
+    for_each_row_block([](block, const row_matrix&) {});
+  }
+
   [[nodiscard]] normal_equations assemble_finite() const {
     try {
       return assemble(equations_->rows, right_hand_side(), weights(), threads_);
     } catch (const error&) {
-      require_finite_rows();  // names the row, which the sums have forgotten
+      read_all();  // names the row, which the sums have forgotten
       throw;
     }
-  }
-
-  void require_finite_rows() const {
-    for_each_row_block([](block range, const row_matrix& part) {
-      for (Eigen::Index row = 0; row < part.rows(); ++row)
-        for (Eigen::Index column = 0; column < part.cols(); ++column)
-          if (!std::isfinite(part(row, column)))
-            throw error("row " + std::to_string(range.begin + static_cast<std::size_t>(row)) +
-                        " of a least-squares problem is not finite in column " + std::to_string(column));
-    });
   }
 
   std::shared_ptr<const stored> equations_;

@@ -50,9 +50,8 @@ class tikhonov {
 
   template <class Problem>
   [[nodiscard]] solution solve_dual(const Problem& problem) const {
-    const Eigen::VectorXd root = problem.weights().cwiseSqrt();
-    const row_matrix rows = root.asDiagonal() * problem.rows();
-    const Eigen::MatrixXd right = root.asDiagonal() * problem.right_hand_side();
+    const row_matrix rows = problem.weighted_rows();
+    const Eigen::MatrixXd right = problem.weighted_right_hand_side();
     Eigen::MatrixXd penalised = rows * rows.transpose();
     penalised.diagonal().array() += eta_;
     const Eigen::LLT<Eigen::MatrixXd> factors(penalised);

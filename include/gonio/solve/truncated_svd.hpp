@@ -9,7 +9,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -54,7 +53,7 @@ class truncated_svd {
   [[nodiscard]] Eigen::Index kept(const Problem& problem) const {
     if constexpr (requires { problem.rows(); })
       if (problem.equations() < problem.unknowns()) {
-        const Eigen::MatrixXd rows = weighted_rows(problem);
+        const Eigen::MatrixXd rows = problem.weighted_rows();
         return truncate<Eigen::MatrixXd>(rows * rows.transpose()).values.size();
       }
     return truncate<Eigen::MatrixXd>(problem.normal().gram()).values.size();
@@ -69,6 +68,7 @@ class truncated_svd {
 
   template <class Matrix>
   [[nodiscard]] spectrum truncate(const Matrix& gram) const {
+    if (gram.size() == 0) return {};  // all rows have weight zero
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(gram);
     if (eigen.info() != Eigen::Success) throw error("the singular values of a least-squares problem do not converge");
     const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(0.0);
@@ -78,17 +78,6 @@ class truncated_svd {
     Eigen::Index kept = 0;
     for (double sum = 0.0; kept < all && sum < enough; ++kept) sum += values[all - 1 - kept];
     return {values.tail(kept), eigen.eigenvectors().rightCols(kept)};
-  }
-
-  template <class Problem>
-  [[nodiscard]] static Eigen::MatrixXd weighted_rows(const Problem& problem) {
-    Eigen::MatrixXd rows = problem.rows();
-    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-      if (!rows.row(row).allFinite())
-        throw error("row " + std::to_string(row) + " of a least-squares problem is not finite");
-      rows.row(row) *= std::sqrt(problem.weights()[row]);
-    }
-    return rows;
   }
 
   template <class Problem>
@@ -104,13 +93,12 @@ class truncated_svd {
 
   template <class Problem>
   [[nodiscard]] solution solve_dual(const Problem& problem) const {
-    const Eigen::MatrixXd rows = weighted_rows(problem), columns = rows.transpose();
-    Eigen::MatrixXd right = problem.right_hand_side();
-    for (Eigen::Index row = 0; row < right.rows(); ++row) right.row(row) *= std::sqrt(problem.weights()[row]);
+    const Eigen::MatrixXd rows = problem.weighted_rows(), columns = rows.transpose();
     const auto [values, vectors] = truncate<Eigen::MatrixXd>(rows * columns);
     // The kept equations U'A x = U'b, whose minimum-norm solution the factors of A'U give. Division by the eigenvalues
     // instead would lose about half of the digits if they differ much.
     const auto [basis, triangle] = thin_qr<Eigen::MatrixXd>(columns * vectors);
+    const Eigen::MatrixXd right = problem.weighted_right_hand_side();
     Eigen::MatrixXd within = vectors.transpose() * right;
     triangle.transpose().template triangularView<Eigen::Lower>().solveInPlace(within);
     const Eigen::MatrixXd x = basis * within;
