@@ -93,5 +93,8 @@ TEST_CASE("unusable material sets are refused") {
   set.values(5, 2) = std::nanf("");
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::learn_pca(set, metric, 3)),
                        doctest::Contains("'material-0' is not finite at cell 5"), gonio::error);
+  set.values(5, 2) = -std::numeric_limits<float>::infinity();  // which the metric would count as zero
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::learn_pca(set, metric, 3)),
+                       doctest::Contains("'material-0' is not finite at cell 5"), gonio::error);
   CHECK_THROWS_AS(static_cast<void>(learn({small_cells(), {}, gonio::cell_matrix()}, 3)), gonio::error);
 }

@@ -8,6 +8,16 @@
 
 using gonio::measured;
 
+namespace {
+
+/// Leaves the range of double.
+struct overflowing_metric {
+  double forward(double rho, const auto&) const noexcept { return std::exp(1e3 * (1.0 + rho)); }
+  double inverse(double y, const auto&) const noexcept { return 1e-3 * std::log(y) - 1.0; }
+};
+
+}  // namespace
+
 static_assert(gonio::basis<gonio::measured_channel<gonio::log>>);
 static_assert(gonio::channelwise_basis<measured<gonio::log>> && !gonio::basis<measured<gonio::log>>);
 static_assert(gonio::colour_basis<measured<gonio::log_relative>> && gonio::colour_basis<gonio::log_relative_pca>);
@@ -69,6 +79,12 @@ TEST_CASE("materials that cannot be used are refused by name") {
   broken.values(5, 7) = std::nanf("");
   CHECK_THROWS_WITH_AS((measured{broken, gonio::log{}}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
+  const auto reference = gonio::log_relative::to_median_of(made_up_materials(small_cells(), 3));
+  broken.values(5, 7) = -std::numeric_limits<float>::infinity();  // which counts as zero there
+  CHECK_THROWS_WITH_AS((measured{broken, reference}), doctest::Contains("'material-2' is not finite at cell 5"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS((measured{made_up_materials(small_cells(), 3), overflowing_metric{}}),
+                       doctest::Contains("'material-0' is not finite at cell 0"), gonio::error);
   CHECK_THROWS_AS((measured{gonio::material_set{small_cells(), {}, {}}, gonio::log{}}), gonio::error);
   auto short_set = made_up_materials(small_cells(), 3);
   short_set.names.pop_back();

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 TEST_CASE("a material is found by name and its table is three adjacent columns") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
   gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 6)};
@@ -11,4 +13,31 @@ TEST_CASE("a material is found by name and its table is three adjacent columns")
   const auto gold = set.table(1);
   CHECK(gold.at(0).isApprox(gonio::rgb(3, 4, 5)));
   CHECK(gold.at(2).isApprox(gonio::rgb(15, 16, 17)));
+}
+
+TEST_CASE("a cell is mapped value by value, and what is not finite before or after is refused by name") {
+  const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
+  const auto count = static_cast<Eigen::Index>(cells.size());
+  gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix::Ones(count, 6)};
+  const auto twice = [](double value) { return 2.0 * value; };
+  const auto refused = [&](const auto& map, const char* words) {
+    CHECK_THROWS_WITH_AS(gonio::map_cell(set, 2, map), words, gonio::error);
+  };
+  gonio::map_cell(set, 1, twice);
+  CHECK(set.values.row(1).isConstant(2.0f));
+  CHECK(set.values.row(0).isConstant(1.0f));
+  constexpr float inf = std::numeric_limits<float>::infinity();
+  refused([](double) { return double{inf}; }, "material 'clay' is not finite at cell 2");
+  set.values.row(2).setOnes();
+  set.values(2, 3) = -inf;
+  refused([](double) { return 0.0; }, "material 'gold' is not finite at cell 2");
+}
+
+TEST_CASE("a set without materials, or whose table does not fit them and the cells, is not complete") {
+  const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
+  const auto count = static_cast<Eigen::Index>(cells.size());
+  CHECK_NOTHROW(gonio::require_complete({cells, {"clay"}, gonio::cell_matrix(count, 3)}));
+  CHECK_THROWS_AS(gonio::require_complete({cells, {}, gonio::cell_matrix(count, 0)}), gonio::error);
+  CHECK_THROWS_AS(gonio::require_complete({cells, {"clay"}, gonio::cell_matrix(count, 4)}), gonio::error);
+  CHECK_THROWS_AS(gonio::require_complete({cells, {"clay"}, gonio::cell_matrix(count - 1, 3)}), gonio::error);
 }

@@ -14,25 +14,6 @@ namespace gonio {
 
 namespace detail {
 
-/// Refuses a set of materials from which nothing can be learned.
-inline void require_learnable(const material_set& materials, thread_count threads) {
-  if (materials.names.empty() || materials.values.cols() != static_cast<Eigen::Index>(3 * materials.names.size()))
-    throw error("learning principal components needs at least one material, with three columns each");
-  for_each_block(
-      materials.cells.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const auto row = materials.values.row(static_cast<Eigen::Index>(cell));
-          if (row.allFinite()) continue;
-          for (Eigen::Index column = 0; column < row.size(); ++column)
-            if (!std::isfinite(row[column]))
-              throw error("material '" + materials.names[static_cast<std::size_t>(column / 3)] +
-                          "' is not finite at cell " + std::to_string(cell));
-        }
-      },
-      threads);
-}
-
 /// Maps every value by the metric and takes the mean of each row away, in place. Returns the means.
 template <error_metric Metric>
 [[nodiscard]] std::vector<float> map_and_centre(material_set& materials, const Metric& metric, thread_count threads) {
@@ -42,8 +23,8 @@ template <error_metric Metric>
       [&](block range) {
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
           const location at = locate_cell(materials.cells, cell);
+          map_cell(materials, cell, [&](double rho) { return metric.forward(rho, at); });
           auto row = materials.values.row(static_cast<Eigen::Index>(cell));
-          row = row.unaryExpr([&](float rho) { return static_cast<float>(metric.forward(rho, at)); }).eval();
           mean[cell] = static_cast<float>(row.template cast<double>().mean());
           row.array() -= mean[cell];
         }
@@ -82,7 +63,7 @@ template <class Derived>
 /// fewer where the rest is rounding (centring always costs one). The set is consumed: its 4 bytes per value
 /// are mapped in place, and the result takes 4 bytes per cell and component more.
 /// O(cells m^2), deterministic for any number of threads. Throws gonio::error for fewer than two
-/// observations or a value that is not finite.
+/// observations or a value that is not finite, before mapping or after.
 ///
 /// ```cpp
 /// const auto metric = gonio::log_relative::to_median_of(materials);
@@ -92,7 +73,7 @@ template <error_metric Metric>
 [[nodiscard]] pca<Metric> learn_pca(material_set materials, const Metric& metric, std::size_t components,
                                     thread_count threads = {}, const progress& listener = {}) {
   if (components == 0) throw error("at least one principal component must be kept");
-  detail::require_learnable(materials, threads);
+  require_complete(materials);
   report(listener, "mapping", 0.0);
   std::vector<float> mean = detail::map_and_centre(materials, metric, threads);
 

@@ -64,17 +64,12 @@ template <error_metric Metric>
 class measured {
  public:
   /// Maps the tables in place: the set is consumed. O(cells x materials). Throws gonio::error if there is no material,
-  /// or naming one and its first cell that is not finite.
+  /// or naming one and the first cell where it is not finite, before mapping or after.
   measured(material_set materials, Metric metric, thread_count threads = {})
-      : names_(std::make_shared<const std::vector<std::string>>(std::move(materials.names))),
-        cells_(std::move(materials.cells)),
-        metric_(std::move(metric)) {
-    const auto count = static_cast<Eigen::Index>(names_->size());
-    if (count == 0 || materials.values.cols() != 3 * count ||
-        materials.values.rows() != static_cast<Eigen::Index>(cells_.size()))
-      throw error("a basis of measured materials needs at least one, with three columns each over " +
-                  std::to_string(cells_.size()) + " cells");
-    map_by_channel(materials.values, threads);
+      : cells_(materials.cells), metric_(std::move(metric)) {
+    require_complete(materials);
+    map_by_channel(materials, threads);
+    names_ = std::make_shared<const std::vector<std::string>>(std::move(materials.names));
     mapped_ = std::make_shared<const cell_matrix>(std::move(materials.values));
     std::vector<Eigen::Index> all(names_->size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
@@ -112,30 +107,22 @@ class measured {
 
  private:
   /// Maps every value and sorts each row by channel: red of all materials, then green, then blue.
-  void map_by_channel(cell_matrix& values, thread_count threads) const {
-    const auto count = static_cast<Eigen::Index>(size());
+  void map_by_channel(material_set& materials, thread_count threads) const {
+    const Eigen::Index count = materials.values.cols() / 3;
     for_each_block(
         cells_.size(), 1024,
         [&](block range) {
-          Eigen::RowVectorXf mapped(3 * count);
+          Eigen::RowVectorXf sorted(3 * count);
           for (std::size_t cell = range.begin; cell < range.end; ++cell) {
             const location at = locate_cell(cells_, cell);
-            auto row = values.row(static_cast<Eigen::Index>(cell));
+            map_cell(materials, cell, [&](double rho) { return metric_.forward(rho, at); });
+            auto row = materials.values.row(static_cast<Eigen::Index>(cell));
             for (Eigen::Index i = 0; i < count; ++i)
-              for (Eigen::Index c = 0; c < 3; ++c)
-                mapped[c * count + i] = static_cast<float>(metric_.forward(row[3 * i + c], at));
-            if (!mapped.allFinite()) refuse(mapped, cell);
-            row = mapped;
+              for (Eigen::Index c = 0; c < 3; ++c) sorted[c * count + i] = row[3 * i + c];
+            row = sorted;
           }
         },
         threads);
-  }
-
-  [[noreturn]] void refuse(const Eigen::RowVectorXf& mapped, std::size_t cell) const {
-    Eigen::Index column = 0;
-    while (std::isfinite(mapped[column])) ++column;
-    throw error("material '" + (*names_)[static_cast<std::size_t>(column) % size()] + "' is not finite at cell " +
-                std::to_string(cell));
   }
 
   std::shared_ptr<const std::vector<std::string>> names_;

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -36,5 +37,33 @@ struct material_set {
     return result;
   }
 };
+
+/// Throws gonio::error unless there is a material, with three columns each and a row for each cell.
+inline void require_complete(const material_set& materials) {
+  if (materials.names.empty() || materials.values.cols() != static_cast<Eigen::Index>(3 * materials.names.size()) ||
+      materials.values.rows() != static_cast<Eigen::Index>(materials.cells.size()))
+    throw error("a basis needs at least one material, with three columns each over " +
+                std::to_string(materials.cells.size()) + " cells");
+}
+
+/// Throws gonio::error naming the first material that is not finite at a cell.
+inline void require_finite(const material_set& materials, std::size_t cell) {
+  const auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+  if (row.allFinite()) return;
+  Eigen::Index column = 0;
+  while (std::isfinite(row[column])) ++column;
+  throw error("material '" + materials.names[static_cast<std::size_t>(column / 3)] + "' is not finite at cell " +
+              std::to_string(cell));
+}
+
+/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first material that is not finite
+/// there, before or after: a map may hide an infinity, or overflow.
+template <class Map>
+void map_cell(material_set& materials, std::size_t cell, Map&& map) {
+  require_finite(materials, cell);
+  auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+  row = row.unaryExpr([&](float value) { return static_cast<float>(map(value)); });
+  require_finite(materials, cell);
+}
 
 }  // namespace gonio
