@@ -44,7 +44,8 @@ reconstruction fit(const Basis& basis, const gonio::any_solver& solver, const go
 
 /// Principal components under the metric that they were learned with.
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
-  if (is_non_negative(options.solver.name))
+  const auto solver = make_solver(options.solver, {"tikhonov", "40"});
+  if (solver.non_negative())
     throw gonio::error("--solver " + options.solver.name +
                        " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
                        "use tikhonov, lasso, tsvd or ls, or --method linear");
@@ -53,7 +54,6 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
                        " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
-  const auto solver = make_solver(options.solver, {"tikhonov", "40"});
   return fit(gonio::io::read_prior(options.materials.prior), solver, samples, options.threads);
 }
 

@@ -63,6 +63,4 @@ gonio::any_solver make_solver(solver_choice choice, const solver_choice& own) {
   return relative_lasso{choice.lambda};
 }
 
-bool is_non_negative(const std::string& solver) { return solver == "nnls" || solver == "qp"; }
-
 }  // namespace cli

@@ -22,7 +22,4 @@ void add_solver_options(CLI::App& command, solver_choice& choice);
 /// The solver chosen, where `own` has what is not said. Throws gonio::error if an option's value is impossible.
 [[nodiscard]] gonio::any_solver make_solver(solver_choice choice, const solver_choice& own);
 
-/// Can the weights of that solver not be negative?
-[[nodiscard]] bool is_non_negative(const std::string& solver);
-
 }  // namespace cli

@@ -17,13 +17,17 @@ class any_solver {
  public:
   template <solver Solver>
   requires(!std::same_as<Solver, any_solver>) any_solver(Solver held)
-      : solve_([held = std::move(held)](const least_squares_problem& problem) { return held.solve(problem); }) {
-  }  // NOLINT: conversion is the point
+      : solve_([held = std::move(held)](const least_squares_problem& problem) { return held.solve(problem); }),
+        non_negative_(solves_non_negative<Solver>) {}  // NOLINT: conversion is the point
 
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_(problem); }
 
+  /// Do all solutions of the one held have weights that are not negative? `solves_non_negative`, known at run time.
+  [[nodiscard]] bool non_negative() const noexcept { return non_negative_; }
+
  private:
   std::function<solution(const least_squares_problem&)> solve_;
+  bool non_negative_;
 };
 
 static_assert(solver<any_solver>);
