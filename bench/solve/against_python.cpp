@@ -22,6 +22,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -73,9 +74,9 @@ void print_row(const std::string& what, double ours, const std::string& rival, d
 }  // namespace
 
 int main() {
-  const auto names = real_materials();
-  const auto target = static_cast<Eigen::Index>(names.find("blue-acrylic"));
-  const gonio::measured basis{names, gonio::log{}};
+  auto materials = real_materials();
+  const auto target = static_cast<Eigen::Index>(materials.find("blue-acrylic"));
+  const gonio::measured basis{std::move(materials), gonio::log{}};
   const auto functions = basis.channel(0);
   const auto count = static_cast<Eigen::Index>(basis.size());
   gonio::cell_matrix rows(static_cast<Eigen::Index>(basis.cells().size()), count - 1);
