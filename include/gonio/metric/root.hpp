@@ -1,5 +1,6 @@
 #pragma once
-/// The p-th root of reflectance, the square root unless told otherwise. Noell, Koehler and Stricker 2014, section 3.1.
+/// The p-th root of reflectance. The square root, which it is unless told otherwise, is epsilon_root(x) = sqrt(x) of
+/// Noell, Koehler and Stricker 2014, section 3.1 (in the text on Table 2).
 
 #include <gonio/core/error.hpp>
 #include <gonio/metric/place_free.hpp>
