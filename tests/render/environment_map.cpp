@@ -111,6 +111,21 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
   CHECK(map({-0.0, 0.0, 1.0}).y() == 0.0);
 }
 
+TEST_CASE("a spot in the picture's upper right shines from behind the camera, above on its right") {
+  image picture = black(64);
+  gonio::set_pixel(picture, 19, 111, {9.0, 9.0, 9.0});  // near direction (1, 1, 1)
+  const gonio::ggx gloss{.alpha = 0.1, .f0 = {0.9, 0.9, 0.9}};
+  const int size = 40;
+  const image sphere =
+      gonio::render_sphere(gloss, gonio::important_lights(environment_map(picture), 10, 1), {.size = size});
+  const auto points = gonio::sphere_points(size);
+  const auto brightest =
+      std::ranges::max_element(points, {}, [&](const auto& p) { return gonio::pixel(sphere, p.row, p.column).y(); });
+  // The highlight is where the normal halves the angle between light and camera.
+  const direction half = (direction(1.0, 1.0, 1.0).normalized() + direction::UnitZ()).normalized();
+  CHECK((brightest->normal - half).norm() < 0.08);
+}
+
 TEST_CASE("solid angles are exact: they add up to the sphere, and at the pole to a cap") {
   for (const std::size_t rows : {std::size_t{1}, std::size_t{7}, std::size_t{300}}) {
     const environment_map map(gonio::uniform_image(rows, 2 * rows, rgb::Ones()));
