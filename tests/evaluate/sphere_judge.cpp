@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 using gonio::brdf_table;
 using gonio::environment_map;
 using gonio::rgb;

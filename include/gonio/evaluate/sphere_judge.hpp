@@ -6,7 +6,9 @@
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/sphere.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace gonio {
 

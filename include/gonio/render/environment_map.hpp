@@ -9,8 +9,10 @@
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <random>
@@ -168,6 +170,10 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 /// luminance times solid angle, one in each of `count` equal strata of the total along a Hilbert curve. Each has the
 /// pixel's radiance * solid angle / (count * probability), hence the same luminance; a pixel drawn several times is one
 /// light with the sum. The expectation over seeds of any picture is its picture under `all_lights`.
+///
+/// The rougher the surface, the fewer lights stand for the map: a mirror shows each of them as a dot, and no affordable
+/// number helps. There `environment_lighting(90, 72, map)`, whose bins are dense where highlights are, is the better
+/// way.
 ///
 /// Throws gonio::error if count is 0. O(pixels); `seed` alone decides.
 [[nodiscard]] inline directional_lighting important_lights(const environment_map& map, std::size_t count,

@@ -6,6 +6,7 @@
 #include <gonio/core/rgb.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gonio {
 
