@@ -34,6 +34,9 @@ struct sphere_appearance {
 /// const gonio::sphere_appearance seen = judge.expose(truth);  // once for each truth
 /// for (const gonio::brdf_table& estimate : estimates) std::cout << judge.difference(estimate, seen) << '\n';
 /// ```
+///
+/// Directional lights suit rough materials. For mirror-like ones, or all kinds, light the sphere by
+/// `environment_lighting(90, 72, grace)`: more entries, but no highlight is lost between two lights.
 class sphere_judge {
  public:
   /// The mean luminance to which a truth is exposed by default: white is 1.
@@ -63,6 +66,7 @@ class sphere_judge {
 
   /// What an observer sees of a table at a given exposure. Throws gonio::error if the table is over other cells.
   [[nodiscard]] sphere_appearance look(const brdf_table& table, double exposure, thread_count threads = {}) const {
+    GONIO_ASSERT(exposure > 0.0);
     return seen_at(exposure, visible_colours(table, threads));
   }
 
