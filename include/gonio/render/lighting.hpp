@@ -83,6 +83,9 @@ class directional_lighting {
     for (directional_light& light : lights_) light.towards.normalize();
   }
 
+  /// The lights, their directions of unit length.
+  [[nodiscard]] const std::vector<directional_light>& lights() const noexcept { return lights_; }
+
   template <class Visit>
   void for_each_incident(const direction& normal, Visit&& visit) const {
     const surface_frame frame(normal);

@@ -1,0 +1,207 @@
+#pragma once
+/// Light measured all around, as a latitude-longitude picture (P. Debevec, "Rendering Synthetic Objects into Real
+/// Scenes", SIGGRAPH 1998), and as directional lights: one for each pixel, or a few drawn by importance along a
+/// Hilbert curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the Hilbert Curve", Journal of
+/// Graphics Tools 8(3), 2003). The light under which Noell et al. 2014, Sec. 3.1, judge BRDFs: their spheres stand in
+/// Debevec's Grace Cathedral.
+
+#include <gonio/core/error.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/render/lighting.hpp>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Radiance from everywhere, constant within each pixel of a picture that is twice as wide as high.
+///
+/// The picture is what someone sees who stands at the sphere, upright, and turns around. World axes are those of
+/// render/lighting.hpp, and the convention is that of Debevec's High-Resolution Light Probe Image Gallery: its centre
+/// is what the camera looks at, behind the sphere (-z); its left and right edges are what is behind the camera (+z); a
+/// quarter from the right is the camera's right (+x); the top row is up (+y). The point u of the way from left to right
+/// and v from top to bottom is the direction (sin t sin l, cos t, -sin t cos l) with t = pi v, l = 2 pi u - pi.
+class environment_map {
+ public:
+  /// Takes a picture of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
+  /// and not negative and at least one is positive. O(pixels).
+  explicit environment_map(image latitude_longitude) : picture_(std::move(latitude_longitude)) {
+    check_shape();
+    check_values();
+    row_solid_angles_.reserve(rows());
+    const double step = std::numbers::pi / static_cast<double>(rows());
+    for (std::size_t row = 0; row < rows(); ++row) {
+      // cos a - cos b as a product, which has no cancellation at the poles; a pixel is as wide as it is high.
+      const double middle = step * (static_cast<double>(row) + 0.5);
+      row_solid_angles_.push_back(step * 2.0 * std::sin(middle) * std::sin(0.5 * step));
+    }
+  }
+
+  /// Tabulates radiance given by a function of world directions, at pixel centres: `environment_map::of(
+  /// formula_environment{})` for those who have no light probe. Throws gonio::error as the constructor does.
+  template <class Radiance>
+  requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>
+  [[nodiscard]] static environment_map of(const Radiance& radiance, std::size_t rows = 256) {
+    image picture({rows, 2 * rows, std::size_t{3}});
+    for (std::size_t row = 0; row < rows; ++row)
+      for (std::size_t column = 0; column < 2 * rows; ++column)
+        set_pixel(picture, row, column, radiance(towards(row, column, rows)));
+    return environment_map(std::move(picture));
+  }
+
+  [[nodiscard]] const image& picture() const noexcept { return picture_; }
+  [[nodiscard]] std::size_t rows() const noexcept { return picture_.shape(0); }
+  [[nodiscard]] std::size_t columns() const noexcept { return picture_.shape(1); }
+
+  /// The radiance that comes from a world direction other than zero, not necessarily of unit length.
+  [[nodiscard]] rgb operator()(const direction& d) const noexcept {
+    const double scale = static_cast<double>(rows()) / std::numbers::pi;
+    const double polar = std::atan2(std::hypot(d.x(), d.z()), d.y());
+    const double longitude = std::atan2(d.x(), -d.z()) + std::numbers::pi;
+    // The south pole, and the direction +z from the left, lie on the far edges of the last row and column.
+    const auto row = std::min(static_cast<std::size_t>(polar * scale), rows() - 1);
+    const auto column = std::min(static_cast<std::size_t>(longitude * scale), columns() - 1);
+    return pixel(picture_, row, column);
+  }
+
+  /// Towards the centre of a pixel, a unit vector.
+  [[nodiscard]] direction towards(std::size_t row, std::size_t column) const noexcept {
+    return towards(row, column, rows());
+  }
+
+  /// The exact solid angle of each pixel of a row, in sr.
+  [[nodiscard]] double solid_angle(std::size_t row) const noexcept { return row_solid_angles_[row]; }
+
+  /// Radiance times solid angle of a pixel: the irradiance of a surface that faces it.
+  [[nodiscard]] rgb irradiance(std::size_t row, std::size_t column) const noexcept {
+    return solid_angle(row) * pixel(picture_, row, column);
+  }
+
+ private:
+  [[nodiscard]] static direction towards(std::size_t row, std::size_t column, std::size_t rows) noexcept {
+    const double step = std::numbers::pi / static_cast<double>(rows);
+    const double polar = (static_cast<double>(row) + 0.5) * step;
+    const double longitude = (static_cast<double>(column) + 0.5) * step - std::numbers::pi;
+    return {std::sin(polar) * std::sin(longitude), std::cos(polar), -std::sin(polar) * std::cos(longitude)};
+  }
+
+  void check_shape() const {
+    if (rows() == 0 || columns() != 2 * rows() || picture_.shape(2) != 3)
+      throw error("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
+                  std::to_string(picture_.shape(2)) +
+                  "): a latitude-longitude picture is twice as wide as high and has 3 channels");
+  }
+
+  void check_values() const {
+    const float* end = picture_.data() + picture_.size();
+    const float* bad = std::find_if(picture_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
+    if (bad != end) {
+      const auto at = static_cast<std::size_t>(bad - picture_.data()) / 3;
+      throw error("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
+                  ") of an environment map is " + std::to_string(*bad) +
+                  ": radiance must be finite and must not be negative");
+    }
+    if (std::all_of(picture_.data(), end, [](float v) { return v == 0.0f; }))
+      throw error("an environment map is black everywhere: there must be some light");
+  }
+
+  image picture_;
+  std::vector<double> row_solid_angles_;
+};
+
+/// Every pixel that is not black as a directional light: brute force, O(pixels) for each point of a sphere. Lights are
+/// in row-major order.
+[[nodiscard]] inline directional_lighting all_lights(const environment_map& map) {
+  std::vector<directional_light> lights;
+  for (std::size_t row = 0; row < map.rows(); ++row)
+    for (std::size_t column = 0; column < map.columns(); ++column) {
+      const rgb irradiance = map.irradiance(row, column);
+      if ((irradiance > 0.0).any()) lights.push_back({map.towards(row, column), irradiance});
+    }
+  return directional_lighting(std::move(lights));
+}
+
+namespace detail {
+
+/// Calls `visit(row, column)` for all pixels in the order of Hilbert's curve through the smallest square of a power of
+/// two that holds the picture: pixels that are near in the order are near in the picture.
+template <class Visit>
+void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&& visit) {
+  const std::size_t side = std::bit_ceil(std::max(rows, columns));
+  for (std::size_t place = 0; place < side * side; ++place) {
+    // Two bits of the place choose a quadrant at each level, from the finest on; the curve within is turned to fit. It
+    // runs through both columns' quadrants of the upper half first, so that a picture twice as wide as high has no gap.
+    std::size_t row = 0, column = 0, rest = place;
+    for (std::size_t half = 1; half < side; half *= 2, rest /= 4) {
+      const bool lower = (rest & 2) != 0, right = lower != ((rest & 1) != 0);
+      if (!right) {
+        if (lower) row = half - 1 - row, column = half - 1 - column;
+        std::swap(row, column);
+      }
+      if (lower) row += half;
+      if (right) column += half;
+    }
+    if (row < rows && column < columns) visit(row, column);
+  }
+}
+
+/// One number in each of [0, 1), [1, 2), ... [count - 1, count), the same on every platform.
+[[nodiscard]] inline std::vector<double> stratified_draws(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::vector<double> draws;
+  draws.reserve(count);
+  for (std::size_t i = 0; i < count; ++i)
+    draws.push_back(static_cast<double>(i) + static_cast<double>(generator() >> 11) * 0x1p-53);
+  return draws;
+}
+
+}  // namespace detail
+
+/// A fixed set of directional lights that stands for the map: `count` pixels drawn with probability proportional to
+/// luminance times solid angle, one in each of `count` equal strata of the total along a Hilbert curve. Each has the
+/// pixel's radiance * solid angle / (count * probability), hence the same luminance; a pixel drawn several times is one
+/// light with the sum. The expectation over seeds of any picture is its picture under `all_lights`.
+///
+/// The rougher the surface, the fewer lights stand for the map: a mirror shows each of them as a dot, and no affordable
+/// number helps. There `environment_lighting(90, 72, map)`, whose bins are dense where highlights are, is the better
+/// way.
+///
+/// Throws gonio::error if count is 0. O(pixels); `seed` alone decides.
+[[nodiscard]] inline directional_lighting important_lights(const environment_map& map, std::size_t count,
+                                                           std::uint64_t seed) {
+  if (count == 0) throw error("cannot stand for an environment map with 0 lights: at least one is needed");
+  double total = 0.0;
+  detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
+    total += luminance(map.irradiance(row, column));
+  });
+  const std::vector<double> draws = detail::stratified_draws(count, seed);
+
+  // Walk along the curve: each pixel is as long as its expected number of draws, and those that fall on it are its.
+  std::vector<directional_light> lights;
+  auto next = draws.begin();
+  double walked = 0.0;
+  detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
+    const rgb irradiance = map.irradiance(row, column);
+    const double expected = luminance(irradiance) * (static_cast<double>(count) / total);
+    walked += expected;
+    const auto first = next;
+    while (next != draws.end() && *next < walked) ++next;
+    if (next != first)
+      lights.push_back({map.towards(row, column), irradiance * (static_cast<double>(next - first) / expected)});
+  });
+  return directional_lighting(std::move(lights));
+}
+
+static_assert(std::is_invocable_r_v<rgb, const environment_map&, const direction&>);
+static_assert(sphere_lighting<environment_lighting<environment_map>>);
+
+}  // namespace gonio

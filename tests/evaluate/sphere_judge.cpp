@@ -1,0 +1,176 @@
+#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/model/formula_materials.hpp>
+#include <gonio/render/environment_map.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using gonio::brdf_table;
+using gonio::environment_map;
+using gonio::rgb;
+using gonio::sphere_judge;
+
+namespace {
+
+const gonio::valid_cells& judged_cells() {
+  static const gonio::valid_cells cells(gonio::grid({20, 15, 30}));
+  return cells;
+}
+
+environment_map room() { return environment_map::of(gonio::formula_environment{}, 32); }
+
+/// Under the closed-form environment, tabulated.
+const sphere_judge& room_judge() {
+  static const sphere_judge judge(judged_cells(), gonio::important_lights(room(), 200, 1), 12);
+  return judge;
+}
+
+brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::lambertian{albedo}, judged_cells()); }
+
+brdf_table formula(const char* name) { return gonio::tabulate(gonio::formula_material(name), judged_cells()); }
+
+double mean_luminance(const gonio::sphere_colours& colours) {
+  double sum = 0.0;
+  for (Eigen::Index point = 0; point < colours.rows(); ++point) sum += gonio::luminance(colours.row(point).transpose());
+  return sum / static_cast<double>(colours.rows());
+}
+
+gonio::directional_lighting headlight() { return gonio::directional_lighting({{{0.0, 0.0, 1.0}}}); }
+
+/// The same irradiance at every point: a matte sphere has the same colour everywhere.
+struct flat_light {
+  template <class Visit>
+  void for_each_incident(const gonio::direction& normal, Visit&& visit) const {
+    const gonio::direction wo = gonio::surface_frame(normal).to_local(gonio::direction::UnitZ());
+    if (wo.z() > 0.0) visit(wo, wo, rgb(rgb::Ones()));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at the truth's exposure") {
+  const brdf_table truth = formula("gold-metal");
+  const auto seen = room_judge().expose(truth);
+  const gonio::sphere_colours colours = room_judge().sphere().apply(truth);
+  CHECK(mean_luminance(seen.exposure * colours) == doctest::Approx(0.18).epsilon(1e-12));
+  for (Eigen::Index point = 0; point < colours.rows(); ++point) {
+    const rgb expected = gonio::to_lab(seen.exposure * colours.row(point).transpose());
+    CHECK((seen.lab.row(point).transpose() - expected).abs().maxCoeff() < 1e-10);
+  }
+
+  const sphere_judge brighter(judged_cells(), headlight(), 12, 0.5);
+  CHECK(mean_luminance(brighter.expose(truth).exposure * brighter.sphere().apply(truth)) ==
+        doctest::Approx(0.5).epsilon(1e-12));
+  const auto again = room_judge().look(truth, seen.exposure);
+  CHECK((again.lab == seen.lab).all());
+  CHECK(again.exposure == seen.exposure);
+}
+
+TEST_CASE("flat spheres differ as their colours do") {
+  // Every point has the colour of the material: grey at luminance 0.18, and an estimate of twice that.
+  const sphere_judge flat(judged_cells(), flat_light{}, 12);
+  const double l = 116.0 * std::cbrt(0.18) - 16.0, twice = 116.0 * std::cbrt(0.36) - 16.0;
+  const rgb grey = rgb::Constant(0.3);
+  CHECK(flat.difference(matte(2.0 * grey), matte(grey)) == doctest::Approx(twice - l).epsilon(1e-4));
+  CHECK(flat.difference(matte(rgb::Zero()), matte(grey)) == doctest::Approx(l).epsilon(1e-4));
+  // The other way around, the truth is the brighter one.
+  CHECK(flat.difference(matte(grey), matte(2.0 * grey)) ==
+        doctest::Approx(l - (116.0 * std::cbrt(0.09) - 16.0)).epsilon(1e-4));
+  // A thousand times as bright is beyond white.
+  CHECK(flat.difference(matte(1000.0 * grey), matte(grey)) == doctest::Approx(100.0 - l).epsilon(1e-4));
+}
+
+TEST_CASE("a table does not differ from itself") {
+  for (const char* name : {"red-paint", "gold-metal"})
+    CHECK(room_judge().difference(formula(name), formula(name)) == 0.0);
+}
+
+TEST_CASE("a kept truth gives the same difference, the mean of those at the points") {
+  const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
+  const auto seen = room_judge().expose(truth);
+  const double difference = room_judge().difference(estimate, truth);
+  CHECK(room_judge().difference(estimate, seen) == difference);
+  const auto estimate_seen = room_judge().look(estimate, seen.exposure);
+  CHECK(sphere_judge::difference(estimate_seen, seen) == difference);
+  CHECK(sphere_judge::differences(estimate_seen, seen).mean() == doctest::Approx(difference).epsilon(1e-13));
+  CHECK(difference > 20.0);
+}
+
+TEST_CASE("the brightness of the light and of both materials does not matter") {
+  gonio::image picture = room().picture();
+  for (float& value : picture) value *= 7.3f;
+  const sphere_judge brighter(judged_cells(), gonio::important_lights(environment_map(picture), 200, 1), 12);
+  const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
+  const double difference = room_judge().difference(estimate, truth);
+  CHECK(brighter.difference(estimate, truth) == doctest::Approx(difference).epsilon(1e-5));
+  const auto darker = [](brdf_table table) {
+    for (float& value : table.values()) value *= 0.125f;
+    return table;
+  };
+  CHECK(room_judge().difference(darker(estimate), darker(truth)) == doctest::Approx(difference).epsilon(1e-12));
+}
+
+TEST_CASE("a few important lights judge as all of them do") {
+  const sphere_judge all(judged_cells(), gonio::all_lights(room()), 12);
+  const sphere_judge few(judged_cells(), gonio::important_lights(room(), 1000, 1), 12);
+  for (const char* name : {"blue-rubber", "gold-metal"}) {
+    const brdf_table estimate = formula(name), truth = formula("red-paint");
+    CHECK(few.difference(estimate, truth) == doctest::Approx(all.difference(estimate, truth)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a black truth is seen at exposure 1") {
+  const auto seen = room_judge().expose(matte(rgb::Zero()));
+  CHECK(seen.exposure == 1.0);
+  CHECK(seen.lab.abs().maxCoeff() < 1e-12);
+  CHECK(room_judge().difference(matte(rgb::Zero()), seen) == 0.0);
+  CHECK(room_judge().difference(matte(rgb::Constant(0.5)), seen) > 10.0);
+}
+
+TEST_CASE("negative reflectance counts as zero for a sphere judge, cell by cell") {
+  brdf_table negative = matte(rgb::Constant(0.3)), clamped = negative;
+  for (std::size_t cell = 0; cell < judged_cells().size(); cell += 3) {
+    negative.set(cell, rgb(-5.0, 0.1, -1e-3));
+    clamped.set(cell, rgb(0.0, 0.1, 0.0));
+  }
+  CHECK(room_judge().difference(negative, clamped) == 0.0);
+  CHECK(room_judge().expose(negative).exposure == room_judge().expose(clamped).exposure);
+}
+
+TEST_CASE("the picture of differences has the false colour of each point's difference") {
+  const auto truth = room_judge().expose(formula("red-paint"));
+  const auto estimate = room_judge().look(formula("gold-metal"), truth.exposure);
+  const rgb background(0.25, 0.5, 0.75);
+  const gonio::image picture = room_judge().difference_image(estimate, truth, {.red = 40.0}, background);
+  REQUIRE(picture.shape(0) == 12);
+  REQUIRE(picture.shape(1) == 12);
+  CHECK((gonio::pixel(picture, 0, 0) == background).all());
+  const auto& points = room_judge().sphere().points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    const double difference = (estimate.lab.row(at) - truth.lab.row(at)).matrix().norm();
+    const rgb expected = gonio::false_colour(difference, {.red = 40.0});
+    CHECK((gonio::pixel(picture, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);
+  }
+  // No difference is blue.
+  const gonio::image none = room_judge().difference_image(truth, truth);
+  CHECK((gonio::pixel(none, 6, 6) == rgb(0.0, 0.0, 1.0)).all());
+  CHECK((gonio::pixel(none, 0, 0) == rgb(0.0, 0.0, 0.0)).all());
+}
+
+TEST_CASE("the number of threads does not change a byte of what a sphere judge says") {
+  const brdf_table a = formula("gold-metal"), b = formula("blue-rubber");
+  const auto lights = gonio::important_lights(room(), 200, 1);
+  const sphere_judge one(judged_cells(), lights, 12, sphere_judge::middle_grey, {1});
+  CHECK(one.difference(a, b, {1}) == room_judge().difference(a, b, {4}));
+}
+
+TEST_CASE("other cells and an impossible exposure are refused") {
+  const brdf_table other(gonio::valid_cells(gonio::grid({20, 15, 31})));
+  CHECK_THROWS_AS((void)room_judge().expose(other), gonio::error);
+  CHECK_THROWS_AS((void)room_judge().difference(other, matte(rgb::Ones())), gonio::error);
+  for (const double impossible : {0.0, -1.0, std::nan(""), HUGE_VAL})
+    CHECK_THROWS_WITH_AS((void)sphere_judge(judged_cells(), headlight(), 12, impossible),
+                         doctest::Contains("mean luminance"), gonio::error);
+}

@@ -1,0 +1,36 @@
+#include <gonio/render/false_colour.hpp>
+
+#include <doctest/doctest.h>
+
+#include <limits>
+
+using gonio::false_colour;
+using gonio::rgb;
+
+namespace {
+
+bool is(const rgb& colour, double r, double g, double b) { return (colour - rgb(r, g, b)).abs().maxCoeff() < 1e-15; }
+
+}  // namespace
+
+TEST_CASE("the paper's colours: 0 is blue, 10 green, 20 and more red") {
+  CHECK(is(false_colour(0.0), 0.0, 0.0, 1.0));
+  CHECK(is(false_colour(5.0), 0.0, 0.5, 0.5));
+  CHECK(is(false_colour(10.0), 0.0, 1.0, 0.0));
+  CHECK(is(false_colour(15.0), 0.5, 0.5, 0.0));
+  CHECK(is(false_colour(20.0), 1.0, 0.0, 0.0));
+  CHECK(is(false_colour(400.0), 1.0, 0.0, 0.0));
+  CHECK(is(false_colour(-1.0), 0.0, 0.0, 1.0));
+  CHECK(is(false_colour(std::numeric_limits<double>::infinity()), 1.0, 0.0, 0.0));
+}
+
+TEST_CASE("a colour gives its value back, on any range") {
+  constexpr gonio::false_colour_range range{-2.0, 3.0};
+  for (int i = 0; i <= 50; ++i) {
+    const double value = -2.0 + 0.1 * i;
+    CAPTURE(value);
+    const rgb colour = false_colour(value, range);
+    CHECK(colour.sum() == doctest::Approx(1.0).epsilon(1e-14));
+    CHECK(-2.0 + 5.0 * (1.0 + colour.x() - colour.z()) / 2.0 == doctest::Approx(value).epsilon(1e-13).scale(1));
+  }
+}
