@@ -18,7 +18,7 @@ struct overflowing_metric {
 
 }  // namespace
 
-static_assert(gonio::basis<gonio::measured_channel<gonio::log>>);
+static_assert(gonio::basis<gonio::material_channel<gonio::log>>);
 static_assert(gonio::channelwise_basis<measured<gonio::log>> && !gonio::basis<measured<gonio::log>>);
 static_assert(gonio::colour_basis<measured<gonio::log_relative>> && gonio::colour_basis<gonio::log_relative_pca>);
 static_assert(gonio::has_arbitrary_sign<gonio::log_relative_pca> && !gonio::has_arbitrary_sign<measured<gonio::log>>);

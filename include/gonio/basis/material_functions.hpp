@@ -1,0 +1,119 @@
+#pragma once
+/// Functions that belong to materials, stored over the cells of a grid for each colour channel: what `measured` and
+/// `correction` have in common.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/solve/gram.hpp>
+#include <gonio/table/material_set.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// One colour channel of functions that belong to materials: function i is that of material i.
+template <error_metric Metric>
+class material_channel {
+ public:
+  /// A view of `count` columns of mapped tables from `first` on, of which `columns` take part.
+  material_channel(std::shared_ptr<const cell_matrix> mapped, Eigen::Index first, Eigen::Index count, valid_cells cells,
+                   Metric metric, std::shared_ptr<const std::vector<Eigen::Index>> columns)
+      : mapped_(std::move(mapped)),
+        first_(first),
+        count_(count),
+        cells_(std::move(cells)),
+        metric_(std::move(metric)),
+        columns_(std::move(columns)) {}
+
+  /// Number of functions, those of materials left out included.
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(count_); }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
+  [[nodiscard]] std::span<const float> row(std::size_t cell) const noexcept {
+    return {mapped_->data() + static_cast<Eigen::Index>(cell) * mapped_->cols() + first_, size()};
+  }
+  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+  /// The functions that take part in a fit, ascending.
+  [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
+
+  /// All functions over all cells: cells x size, a view.
+  [[nodiscard]] auto values() const { return mapped_->middleCols(first_, count_); }
+
+  /// The Gram matrix of all functions over all cells, those of materials left out included: with it, problems that
+  /// leave materials out or explain one by the others (`leave_one_out`) need no data. O(cells size^2).
+  [[nodiscard]] Eigen::MatrixXd products(thread_count threads = {}) const { return gram(values(), threads); }
+
+ private:
+  std::shared_ptr<const cell_matrix> mapped_;
+  Eigen::Index first_, count_;
+  valid_cells cells_;
+  Metric metric_;
+  std::shared_ptr<const std::vector<Eigen::Index>> columns_;
+};
+
+/// Functions over the valid cells of a grid, the same number for each colour channel. The first ones belong to named
+/// materials, which can be left out; others, if there are more, take part in every fit. A value type whose copies share
+/// their storage of 12 bytes per cell and function.
+template <error_metric Metric>
+class material_functions {
+ public:
+  /// `mapped` is cells x 3 size: red of all functions, then green, then blue. Throws gonio::error if the sizes do not
+  /// match.
+  material_functions(std::vector<std::string> names, valid_cells cells, Metric metric, cell_matrix mapped)
+      : names_(std::make_shared<const std::vector<std::string>>(std::move(names))),
+        cells_(std::move(cells)),
+        metric_(std::move(metric)),
+        mapped_(std::make_shared<const cell_matrix>(std::move(mapped))) {
+    if (mapped_->cols() % 3 != 0 || mapped_->cols() < static_cast<Eigen::Index>(3 * names_->size()) ||
+        mapped_->cols() == 0 || mapped_->rows() != static_cast<Eigen::Index>(cells_.size()))
+      throw error("functions of " + std::to_string(names_->size()) + " materials over " +
+                  std::to_string(cells_.size()) + " cells do not match in size");
+    std::vector<Eigen::Index> all(size());
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
+    columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(all));
+  }
+
+  /// Number of functions, those of materials left out included.
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(mapped_->cols() / 3); }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return *names_; }
+  /// The functions that take part in a fit, ascending.
+  [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
+
+  [[nodiscard]] material_channel<Metric> channel(std::size_t index) const {
+    const auto count = static_cast<Eigen::Index>(size());
+    return {mapped_, static_cast<Eigen::Index>(index) * count, count, cells_, metric_, columns_};
+  }
+
+ protected:
+  /// The functions of these materials take no part any more. Nothing is copied. Throws gonio::error for a name that
+  /// there is not, or if no material is left.
+  void leave_out(const std::vector<std::string>& excluded) {
+    for (const std::string& name : excluded)
+      if (std::ranges::find(*names_, name) == names_->end())
+        throw error("there is no material named '" + name + "' to leave out");
+    const auto is_out = [&](Eigen::Index column) {
+      const auto i = static_cast<std::size_t>(column);
+      return i < names_->size() && std::ranges::find(excluded, (*names_)[i]) != excluded.end();
+    };
+    std::vector<Eigen::Index> kept;
+    std::ranges::copy_if(*columns_, std::back_inserter(kept), [&](Eigen::Index column) { return !is_out(column); });
+    if (kept.empty() || static_cast<std::size_t>(kept.front()) >= names_->size())
+      throw error("all " + std::to_string(columns_->size() - kept.size()) + " materials are left out");
+    columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(kept));
+  }
+
+ private:
+  std::shared_ptr<const std::vector<std::string>> names_;
+  valid_cells cells_;
+  Metric metric_;
+  std::shared_ptr<const cell_matrix> mapped_;
+  std::shared_ptr<const std::vector<Eigen::Index>> columns_;
+};
+
+}  // namespace gonio
