@@ -39,7 +39,7 @@ struct theta_d_polynomial {
   double mean = 0.0;
   std::size_t size() const { return 2; }
   const gonio::valid_cells& cells() const { return over; }
-  void read_row(const gonio::location& at, Eigen::Ref<Eigen::RowVectorXd> out) const { out << 1, at.angles.theta_d; }
+  void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
   double offset(std::size_t) const { return mean; }
   identity_metric metric() const { return {}; }
 };

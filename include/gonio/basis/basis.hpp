@@ -47,6 +47,9 @@ concept tabulated_basis = function_set<Basis> && requires(const Basis& functions
   { functions.row(cell) } -> std::convertible_to<std::span<const float>>;
 };
 
+/// Where a computed basis writes the values of its functions.
+using function_row = Eigen::Ref<Eigen::RowVectorXd>;
+
 /// A basis that computes its rows, in double precision, at any place: `read_row(at, out)` writes the row at the exact
 /// angles of a location. For functions given by a formula, whose rows at a million cells would not fit into memory.
 ///
@@ -59,7 +62,7 @@ concept tabulated_basis = function_set<Basis> && requires(const Basis& functions
 ///   gonio::valid_cells over;
 ///   std::size_t size() const { return 2; }
 ///   const gonio::valid_cells& cells() const { return over; }
-///   void read_row(const gonio::location& at, Eigen::Ref<Eigen::RowVectorXd> out) const { out << 1, at.angles.theta_d; }
+///   void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
 ///   double offset(std::size_t) const { return 0; }
 ///   identity_metric metric() const { return {}; }
 /// };
@@ -67,7 +70,7 @@ concept tabulated_basis = function_set<Basis> && requires(const Basis& functions
 /// ```
 template <class Basis>
 concept computed_basis = function_set<Basis> && !tabulated_basis<Basis> &&
-    requires(const Basis& functions, const location& at, Eigen::Ref<Eigen::RowVectorXd> out) {
+                         requires(const Basis& functions, const location& at, function_row out) {
   functions.read_row(at, out);
 };
 

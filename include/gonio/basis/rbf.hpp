@@ -35,7 +35,8 @@ namespace gonio {
 /// Squared distances of a place to centres, to be replaced by what a kernel makes of them.
 using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
 
-/// A function of the distance to a centre: `apply(row)` takes a row of squared distances and leaves the kernel's values.
+/// A function of the distance to a centre: `apply(row)` takes a row of squared distances and leaves the kernel's
+/// values.
 ///
 /// What the compiler cannot check, and a model must keep: values are finite for distances from 0 to 3; `apply` neither
 /// allocates nor throws, and is thread safe.
@@ -139,7 +140,8 @@ class rbf {
     coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
-      if (!place.allFinite()) throw error("centre " + std::to_string(i + 1) + " of radial basis functions is not finite");
+      if (!place.allFinite())
+        throw error("centre " + std::to_string(i + 1) + " of radial basis functions is not finite");
       places.col(static_cast<Eigen::Index>(i)) = place.array();
     }
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));
@@ -157,7 +159,7 @@ class rbf {
   [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
 
   /// The kernel of the distance to each centre, then 1 and the three coordinates.
-  void read_row(const location& at, Eigen::Ref<Eigen::RowVectorXd> out) const noexcept {
+  void read_row(const location& at, function_row out) const noexcept {
     const Eigen::Vector3d place = radial_coordinates(at.angles);
     const coordinate_rows& centres = *centres_;
     kernel_row kernels = out.head(centres.cols()).array();

@@ -25,8 +25,8 @@ class fitted_brdf {
   /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
   static constexpr int most_computed_functions = 4096;
 
-  /// `found.weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or for
-  /// more than `most_computed_functions` that are computed.
+  /// `found.weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or
+  /// for more than `most_computed_functions` that are computed.
   fitted_brdf(Basis basis, solution found)
       : basis_(std::move(basis)),
         channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
