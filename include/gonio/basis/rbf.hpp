@@ -1,9 +1,9 @@
 #pragma once
-/// Radial basis functions: what Noell, Koehler and Stricker 2014, section 3.1, compare their estimator with.
-/// 758 centres spread over a radial re-parametrisation of the BRDF's domain, as in Zickler et al., "Reflectance
+/// Radial basis functions: a rival with which Noell, Koehler and Stricker 2014, section 3.1, compare their estimator.
+/// 758 centres are spread over a radial re-parametrisation of the BRDF's domain, after Zickler et al., "Reflectance
 /// sharing", EGSR 2005, and Weistroffer et al., "Efficient basis decomposition for scattered reflectance data", EGSR
-/// 2007. The papers leave kernel and coordinates open; ours are those of `radial_coordinates` and `linear_kernel`, and
-/// other kernels and centres can be passed.
+/// 2007. They do not say more; the coordinates (`radial_coordinates`) and the kernel (`linear_kernel`) are our reading,
+/// and other kernels and centres can be passed.
 
 #include <gonio/basis/basis.hpp>
 
@@ -13,8 +13,11 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <random>
 #include <string>
 #include <utility>
@@ -53,7 +56,7 @@ concept radial_kernel = std::copyable<Kernel> && requires(const Kernel& kernel, 
   kernel.apply(squares);
 };
 
-/// The distance itself: in three dimensions the smoothest interpolant (biharmonic), with a kink at each centre.
+/// The distance itself: the biharmonic spline of three dimensions, with a kink at each centre.
 struct linear_kernel {
   static void apply(kernel_row squares) noexcept { squares = squares.sqrt(); }
 };
@@ -102,7 +105,8 @@ inline constexpr std::size_t published_centre_count = 758;
 
   std::vector<half_difference> centres;
   Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
-  Eigen::ArrayXd nearest = Eigen::ArrayXd::Constant(places.cols(), 100.0);  // squared distance to the nearest centre
+  Eigen::ArrayXd nearest =  // squared distance to the nearest centre
+      Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
   while (centres.size() < count && nearest[farthest] > 0.0) {
     centres.push_back(cells.angles(candidates[static_cast<std::size_t>(farthest)]));
     const Eigen::Array3d centre = places.col(farthest);
@@ -124,8 +128,8 @@ inline constexpr std::size_t published_centre_count = 758;
 /// const auto paint = rival.fit(samples);
 /// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), gonio::cubic_kernel{}};
 /// ```
-/// The penalty only keeps the system solvable where samples are few: 1e-6 is 1e-11 of the mean diagonal of the Gram
-/// matrix at 100,000 samples, whose condition number is about 1e10 there. `least_squares` needs none and takes longer.
+/// The penalty only keeps the system solvable where samples are few. Beyond that it must be tiny, as the Gram matrix
+/// has a condition number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
 template <error_metric Metric, radial_kernel Kernel = linear_kernel>
 class rbf {
  public:
@@ -147,7 +151,8 @@ class rbf {
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));
   }
 
-  /// With the centres of Noell et al. 2014: 758 that lie far from each other.
+  /// With 758 centres, as many as Noell et al. 2014 have, that lie far from each other. Throws gonio::error if there
+  /// are fewer cells.
   explicit rbf(valid_cells cells, Metric metric = Metric(), Kernel kernel = Kernel())
       : rbf(cells, std::move(metric), farthest_point_centres(cells), std::move(kernel)) {}
 
