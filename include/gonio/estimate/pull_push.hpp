@@ -27,24 +27,24 @@ struct merged_axis {
 
   /// The middle of a run, counted in cells. Beyond the ends of an axis that wraps runs repeat.
   [[nodiscard]] double centre(int run) const noexcept {
-    const int extents = extent(), turns = run < 0 ? -1 : run / extents;
-    const int first = (run - turns * extents) * stride;
+    const int runs = extent(), turns = run < 0 ? -1 : run / runs;
+    const int first = (run - turns * runs) * stride;
     return turns * cells + 0.5 * (first + std::min(first + stride, cells));
   }
 
-  /// Twice as long runs, as long as there is more than one.
+  /// Runs twice as long, unless one holds all cells already.
   [[nodiscard]] merged_axis coarser() const noexcept { return {cells, extent() > 1 ? 2 * stride : stride, wraps}; }
 
   /// The coarser runs around the centre of a run, with the weights of linear interpolation: 3/4 and 1/4, but for a
   /// shorter run at the end.
   [[nodiscard]] axis_interval parents(int run, const merged_axis& coarse) const noexcept {
-    const int extents = coarse.extent(), parent = run * stride / coarse.stride;
+    const int runs = coarse.extent(), parent = run * stride / coarse.stride;
     const double at = centre(run), middle = coarse.centre(parent);
     if (at == middle) return {{parent, parent}, {1.0, 0.0}};
     const int other = at < middle ? parent - 1 : parent + 1;
-    if (!coarse.wraps && (other < 0 || other >= extents)) return {{parent, parent}, {1.0, 0.0}};
+    if (!coarse.wraps && (other < 0 || other >= runs)) return {{parent, parent}, {1.0, 0.0}};
     const double share = (at - middle) / (coarse.centre(other) - middle);
-    return {{parent, (other + extents) % extents}, {1.0 - share, share}};
+    return {{parent, (other + runs) % runs}, {1.0 - share, share}};
   }
 };
 
