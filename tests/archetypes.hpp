@@ -31,7 +31,19 @@ struct constant_basis {
   double offset(std::size_t) const { return mean; }
   identity_metric metric() const { return {}; }
 };
-static_assert(gonio::basis<constant_basis>);
+static_assert(gonio::tabulated_basis<constant_basis> && !gonio::computed_basis<constant_basis>);
+
+/// A polynomial in theta_d: two functions that are computed wherever they are asked for.
+struct theta_d_polynomial {
+  gonio::valid_cells over;
+  double mean = 0.0;
+  std::size_t size() const { return 2; }
+  const gonio::valid_cells& cells() const { return over; }
+  void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
+  double offset(std::size_t) const { return mean; }
+  identity_metric metric() const { return {}; }
+};
+static_assert(gonio::computed_basis<theta_d_polynomial> && !gonio::tabulated_basis<theta_d_polynomial>);
 
 /// The normal equations as they are.
 struct ordinary_least_squares {

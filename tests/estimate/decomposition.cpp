@@ -102,6 +102,42 @@ TEST_CASE("archetypes: the least-squares fit of a constant is the weighted mean"
   CHECK(fit.functions().mean == 0.5);
 }
 
+TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at the exact places") {
+  const archetype::theta_d_polynomial functions{cells(), 0.5};
+  const sample_set samples{{{0.1, 0.2, 0.3}, rgb(1, 2, 3)}, {{0.4, 0.6, 0.5}, rgb(5, 6, 3)}};
+  const decomposition estimator{functions, archetype::ordinary_least_squares{}};
+  static_assert(gonio::estimator<decltype(estimator)>);
+  const auto fit = estimator.fit(samples);
+  const auto [wi, wo] = gonio::to_directions({0.2, 0.01, 0.7});  // beyond the first node of theta_d
+  CHECK((fit(wi, wo) - rgb(0, 0.1, 3)).abs().maxCoeff() < 1e-9);
+  const auto table = fit.tabulate(valid_cells(gonio::grid({4, 30, 5})));
+  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+    REQUIRE(table.at(cell).y() == doctest::Approx(10.0 * table.cells().angles(cell).theta_d).epsilon(1e-6));
+}
+
+namespace {
+
+/// One computed basis for each channel, which differ in their offsets.
+struct three_polynomials {
+  archetype::theta_d_polynomial first;
+  std::size_t size() const { return 2; }
+  const valid_cells& cells() const { return first.over; }
+  archetype::theta_d_polynomial channel(std::size_t index) const { return {first.over, static_cast<double>(index)}; }
+  archetype::identity_metric metric() const { return {}; }
+};
+static_assert(gonio::channelwise_basis<three_polynomials>);
+
+}  // namespace
+
+TEST_CASE("computed bases that differ from channel to channel") {
+  const sample_set samples{{{0.1, 0.2, 0.3}, rgb(1, 2, 3)}, {{0.4, 0.6, 0.5}, rgb(5, 6, 3)}};
+  const auto fit = decomposition{three_polynomials{{cells()}}, archetype::ordinary_least_squares{}}.fit(samples);
+  const auto [wi, wo] = gonio::to_directions({0.2, 0.4, 0.7});
+  CHECK((fit(wi, wo) - rgb(3, 4, 3)).abs().maxCoeff() < 1e-9);
+  CHECK(fit.found().weights(0, 2) == doctest::Approx(1.0));  // 3 less the offset of 2
+  CHECK(fit.mapped(0).z() == doctest::Approx(3.0));
+}
+
 TEST_CASE("a fit is zero below the horizon") {
   const auto samples = gonio::measure(made_up_materials(cells(), 8).table(4), gonio::random_cells(cells(), 30, 2));
   const auto fit = decomposition{prior(), tikhonov{0.1}}.fit(samples);

@@ -14,8 +14,17 @@
 
 namespace gonio {
 
-/// `size()` functions over `cells()`; a BRDF is modelled at a cell, in the metric's domain, as
-/// offset(cell) + row(cell) . weights.
+/// What every basis has: `size()` functions over `cells()`; a BRDF is modelled at a place, in the domain of `metric()`,
+/// as offset + row . weights, where the row holds the values of all functions there.
+template <class Basis>
+concept function_set = requires(const Basis& functions, std::size_t cell) {
+  { functions.size() } -> std::convertible_to<std::size_t>;
+  { functions.cells() } -> std::convertible_to<const valid_cells&>;
+  { functions.offset(cell) } -> std::convertible_to<double>;
+  requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
+};
+
+/// A basis that stores its rows: `row(cell)` is the row at a cell, and between cells rows are interpolated.
 ///
 /// What the compiler cannot check, and a model must keep: `row(cell)` is contiguous, has `size()` values
 /// and stays valid as long as the basis or a copy of it lives; copies are cheap (they share storage);
@@ -31,16 +40,43 @@ namespace gonio {
 ///   double offset(std::size_t) const { return 0; }
 ///   identity_metric metric() const { return {}; }
 /// };
-/// static_assert(gonio::basis<constant_basis>);
+/// static_assert(gonio::tabulated_basis<constant_basis>);
 /// ```
 template <class Basis>
-concept basis = requires(const Basis& functions, std::size_t cell) {
-  { functions.size() } -> std::convertible_to<std::size_t>;
-  { functions.cells() } -> std::convertible_to<const valid_cells&>;
+concept tabulated_basis = function_set<Basis> && requires(const Basis& functions, std::size_t cell) {
   { functions.row(cell) } -> std::convertible_to<std::span<const float>>;
-  { functions.offset(cell) } -> std::convertible_to<double>;
-  requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
+
+/// Where a computed basis writes the values of its functions.
+using function_row = Eigen::Ref<Eigen::RowVectorXd>;
+
+/// A basis that computes its rows, in double precision, at any place: `read_row(at, out)` writes the row at the exact
+/// angles of a location. For functions given by a formula, whose rows at a million cells would not fit into memory.
+///
+/// What the compiler cannot check, and a model must keep: `out`, of `size()` numbers, is written in full; `read_row`
+/// neither allocates nor throws; copies are cheap; all members are const and thread safe.
+///
+/// The smallest model: a polynomial in theta_d, in linear reflectance.
+/// ```cpp
+/// struct theta_d_polynomial {
+///   gonio::valid_cells over;
+///   std::size_t size() const { return 2; }
+///   const gonio::valid_cells& cells() const { return over; }
+///   void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
+///   double offset(std::size_t) const { return 0; }
+///   identity_metric metric() const { return {}; }
+/// };
+/// static_assert(gonio::computed_basis<theta_d_polynomial>);
+/// ```
+template <class Basis>
+concept computed_basis = function_set<Basis> && !tabulated_basis<Basis> &&
+                         requires(const Basis& functions, const location& at, function_row out) {
+  functions.read_row(at, out);
+};
+
+/// Functions that a BRDF is a combination of, with their rows stored or computed.
+template <class Basis>
+concept basis = tabulated_basis<Basis> || computed_basis<Basis>;
 
 /// Three bases over the same cells with the same number of functions and the same metric, one for each colour channel.
 template <class Basis>
@@ -85,21 +121,26 @@ inline constexpr bool has_arbitrary_sign = requires {
   requires bool(Basis::arbitrary_sign);
 };
 
-/// Writes the values of all functions at a location, interpolated in the metric's domain, to a row of size() numbers.
+/// Writes the values of all functions at a location to a row of size() numbers: interpolated in the metric's domain if
+/// the basis is tabulated, exact if it is computed.
 template <basis Basis, class Row>
 void read_row_at(const Basis& functions, const location& at, Row&& out) {
-  for (int corner = 0; corner < at.count; ++corner) {
-    const auto slot = static_cast<std::size_t>(corner);
-    const std::span<const float> values = functions.row(at.cell[slot]);
-    const Eigen::Map<const Eigen::RowVectorXf> part(values.data(), static_cast<Eigen::Index>(values.size()));
-    if (corner == 0)
-      out = at.weight[slot] * part.template cast<double>();
-    else
-      out += at.weight[slot] * part.template cast<double>();
+  if constexpr (computed_basis<Basis>) {
+    functions.read_row(at, out);
+  } else {
+    for (int corner = 0; corner < at.count; ++corner) {
+      const auto slot = static_cast<std::size_t>(corner);
+      const std::span<const float> values = functions.row(at.cell[slot]);
+      const Eigen::Map<const Eigen::RowVectorXf> part(values.data(), static_cast<Eigen::Index>(values.size()));
+      if (corner == 0)
+        out = at.weight[slot] * part.template cast<double>();
+      else
+        out += at.weight[slot] * part.template cast<double>();
+    }
   }
 }
 
-/// The values of all functions at a location, interpolated in the metric's domain: size() numbers.
+/// The values of all functions at a location: size() numbers. See `read_row_at`.
 template <basis Basis>
 [[nodiscard]] Eigen::RowVectorXd row_at(const Basis& functions, const location& at) {
   Eigen::RowVectorXd row(static_cast<Eigen::Index>(functions.size()));

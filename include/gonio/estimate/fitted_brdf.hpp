@@ -14,12 +14,19 @@
 namespace gonio {
 
 /// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and what the
-/// solver said about it. Evaluation costs O(8 x size of the basis); tabulate for the inner loop of a
-/// renderer.
+/// solver said about it. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
+/// for the inner loop of a renderer.
+///
+/// Rows that a basis stores are multiplied by the weights in float, rows that it computes in double: functions given by
+/// a formula may cancel each other to many digits.
 template <colour_basis Basis>
 class fitted_brdf {
  public:
-  /// `found.weights` is (size of the basis) x 3, one column per colour channel.
+  /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
+  static constexpr int most_computed_functions = 4096;
+
+  /// `found.weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or
+  /// for more than `most_computed_functions` that are computed.
   fitted_brdf(Basis basis, solution found)
       : basis_(std::move(basis)),
         channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
@@ -28,6 +35,9 @@ class fitted_brdf {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
       throw error("a fit by " + std::to_string(basis_.size()) +
                   " functions needs as many weights for each of 3 channels");
+    if (computed && weights_.rows() > most_computed_functions)
+      throw error("a fit by functions that are computed can have at most " + std::to_string(most_computed_functions) +
+                  " of them, not " + std::to_string(basis_.size()));
   }
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
@@ -38,33 +48,39 @@ class fitted_brdf {
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
     const location at = locate(basis_.cells(), to_half_difference(wi, wo));
-    const rgb y = interpolate(
-        at, [&](std::size_t cell) { return mapped(cell); }, rgb(rgb::Zero()));
-    return reflectance(y, at);
+    return reflectance(mapped_at(at), at);
   }
 
   /// The value at a cell of the basis in the metric's domain.
   [[nodiscard]] rgb mapped(std::size_t cell) const noexcept {
-    rgb value;
-    for (std::size_t c = 0; c < 3; ++c) value[static_cast<Eigen::Index>(c)] = mapped(cell, c);
-    return value;
+    if constexpr (computed)
+      return mapped_at(locate_cell(basis_.cells(), cell));
+    else
+      return {stored_value(cell, 0), stored_value(cell, 1), stored_value(cell, 2)};
   }
 
   /// Expands the fit to a table: one product of the basis' rows with the weights, which reads the basis once,
-  /// and where the cells are others an interpolation of its three channels. Same bytes for any number of
-  /// threads.
+  /// and where the cells are others an interpolation of its three channels. Rows that are computed are so at the
+  /// cells of the table. Same bytes for any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
-    if constexpr (row_metric<metric_type>)
+    if constexpr (row_metric<metric_type> && !computed)
       return tabulate_rows(cells, threads);
     else
       return tabulate_cells(cells, threads);
   }
 
-  /// The same table through the metric's own `inverse` at each cell: slower, and works with any metric.
+  /// The same table through the metric's own `inverse` at each cell: slower where rows are stored, and works with any
+  /// metric.
   [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const {
-    const mapped_fields field = mapped_field(threads);
-    const auto value = [&](std::size_t cell) {
-      return field.col(static_cast<Eigen::Index>(cell)).template cast<double>();
+    mapped_fields field;
+    if constexpr (!computed) field = mapped_field(threads);
+    const auto value_at = [&](const location& at) {
+      if constexpr (computed)
+        return mapped_at(at);
+      else
+        return interpolate(
+            at, [&](std::size_t cell) { return field.col(static_cast<Eigen::Index>(cell)).template cast<double>(); },
+            rgb(rgb::Zero()));
     };
     const bool own = cells == basis_.cells();
     brdf_table table(cells);
@@ -73,7 +89,7 @@ class fitted_brdf {
         [&](block range) {
           for (std::size_t cell = range.begin; cell < range.end; ++cell) {
             const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
-            table.set(cell, reflectance(interpolate(at, value, rgb(rgb::Zero())), at));
+            table.set(cell, reflectance(value_at(at), at));
           }
         },
         threads);
@@ -89,8 +105,7 @@ class fitted_brdf {
         basis_.cells().size(), 4096,
         [&](block range) {
           for (std::size_t cell = range.begin; cell < range.end; ++cell)
-            for (std::size_t c = 0; c < 3; ++c)
-              field(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(cell)) = mapped(cell, c);
+            field.col(static_cast<Eigen::Index>(cell)) = mapped(cell).template cast<float>();
         },
         threads);
     return field;
@@ -99,12 +114,34 @@ class fitted_brdf {
  private:
   using metric_type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
   using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
+  static constexpr bool computed = computed_basis<channel_type>;
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
-  [[nodiscard]] float mapped(std::size_t cell, std::size_t channel) const noexcept {
+  [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {
     const Eigen::Map<const Eigen::VectorXf> row(channels_[channel].row(cell).data(), weights_.rows());
     return weights_.col(static_cast<Eigen::Index>(channel)).dot(row) +
            static_cast<float>(channels_[channel].offset(cell));
+  }
+
+  /// The value at any place in the metric's domain.
+  [[nodiscard]] rgb mapped_at(const location& at) const noexcept {
+    if constexpr (computed)
+      return computed_value(at);
+    else
+      return interpolate(
+          at, [&](std::size_t cell) { return mapped(cell); }, rgb(rgb::Zero()));
+  }
+
+  /// The three channels at a place, from one row if they share their basis.
+  [[nodiscard]] rgb computed_value(const location& at) const noexcept {
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(found_.weights.rows());
+    rgb value;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const channel_type& functions = channels_[static_cast<std::size_t>(c)];
+      if (c == 0 || !basis<Basis>) functions.read_row(at, row);
+      value[c] = row.dot(found_.weights.col(c)) + offset_at(functions, at);
+    }
+    return value;
   }
 
   /// Through the three channels, and what the metric needs beside them, a row of cells at once.

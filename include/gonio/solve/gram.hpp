@@ -27,7 +27,10 @@ class product_sum {
   explicit product_sum(Eigen::Index columns)
       : columns_(columns), length_((columns + tile_rows - 1) / tile_rows * tile_rows) {
     const Eigen::Index reach = (columns + tile_columns - 1) / tile_columns * tile_columns;
-    buffer_.setZero(block_rows, std::max(length_, reach));
+    // An odd number of tiles from row to row: a power of two would put a tile's piece of every row into the same few
+    // sets of the cache.
+    const Eigen::Index tiles = (std::max(length_, reach) + tile_rows - 1) / tile_rows;
+    buffer_.setZero(block_rows, (tiles | 1) * tile_rows);
     sum_.setZero(length_, reach);
   }
 
@@ -36,8 +39,12 @@ class product_sum {
 
   /// Adds the products of the first `count` rows of the buffer.
   void add(Eigen::Index count) {
-    for (Eigen::Index i = 0; i < columns_; i += tile_rows)
-      for (Eigen::Index j = 0; j < std::min(i + tile_rows, columns_); j += tile_columns) add_tile(count, i, j);
+    // In panels of columns, whose part of the buffer stays in the cache.
+    constexpr Eigen::Index panel = 16 * tile_columns;
+    for (Eigen::Index first = 0; first < columns_; first += panel)
+      for (Eigen::Index i = first / tile_rows * tile_rows; i < columns_; i += tile_rows)
+        for (Eigen::Index j = first; j < std::min({first + panel, i + tile_rows, columns_}); j += tile_columns)
+          add_tile(count, i, j);
   }
 
   product_sum& operator+=(const product_sum& other) {

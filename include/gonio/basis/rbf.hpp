@@ -1,0 +1,187 @@
+#pragma once
+/// Radial basis functions: a rival with which Noell, Koehler and Stricker 2014, section 3.1, compare their estimator.
+/// 758 centres are spread over a radial re-parametrisation of the BRDF's domain, after Zickler et al., "Reflectance
+/// sharing", EGSR 2005, and Weistroffer et al., "Efficient basis decomposition for scattered reflectance data", EGSR
+/// 2007. They do not say more; the coordinates (`radial_coordinates`) and the kernel (`linear_kernel`) are our reading,
+/// and other kernels and centres can be passed.
+
+#include <gonio/basis/basis.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// The place of a direction pair in the domain of radial basis functions: sqrt(theta_h / 90 degrees), which is finer
+/// towards the highlight, and theta_d / 90 degrees as the radius of a disc with the angle 2 phi_d. The disc closes
+/// where phi_d wraps (reciprocity), and its centre is theta_d = 0, where phi_d means nothing.
+[[nodiscard]] inline Eigen::Vector3d radial_coordinates(const half_difference& angles) noexcept {
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  const double radius = angles.theta_d / right_angle;
+  return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle), radius * std::cos(2.0 * angles.phi_d),
+          radius * std::sin(2.0 * angles.phi_d)};
+}
+
+/// Squared distances of a place to centres, to be replaced by what a kernel makes of them.
+using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
+
+/// A function of the distance to a centre: `apply(row)` takes a row of squared distances and leaves the kernel's
+/// values.
+///
+/// What the compiler cannot check, and a model must keep: values are finite for distances from 0 to 3; `apply` neither
+/// allocates nor throws, and is thread safe.
+///
+/// The smallest model, the thin plate's r^2 log r:
+/// ```cpp
+/// struct thin_plate_kernel {
+///   void apply(gonio::kernel_row squares) const { squares *= 0.5 * squares.max(1e-300).log(); }
+/// };
+/// static_assert(gonio::radial_kernel<thin_plate_kernel>);
+/// ```
+template <class Kernel>
+concept radial_kernel = std::copyable<Kernel> && requires(const Kernel& kernel, kernel_row squares) {
+  kernel.apply(squares);
+};
+
+/// The distance itself: the biharmonic spline of three dimensions, with a kink at each centre.
+struct linear_kernel {
+  static void apply(kernel_row squares) noexcept { squares = squares.sqrt(); }
+};
+
+/// The cube of the distance: smoother, and worse conditioned.
+struct cubic_kernel {
+  static void apply(kernel_row squares) noexcept { squares *= squares.sqrt(); }
+};
+
+/// exp(-(r / width)^2), of local support in effect.
+class gaussian_kernel {
+ public:
+  /// Throws gonio::error unless the width, in units of `radial_coordinates`, is positive and finite.
+  explicit gaussian_kernel(double width) : width_(width) {
+    if (!(width > 0.0 && std::isfinite(width)))
+      throw error("the width of a Gaussian kernel must be positive and finite, not " + std::to_string(width));
+  }
+
+  [[nodiscard]] double width() const noexcept { return width_; }
+  void apply(kernel_row squares) const noexcept { squares = (squares / (-width_ * width_)).exp(); }
+
+ private:
+  double width_;
+};
+
+static_assert(radial_kernel<linear_kernel> && radial_kernel<cubic_kernel> && radial_kernel<gaussian_kernel>);
+
+/// Centres of Noell et al. 2014, for each colour channel.
+inline constexpr std::size_t published_centre_count = 758;
+
+/// `count` cells such that each is the farthest, in radial coordinates, from those before it; the first is random. At
+/// most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error unless there
+/// are as many different places.
+[[nodiscard]] inline std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
+                                                                         std::size_t count = published_centre_count,
+                                                                         std::uint64_t seed = 0) {
+  constexpr std::size_t most_candidates = 60'000;
+  std::vector<std::size_t> all(cells.size()), candidates;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::mt19937_64 generator(seed);
+  std::ranges::sample(all, std::back_inserter(candidates),
+                      static_cast<std::ptrdiff_t>(std::min(most_candidates, all.size())), generator);
+  Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();
+
+  std::vector<half_difference> centres;
+  Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
+  Eigen::ArrayXd nearest =  // squared distance to the nearest centre
+      Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
+  while (centres.size() < count && nearest[farthest] > 0.0) {
+    centres.push_back(cells.angles(candidates[static_cast<std::size_t>(farthest)]));
+    const Eigen::Array3d centre = places.col(farthest);
+    nearest = nearest.min((places.colwise() - centre).square().colwise().sum().transpose());
+    nearest.maxCoeff(&farthest);
+  }
+  if (centres.size() < count)
+    throw error("cannot choose " + std::to_string(count) + " different centres of radial basis functions among " +
+                std::to_string(centres.size()) + " places");
+  return centres;
+}
+
+/// Radial basis functions in the domain of a metric: one around each centre, and four that are affine in the radial
+/// coordinates. Rows are computed at the exact angles, O(centres), and never stored. A value type whose copies share
+/// the centres.
+///
+/// ```cpp
+/// const gonio::decomposition rival{gonio::rbf{cells, gonio::log{}}, gonio::tikhonov{1e-6}};  // Noell et al.'s
+/// const auto paint = rival.fit(samples);
+/// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), gonio::cubic_kernel{}};
+/// ```
+/// The penalty only keeps the system solvable where samples are few. Beyond that it must be tiny, as the Gram matrix
+/// has a condition number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
+template <error_metric Metric, radial_kernel Kernel = linear_kernel>
+class rbf {
+ public:
+  /// The axes of the coordinates may as well run the other way: see `has_arbitrary_sign`.
+  static constexpr bool arbitrary_sign = true;
+
+  /// `cells` are those that the metric and a fit refer to. Throws gonio::error if there is no centre, or an angle of
+  /// one is not finite.
+  rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
+      : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
+    if (centres.empty()) throw error("radial basis functions need at least one centre");
+    coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
+    for (std::size_t i = 0; i < centres.size(); ++i) {
+      const Eigen::Vector3d place = radial_coordinates(centres[i]);
+      if (!place.allFinite())
+        throw error("centre " + std::to_string(i + 1) + " of radial basis functions is not finite");
+      places.col(static_cast<Eigen::Index>(i)) = place.array();
+    }
+    centres_ = std::make_shared<const coordinate_rows>(std::move(places));
+  }
+
+  /// With 758 centres, as many as Noell et al. 2014 have, that lie far from each other. Throws gonio::error if there
+  /// are fewer cells.
+  explicit rbf(valid_cells cells, Metric metric = Metric(), Kernel kernel = Kernel())
+      : rbf(cells, std::move(metric), farthest_point_centres(cells), std::move(kernel)) {}
+
+  /// Number of centres, and four more.
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(centres_->cols()) + 4; }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
+  [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
+  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+
+  /// The kernel of the distance to each centre, then 1 and the three coordinates.
+  void read_row(const location& at, function_row out) const noexcept {
+    const Eigen::Vector3d place = radial_coordinates(at.angles);
+    const coordinate_rows& centres = *centres_;
+    kernel_row kernels = out.head(centres.cols()).array();
+    kernels = (centres.row(0) - place.x()).square() + (centres.row(1) - place.y()).square() +
+              (centres.row(2) - place.z()).square();
+    kernel_.apply(kernels);
+    out.tail<4>() << 1.0, place.transpose();
+  }
+
+ private:
+  /// A coordinate of all centres is contiguous.
+  using coordinate_rows = Eigen::Array<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
+
+  valid_cells cells_;
+  Metric metric_;
+  Kernel kernel_;
+  std::shared_ptr<const coordinate_rows> centres_;
+};
+
+}  // namespace gonio
