@@ -12,11 +12,41 @@
 
 namespace gonio {
 
-/// How a quotient of reflectances is kept finite where its denominator is zero or tiny, as it is at every hundredth cell
-/// of some measured materials.
-struct quotient_floor {
-  /// Denominators count as at least this, in sr^-1: a millionth of what a white surface has.
-  double smallest = 1e-6;
+/// What an estimate must be multiplied by, Eq. 4, 5 and 12, kept finite where the estimate is zero or tiny: measured
+/// materials have cells that are exactly zero.
+struct correction_factor {
+  /// Added to measurement and estimate, in sr^-1: differences well below it do not matter. A white surface has 0.318.
+  float offset = 1e-3f;
+  /// The denominator is at least this.
+  float smallest = 1e-6f;
+
+  /// The quotient as the paper prints it; only a denominator below a millionth is replaced by that.
+  [[nodiscard]] static constexpr correction_factor as_printed() noexcept { return {0.0f, 1e-6f}; }
+
+  /// sigma from a measurement and its estimate (numbers, or arrays of them). Negative measurements count as zero.
+  template <class Values>
+  [[nodiscard]] auto quotient(const Values& measured, const Values& estimate) const {
+    return (measured.max(0.0f) + offset) / (estimate + offset).max(smallest);
+  }
+
+  /// The estimate corrected by sigma, at least zero.
+  template <class Values>
+  [[nodiscard]] auto correct(const Values& estimate, const Values& sigma) const {
+    return (sigma * (estimate + offset).max(smallest) - offset).max(0.0f);
+  }
+};
+
+/// How correction functions are made and used.
+struct correction_rule {
+  correction_factor factor = {};
+  /// Is the constant function 1 among them? It stops the iteration from drifting: where nothing is left to correct,
+  /// the others can only come near to 1.
+  bool has_constant = true;
+
+  /// The correction functions of the paper: one for each material, nothing else.
+  [[nodiscard]] static constexpr correction_rule as_printed() noexcept {
+    return {correction_factor::as_printed(), false};
+  }
 };
 
 namespace detail {
@@ -57,15 +87,16 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t 
   }
 }
 
-/// M_i / max(approximation of M_i, floor) for all materials that take part, and 1 as the last column of each channel.
+/// The factors that turn the approximations of all materials that take part into the materials; then, if the rule has
+/// it, 1 as the last column of each channel.
 template <error_metric Metric, normal_solver Solver>
 [[nodiscard]] cell_matrix correction_tables(const measured<Metric>& materials, const Solver& solver,
-                                            const quotient_floor& floor, thread_count threads) {
+                                            const correction_rule& rule, thread_count threads) {
   using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::vector<Eigen::Index> columns = columns_of(materials);
   const auto count = static_cast<Eigen::Index>(columns.size());
-  const auto smallest = static_cast<float>(floor.smallest);
-  cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * (count + 1));
+  const Eigen::Index functions = count + (rule.has_constant ? 1 : 0);
+  cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * functions);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = materials.channel(c);
     const Eigen::MatrixXf weights = leave_one_out_weights(channel, solver, threads);
@@ -79,9 +110,9 @@ template <error_metric Metric, normal_solver Solver>
           for (Eigen::Index j = 0; j < count; ++j) truth.col(j) = mapped.col(columns[static_cast<std::size_t>(j)]);
           unmap_at_cells(materials.metric(), materials.cells(), range.begin, approximation);
           unmap_at_cells(materials.metric(), materials.cells(), range.begin, truth);
-          auto out = tables.block(begin, static_cast<Eigen::Index>(c) * (count + 1), rows, count + 1);
-          out.leftCols(count) = truth / approximation.max(smallest);
-          out.col(count).setOnes();
+          auto out = tables.block(begin, static_cast<Eigen::Index>(c) * functions, rows, functions);
+          out.leftCols(count) = rule.factor.quotient(truth, approximation);
+          out.rightCols(functions - count).setOnes();
         },
         threads);
   }
@@ -103,8 +134,8 @@ template <error_metric Metric>
 /// estimate that needs no correction is left as it is. Their metric is linear (Eq. 16).
 ///
 /// A material that the `measured` basis leaves out is in no correction's approximation either. `without` only takes its
-/// own correction away: the others may still have it in their approximations, which changes the results little and
-/// saves an experiment over all materials from computing the corrections anew for each.
+/// own correction away: the others may still have it in their approximations, which saves an experiment over all
+/// materials from computing the corrections anew for each.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
@@ -114,10 +145,14 @@ class correction : public material_functions<lin> {
  public:
   /// O(cells materials^2). Throws gonio::error if there are fewer than two materials, or the solver gives up.
   template <error_metric Metric, normal_solver Solver = nnls>
-  explicit correction(const measured<Metric>& materials, const Solver& solver = {}, const quotient_floor& floor = {},
+  explicit correction(const measured<Metric>& materials, const correction_rule& rule = {}, const Solver& solver = {},
                       thread_count threads = {})
       : material_functions<lin>(detail::names_of(materials), materials.cells(), lin{},
-                                detail::correction_tables(materials, solver, floor, threads)) {}
+                                detail::correction_tables(materials, solver, rule, threads)),
+        rule_(rule) {}
+
+  /// How the corrections were made, and how they are to be applied.
+  [[nodiscard]] const correction_rule& rule() const noexcept { return rule_; }
 
   /// The same basis in which the corrections of the materials of these names take no part. Nothing is copied. Throws
   /// gonio::error for a name that there is not, or if none is left.
@@ -126,6 +161,11 @@ class correction : public material_functions<lin> {
     fewer.leave_out(excluded);
     return fewer;
   }
+
+ private:
+  correction_rule rule_;
 };
+
+static_assert(channelwise_basis<correction>);
 
 }  // namespace gonio

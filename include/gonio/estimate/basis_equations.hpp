@@ -3,9 +3,8 @@
 /// Nielsen et al. 2015, Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/solver.hpp>
-#include <gonio/table/brdf_table.hpp>
-#include <gonio/table/sample_set.hpp>
 
 #include <array>
 #include <functional>
@@ -24,48 +23,20 @@ class basis_equations {
   /// Systems to solve: one if the channels share their basis, else three.
   static constexpr std::size_t systems = basis<Basis> ? 1 : 3;
 
-  /// Throws gonio::error for unusable samples (`require_usable`). O(samples).
-  template <sample_range Samples>
-  basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
-      : basis_(std::move(functions)), threads_(threads) {
-    require_usable(samples);
-    measurements found;
-    const auto count = std::ranges::distance(samples);
-    found.at.reserve(static_cast<std::size_t>(count));
-    found.values.resize(count, 3);
-    found.weights.resize(count);
-    Eigen::Index i = 0;
-    for (const sample& s : samples) {
-      found.at.push_back(locate(basis_.cells(), s.angles));
-      found.values.row(i) = s.value.matrix().transpose();
-      found.weights[i++] = s.weight;
-    }
-    measured_ = std::make_shared<const measurements>(std::move(found));
-  }
+  basis_equations(Basis functions, located_samples samples, thread_count threads = {})
+      : basis_(std::move(functions)),
+        measured_(std::make_shared<const located_samples>(std::move(samples))),
+        threads_(threads) {}
 
-  /// Every cell of a table as a measurement of weight 1.
-  basis_equations(Basis functions, const brdf_table& table, thread_count threads = {})
-      : basis_(std::move(functions)), threads_(threads) {
-    const valid_cells& cells = table.cells();
-    const bool own = cells == basis_.cells();
-    const auto count = static_cast<Eigen::Index>(cells.size());
-    measurements found{std::vector<location>(cells.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd::Ones(count)};
-    for_each_block(
-        cells.size(), 4096,
-        [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-            found.at[cell] = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
-            found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
-          }
-        },
-        threads);
-    measured_ = std::make_shared<const measurements>(std::move(found));
-  }
+  /// Of samples (throws gonio::error for unusable ones) or a table, each cell of which is one.
+  template <class Samples>
+  basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
+      : basis_equations(functions, locate_samples(functions.cells(), samples, threads), threads) {}
 
   /// The system of one channel, or of all if they have the basis in common, over all functions of the basis.
   [[nodiscard]] least_squares_problem problem(std::size_t channel = 0) const {
     const auto functions = channel_of(basis_, channel);
-    const std::shared_ptr<const measurements> measured = measured_;
+    const std::shared_ptr<const located_samples> measured = measured_;
     const row_source rows{static_cast<Eigen::Index>(measured->at.size()), static_cast<Eigen::Index>(functions.size()),
                           [functions, measured](block range, row_block out) {
                             for (std::size_t i = range.begin; i < range.end; ++i)
@@ -93,13 +64,6 @@ class basis_equations {
   }
 
  private:
-  /// Where was measured, and what.
-  struct measurements {
-    std::vector<location> at;
-    Eigen::MatrixXd values;  // n x 3, sr^-1
-    Eigen::VectorXd weights;
-  };
-
   template <class Functions>
   [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
     constexpr Eigen::Index channels = 3 / static_cast<Eigen::Index>(systems);
@@ -120,7 +84,7 @@ class basis_equations {
   }
 
   Basis basis_;
-  std::shared_ptr<const measurements> measured_;
+  std::shared_ptr<const located_samples> measured_;
   thread_count threads_;
 };
 

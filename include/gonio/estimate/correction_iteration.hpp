@@ -1,0 +1,211 @@
+#pragma once
+/// Repairs an estimate by iterated correction functions while it learns which measurements to distrust: Noell, Koehler
+/// and Stricker 2014, section 2.4, steps 1 to 5 (Eq. 12-17).
+
+#include <gonio/estimate/corrected_brdf.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/outlier_mixture.hpp>
+#include <gonio/estimate/sampled_functions.hpp>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// When the iteration ends.
+struct correction_limits {
+  int rounds = 10;
+  /// Sigma is 1 almost everywhere if it differs from 1 by less than this in the mean over the samples.
+  double smallest_change = 1e-3;
+  /// Added to the diagonal of the normal equations, with its counterweight on the constant function: as many samples
+  /// say that nothing needs to be corrected. What a few samples say about a hundred functions is mostly noise.
+  double inertia = 1.0;
+};
+
+/// The iteration as an object that steps. Its rows are read where the basis has them; a round costs O(samples k^2) for k
+/// functions, and O(samples k) where the weights do not depend on the estimate.
+///
+/// ```cpp
+/// gonio::correction_run run{initial, corrections, gonio::locate_samples(corrections.cells(), samples)};
+/// while (!run.converged()) plot(run.step());
+/// const auto paint = run.result();
+/// ```
+template <tabulated_brdf Initial, outlier_weighting Weighting = automatic_weights, normal_solver Solver = nnls>
+class correction_run {
+ public:
+  /// `samples` must be located on the corrections' cells.
+  correction_run(Initial initial, correction corrections, const located_samples& samples, Weighting weighting = {},
+                 Solver solver = {}, const correction_limits& limits = {}, thread_count threads = {})
+      : initial_(std::move(initial)),
+        corrections_(std::move(corrections)),
+        weighting_(std::move(weighting)),
+        solver_(std::move(solver)),
+        limits_(limits),
+        threads_(threads),
+        functions_(corrections_, samples.at, threads),
+        measured_(samples.values.transpose().array().template cast<float>()),
+        confidence_(samples.weights.array().template cast<float>()),
+        started_(values_at(initial_, corrections_.cells(), samples.at, threads)),
+        total_(channel_values::Ones(3, measured_.cols())) {}
+
+  /// The measurements, and the present estimates of them.
+  [[nodiscard]] const channel_values& measured() const noexcept { return measured_; }
+  [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
+
+  /// One round with the weights of the weighting (Eq. 13).
+  correction_round step() { return step(weighting_.weigh(measured_, estimated())); }
+
+  /// One round with given outlier weights.
+  correction_round step(const channel_values& trust) {
+    const channel_values sigma = factor().quotient(measured_, estimated());
+    const channel_values weights = trust.rowwise() * confidence_.transpose();
+    Eigen::MatrixXd beta(functions_.unknowns(), 3);
+    channel_values found(3, sigma.cols());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto row = static_cast<Eigen::Index>(c);
+      beta.col(row) = solve(c, weights.row(row), sigma.row(row));
+      found.row(row) = functions_.apply(c, beta.col(row)).transpose();
+    }
+    total_ *= found;
+    weights_.push_back(std::move(beta));
+    history_.push_back(describe(trust, weights, sigma, found));
+    return history_.back();
+  }
+
+  /// Is the last correction 1 almost everywhere, or the number of rounds reached?
+  [[nodiscard]] bool converged() const noexcept {
+    if (history_.empty()) return limits_.rounds <= 0;
+    return std::ssize(history_) >= limits_.rounds || history_.back().change < limits_.smallest_change;
+  }
+
+  [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
+
+  /// The estimate after the rounds so far. O(cells k rounds).
+  [[nodiscard]] corrected_brdf<Initial> result() const {
+    return {initial_, total_correction(), factor(), weights_, history_};
+  }
+
+ private:
+  [[nodiscard]] const correction_factor& factor() const noexcept { return corrections_.rule().factor; }
+
+  /// Eq. 9-10 with Eq. 16.
+  template <class Row>
+  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel, const Row& weights, const Row& sigma) {
+    // With fixed weights only the moments change from round to round.
+    if (has_fixed_weights<Weighting> && fixed_gram_[channel])
+      return solve_over_columns({*fixed_gram_[channel], moment(channel, weights, sigma)});
+    const normal_equations all = with_inertia(functions_.normal(channel, weights, sigma));
+    if (has_fixed_weights<Weighting>) fixed_gram_[channel] = all.gram();
+    return solve_over_columns(all);
+  }
+
+  template <class Row>
+  [[nodiscard]] Eigen::VectorXd moment(std::size_t channel, const Row& weights, const Row& sigma) const {
+    Eigen::VectorXd sum = functions_.moment(channel, weights, sigma);
+    if (corrections_.rule().has_constant) sum[functions_.unknowns() - 1] += limits_.inertia;
+    return sum;
+  }
+
+  [[nodiscard]] Eigen::VectorXd solve_over_columns(const normal_equations& all) const {
+    const std::vector<Eigen::Index>& columns = functions_.columns();
+    return spread(solver_.solve(all.subset(columns)), columns, functions_.unknowns()).weights.col(0);
+  }
+
+  [[nodiscard]] normal_equations with_inertia(const normal_equations& normal) const {
+    if (!corrections_.rule().has_constant || limits_.inertia == 0.0) return normal;
+    Eigen::MatrixXd gram = normal.gram(), moment = normal.moment();
+    gram.diagonal().array() += limits_.inertia;
+    moment(moment.rows() - 1, 0) += limits_.inertia;
+    return {std::move(gram), std::move(moment), normal.energy().array() + limits_.inertia};
+  }
+
+  [[nodiscard]] static correction_round describe(const channel_values& trust, const channel_values& weights,
+                                                 const channel_values& sigma, const channel_values& found) {
+    const double total = weights.cast<double>().sum();
+    const double squares = (weights * (sigma - 1.0f).square()).cast<double>().sum();
+    return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
+            (trust < 0.5f).cast<double>().mean()};
+  }
+
+  /// The product of all rounds' corrections over the cells.
+  [[nodiscard]] brdf_table total_correction() const {
+    brdf_table total(corrections_.cells());
+    for (std::size_t c = 0; c < 3; ++c) {
+      Eigen::MatrixXf betas(functions_.unknowns(), std::ssize(weights_));
+      for (std::size_t round = 0; round < weights_.size(); ++round)
+        betas.col(static_cast<Eigen::Index>(round)) =
+            weights_[round].col(static_cast<Eigen::Index>(c)).template cast<float>();
+      const auto channel = corrections_.channel(c);
+      for_each_block(
+          corrections_.cells().size(), 1024,
+          [&](block range) {
+            const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+            const Eigen::MatrixXf sigmas = channel.values().middleRows(begin, count) * betas;
+            const Eigen::VectorXf product = sigmas.rowwise().prod();
+            for (Eigen::Index i = 0; i < count; ++i)
+              total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = product[i];
+          },
+          threads_);
+    }
+    return total;
+  }
+
+  Initial initial_;
+  correction corrections_;
+  Weighting weighting_;
+  Solver solver_;
+  correction_limits limits_;
+  thread_count threads_;
+  sampled_functions<correction> functions_;
+  channel_values measured_;
+  Eigen::ArrayXf confidence_;
+  channel_values started_, total_;
+  std::array<std::optional<Eigen::MatrixXd>, 3> fixed_gram_;
+  std::vector<Eigen::MatrixXd> weights_;
+  std::vector<correction_round> history_;
+};
+
+/// An initial estimator whose estimate is corrected until it agrees with the samples that are to be trusted.
+///
+/// The method as its paper prints it, with gamma = 3:
+/// ```cpp
+/// const gonio::measured materials{database, gonio::log{}};
+/// const gonio::correction corrections{materials, gonio::correction_rule::as_printed()};
+/// const auto paint = gonio::correction_iteration{gonio::decomposition{materials, gonio::nnls{}}, corrections,
+///                                                gonio::relative_deviation_weights{3.0}}.fit(samples);
+/// ```
+/// For samples of unknown quality `robust_reconstruction` chooses everything.
+template <estimator Initial, outlier_weighting Weighting = automatic_weights, normal_solver Solver = nnls>
+class correction_iteration {
+ public:
+  correction_iteration(Initial initial, correction corrections, Weighting weighting = {}, Solver solver = {},
+                       const correction_limits& limits = {}, thread_count threads = {})
+      : initial_(std::move(initial)),
+        corrections_(std::move(corrections)),
+        weighting_(std::move(weighting)),
+        solver_(std::move(solver)),
+        limits_(limits),
+        threads_(threads) {}
+
+  /// Fits samples, or a table, each cell of which is one. Throws gonio::error for unusable samples, or if a solver gives
+  /// up.
+  template <class Samples>
+  [[nodiscard]] auto fit(const Samples& samples) const {
+    const located_samples located = locate_samples(corrections_.cells(), samples, threads_);
+    correction_run run{initial_.fit(samples), corrections_, located, weighting_, solver_, limits_, threads_};
+    while (!run.converged()) run.step();
+    return run.result();
+  }
+
+ private:
+  Initial initial_;
+  correction corrections_;
+  Weighting weighting_;
+  Solver solver_;
+  correction_limits limits_;
+  thread_count threads_;
+};
+
+}  // namespace gonio

@@ -1,0 +1,102 @@
+#pragma once
+/// Measurements placed on the cells of a basis.
+
+#include <gonio/estimate/estimator.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+namespace gonio {
+
+/// Where was measured, what, and how much it counts: n of each.
+struct located_samples {
+  std::vector<location> at;
+  Eigen::MatrixXd values;  ///< n x 3, sr^-1
+  Eigen::VectorXd weights;
+
+  [[nodiscard]] std::size_t size() const noexcept { return at.size(); }
+
+  /// Some of the samples, by their positions.
+  [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const {
+    const auto count = std::ssize(positions);
+    located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
+      some.at[i] = at[positions[i]];
+      some.values.row(to) = values.row(from);
+      some.weights[to] = weights[from];
+    }
+    return some;
+  }
+};
+
+/// Samples on given cells. Throws gonio::error for unusable ones (`require_usable`). O(samples).
+template <sample_range Samples>
+[[nodiscard]] located_samples locate_samples(const valid_cells& cells, const Samples& samples,
+                                             thread_count /*threads*/ = {}) {
+  require_usable(samples);
+  const auto count = std::ranges::distance(samples);
+  located_samples found{{}, Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  found.at.reserve(static_cast<std::size_t>(count));
+  Eigen::Index i = 0;
+  for (const sample& s : samples) {
+    found.at.push_back(locate(cells, s.angles));
+    found.values.row(i) = s.value.matrix().transpose();
+    found.weights[i++] = s.weight;
+  }
+  return found;
+}
+
+/// Every cell of a table as a measurement of weight 1.
+[[nodiscard]] inline located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
+                                                    thread_count threads = {}) {
+  const bool own = table.cells() == cells;
+  const auto count = static_cast<Eigen::Index>(table.cells().size());
+  located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
+                        Eigen::VectorXd::Ones(count)};
+  for_each_block(
+      found.size(), 4096,
+      [&](block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+          found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
+          found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
+        }
+      },
+      threads);
+  return found;
+}
+
+/// One value for each colour channel of each sample: 3 x n.
+using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
+
+/// An estimate at given places on `cells`: read from its table where they are cells, otherwise evaluated.
+template <tabulated_brdf Fit>
+[[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& places,
+                                       thread_count threads = {}) {
+  // A table takes as long as some thousand evaluations.
+  constexpr std::ptrdiff_t worth_a_table = 4096;
+  std::optional<brdf_table> table;
+  if (std::ranges::count_if(places, [](const location& at) { return at.count == 1; }) > worth_a_table)
+    table = fit.tabulate(cells, threads);
+  channel_values values(3, std::ssize(places));
+  for_each_block(
+      places.size(), 256,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const location& at = places[i];
+          const auto [wi, wo] = to_directions(at.angles);
+          const rgb value = table && at.count == 1 ? table->at(std::size_t{at.cell[0]}) : rgb(fit(wi, wo));
+          values.col(static_cast<Eigen::Index>(i)) = value.cast<float>();
+        }
+      },
+      threads);
+  return values;
+}
+
+}  // namespace gonio

@@ -1,0 +1,167 @@
+#pragma once
+/// The measured material that comes nearest to measurements of which most may be outliers: a robust start for estimators
+/// that need one. A linear combination of materials is dragged along by outliers; one material that is only brightened
+/// or darkened cannot follow them.
+
+#include <gonio/basis/measured.hpp>
+#include <gonio/estimate/completed_table.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/outlier_mixture.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A material times a factor.
+struct scaled_material {
+  std::size_t material = 0;
+  double factor = 1.0;
+};
+
+namespace detail {
+
+/// How likely measurements are, given a material's values, at the best factor found.
+struct scaled_likelihood {
+  double logarithm_of_factor = 0.0;
+  double log_likelihood = -std::numeric_limits<double>::infinity();
+};
+
+/// Expectation-maximisation of an `outlier_mixture` whose centre is unknown: `differences` are the logarithms of
+/// measurements less those of a material.
+[[nodiscard]] inline scaled_likelihood locate_mixture(const std::vector<double>& differences,
+                                                      const std::vector<double>& outliers, double start) {
+  constexpr int steps = 8;
+  constexpr double smallest_scale = 0.02;
+  constexpr double nu = outlier_mixture::degrees_of_freedom;
+  const auto n = static_cast<double>(differences.size());
+  outlier_mixture mixture{0.5, 0.3};
+  scaled_likelihood found{start};
+  for (int step = 0; step < steps; ++step) {
+    double likelihood = 0.0, good = 0.0, weight = 0.0, first = 0.0, second = 0.0;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+      const double residual = differences[i] - found.logarithm_of_factor;
+      const double density = mixture.good_share * mixture.good_density(residual);
+      const double all = density + (1.0 - mixture.good_share) * outliers[i];
+      const double share = density / all, on_tail = share * mixture.tail_weight(residual);
+      likelihood += std::log(all);
+      good += share;
+      weight += on_tail;
+      first += on_tail * differences[i];
+      second += (nu + 1.0) / nu * on_tail * residual * residual;
+    }
+    found = {weight > 0.0 ? first / weight : start, likelihood};
+    mixture = {std::clamp(good / n, 0.05, 0.99), std::max(std::sqrt(second / std::max(good, 1e-9)), smallest_scale)};
+  }
+  return found;
+}
+
+/// The best of several starts, for the mode of the differences may be anywhere.
+[[nodiscard]] inline scaled_likelihood best_factor(const std::vector<double>& differences,
+                                                   const std::vector<double>& outliers) {
+  std::vector<double> sorted = differences;
+  std::ranges::sort(sorted);
+  scaled_likelihood best;
+  for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
+    const auto position = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+    const scaled_likelihood found = locate_mixture(differences, outliers, sorted[position]);
+    if (found.log_likelihood > best.log_likelihood) best = found;
+  }
+  return best;
+}
+
+/// At most `count` of n numbers, at random, ascending.
+[[nodiscard]] inline std::vector<std::size_t> some_of(std::size_t n, std::size_t count, std::uint64_t seed) {
+  std::vector<std::size_t> chosen(n), all(n);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::mt19937_64 generator(seed);
+  chosen.resize(std::min(n, count));
+  std::ranges::sample(all, chosen.begin(), static_cast<std::ptrdiff_t>(chosen.size()), generator);
+  return chosen;
+}
+
+}  // namespace detail
+
+/// For each colour channel the material, and its factor, under which the measurements are most likely a mixture of good
+/// ones and outliers (outlier_mixture.hpp). Looks at 1,500 of the samples: O(materials) after that.
+template <error_metric Metric>
+class nearest_material {
+ public:
+  explicit nearest_material(measured<Metric> materials, std::uint64_t seed = 0, thread_count threads = {})
+      : materials_(std::move(materials)), seed_(seed), threads_(threads) {}
+
+  /// The choice for each channel.
+  [[nodiscard]] std::array<scaled_material, 3> choose(const located_samples& samples) const {
+    const std::vector<std::size_t> some = detail::some_of(samples.size(), 1'500, seed_);
+    std::array<scaled_material, 3> chosen;
+    for (std::size_t c = 0; c < 3; ++c) chosen[c] = choose(samples, some, c);
+    return chosen;
+  }
+
+  /// Throws gonio::error for unusable samples.
+  template <class Samples>
+  [[nodiscard]] completed_table fit(const Samples& samples) const {
+    const auto chosen = choose(locate_samples(materials_.cells(), samples, threads_));
+    brdf_table table(materials_.cells());
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+        table.values()[3 * cell + c] =
+            static_cast<float>(chosen[c].factor * value(chosen[c].material, c, locate_cell(table.cells(), cell)));
+    return completed_table(std::move(table));
+  }
+
+  /// The reflectance of a material at a place, at least zero.
+  [[nodiscard]] double value(std::size_t material, std::size_t channel, const location& at) const {
+    const auto functions = materials_.channel(channel);
+    const double mapped = interpolate(
+        at, [&](std::size_t cell) { return double{functions.row(cell)[material]}; }, 0.0);
+    return std::max(materials_.metric().inverse(mapped, at), 0.0);
+  }
+
+ private:
+  [[nodiscard]] scaled_material choose(const located_samples& samples, const std::vector<std::size_t>& some,
+                                       std::size_t channel) const {
+    const auto column = static_cast<Eigen::Index>(channel);
+    std::vector<double> logarithms, outliers;
+    const double offset = std::max(1e-4, 0.01 * median(samples.values.col(column)));
+    for (const std::size_t i : some)
+      logarithms.push_back(std::log(std::max(samples.values(static_cast<Eigen::Index>(i), column), 0.0) + offset));
+    const outlier_density density(logarithms);
+    for (const double value : logarithms) outliers.push_back(density(value));
+
+    const std::vector<Eigen::Index> columns = columns_of(materials_);
+    std::vector<detail::scaled_likelihood> found(columns.size());
+    for_each_block(
+        columns.size(), 1,
+        [&](block one) {
+          const auto material = static_cast<std::size_t>(columns[one.begin]);
+          std::vector<double> differences(some.size());
+          for (std::size_t i = 0; i < some.size(); ++i)
+            differences[i] = logarithms[i] - std::log(value(material, channel, samples.at[some[i]]) + offset);
+          found[one.begin] = detail::best_factor(differences, outliers);
+        },
+        threads_);
+    const auto best = std::ranges::max_element(found, {}, &detail::scaled_likelihood::log_likelihood);
+    return {static_cast<std::size_t>(columns[static_cast<std::size_t>(best - found.begin())]),
+            std::exp(best->logarithm_of_factor)};
+  }
+
+  [[nodiscard]] static double median(const Eigen::VectorXd& values) {
+    std::vector<double> sorted(values.data(), values.data() + values.size());
+    const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+    std::ranges::nth_element(sorted, middle);
+    return *middle;
+  }
+
+  measured<Metric> materials_;
+  std::uint64_t seed_;
+  thread_count threads_;
+};
+
+}  // namespace gonio

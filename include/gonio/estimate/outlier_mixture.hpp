@@ -1,0 +1,191 @@
+#pragma once
+/// Measurements as a mixture of good ones, which scatter about an estimate, and of outliers, which are anything that was
+/// measured at all. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma, "depending on the dynamic
+/// range and the outlier ratio") is estimated here from the residuals by expectation and maximisation (Dempster, Laird
+/// and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
+
+#include <gonio/estimate/outlier_weights.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace gonio {
+
+/// The density of logarithms of measurements, smoothed and flattened, over their range: what an outlier looks like. Its
+/// square root, normalised, is halfway between the density of all measurements, under which no residual would be needed
+/// to explain them, and a constant, under which a genuine highlight would be no less likely an outlier than any value.
+class outlier_density {
+ public:
+  /// O(n). `logarithms` must not be empty.
+  explicit outlier_density(const std::vector<double>& logarithms);
+
+  [[nodiscard]] double operator()(double logarithm) const noexcept {
+    const auto bin = static_cast<std::ptrdiff_t>((logarithm - lowest_) / step_);
+    return density_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(bin, 0, std::ssize(density_) - 1))];
+  }
+
+ private:
+  static constexpr std::size_t bins = 200;
+  double lowest_, step_;
+  std::vector<double> density_;
+};
+
+inline outlier_density::outlier_density(const std::vector<double>& logarithms) : density_(bins, 0.0) {
+  // Count in bins over the range and half a unit beyond.
+  const auto [least, most] = std::ranges::minmax_element(logarithms);
+  const auto n = static_cast<double>(logarithms.size());
+  lowest_ = *least - 0.5;
+  step_ = (*most - *least + 1.0) / static_cast<double>(bins);
+  std::vector<double> counts(bins, 0.0);
+  double mean = 0.0, square = 0.0;
+  for (const double value : logarithms) {
+    counts[std::min(bins - 1, static_cast<std::size_t>((value - lowest_) / step_))] += 1.0;
+    mean += value / n;
+    square += value * value / n;
+  }
+  // Smooth by a Gaussian of Silverman's width.
+  const double deviation = std::sqrt(std::max(square - mean * mean, 0.0));
+  const double width = std::max(1.06 * deviation * std::pow(n, -0.2), step_);
+  const auto reach = static_cast<std::ptrdiff_t>(3.0 * width / step_) + 1;
+  for (std::ptrdiff_t i = 0; i < std::ssize(counts); ++i)
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1); ++j) {
+      const double z = static_cast<double>(i - j) * step_ / width;
+      density_[static_cast<std::size_t>(j)] += counts[static_cast<std::size_t>(i)] * std::exp(-0.5 * z * z);
+    }
+  // Flatten: a tenth of a measurement is where nothing was measured.
+  double total = 0.0;
+  for (double& value : density_) {
+    value = std::sqrt(std::max(value / (n * width * std::sqrt(2.0 * std::numbers::pi)), 0.1 / n));
+    total += value * step_;
+  }
+  for (double& value : density_) value /= total;
+}
+
+/// Good residuals are `scale` times a variable of Student's t with 4 degrees of freedom, whose tails let the fit be
+/// wrong somewhere; all others are outliers.
+struct outlier_mixture {
+  double good_share = 0.8;
+  double scale = 0.3;  ///< of the logarithm of reflectance
+
+  static constexpr double degrees_of_freedom = 4.0;
+
+  /// The density of a good residual.
+  [[nodiscard]] double good_density(double residual) const noexcept {
+    const double z = residual / scale, tail = 1.0 + z * z / degrees_of_freedom;
+    return 0.375 / (scale * tail * tail * std::sqrt(tail));
+  }
+
+  /// The probability that a measurement is good, given its residual and the density of outliers there.
+  [[nodiscard]] double probability(double residual, double outliers) const noexcept {
+    const double good = good_share * good_density(residual);
+    return good / (good + (1.0 - good_share) * outliers);
+  }
+
+  /// What a good measurement counts in a fit: less the farther it is out on the tail.
+  [[nodiscard]] double tail_weight(double residual) const noexcept {
+    const double z = residual / scale;
+    return degrees_of_freedom / (degrees_of_freedom + z * z);
+  }
+};
+
+/// Estimates a mixture from residuals and the densities of outliers at their measurements, by expectation-maximisation
+/// from `start`. O(n) for each of at most 50 steps.
+[[nodiscard]] inline outlier_mixture estimate_mixture(const std::vector<double>& residuals,
+                                                      const std::vector<double>& outliers,
+                                                      outlier_mixture start = {}) {
+  constexpr double smallest_scale = 0.01;  // a percent: no basis is better, and zero would be certain of everything
+  constexpr double nu = outlier_mixture::degrees_of_freedom;
+  outlier_mixture now = start;
+  for (int step = 0; step < 50; ++step) {
+    double good = 0.0, squares = 0.0;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      const double share = now.probability(residuals[i], outliers[i]);
+      good += share;
+      squares += share * (nu + 1.0) / nu * now.tail_weight(residuals[i]) * residuals[i] * residuals[i];
+    }
+    const outlier_mixture next{std::clamp(good / static_cast<double>(residuals.size()), 0.02, 0.999),
+                               std::max(std::sqrt(squares / good), smallest_scale)};
+    const bool settled =
+        std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
+    now = next;
+    if (settled) break;
+  }
+  return now;
+}
+
+/// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
+/// is judged as a whole, by the root mean square of its three logarithmic residuals: what goes wrong in a measurement
+/// is its direction, not one of its colours.
+struct automatic_weights {
+  /// Weigh good samples by their place on the tail, too?
+  bool down_weight_tail = true;
+
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
+    const deviations found = deviate(measured, estimated);
+    const outlier_density density(subset(found.logarithm));
+    const outlier_mixture mixture = estimate_from(found, density);
+    channel_values weights(3, measured.cols());
+    for (Eigen::Index i = 0; i < weights.cols(); ++i) {
+      const double residual = found.residual[i];
+      double weight = mixture.probability(residual, density(found.logarithm[i]));
+      if (down_weight_tail) weight *= mixture.tail_weight(residual);
+      weights.col(i).setConstant(static_cast<float>(weight));
+    }
+    return weights;
+  }
+
+  /// The share of good samples and the scale of their residuals.
+  [[nodiscard]] outlier_mixture mixture(const channel_values& measured, const channel_values& estimated) const {
+    const deviations found = deviate(measured, estimated);
+    return estimate_from(found, outlier_density(subset(found.logarithm)));
+  }
+
+  /// Added to reflectance before its logarithm is taken, for each channel: a hundredth of the median measurement, which
+  /// is 0.01 % of white at least.
+  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured) {
+    Eigen::Array3f offset;
+    std::vector<float> values(static_cast<std::size_t>(measured.cols()));
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = measured(c, static_cast<Eigen::Index>(i));
+      const auto middle = values.begin() + std::ssize(values) / 2;
+      std::ranges::nth_element(values, middle);
+      offset[c] = std::max(1e-4f, 0.01f * *middle);
+    }
+    return offset;
+  }
+
+ private:
+  struct deviations {
+    Eigen::ArrayXf residual;   // root mean square of the channels' residuals
+    Eigen::ArrayXf logarithm;  // mean of the channels' logarithms
+  };
+
+  [[nodiscard]] static deviations deviate(const channel_values& measured, const channel_values& estimated) {
+    const Eigen::Array3f offset = offsets(measured);
+    const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
+    const channel_values differences = logarithms - (estimated.colwise() + offset).log();
+    return {differences.square().colwise().mean().sqrt().transpose(), logarithms.colwise().mean().transpose()};
+  }
+
+  /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
+  [[nodiscard]] static std::vector<double> subset(const Eigen::ArrayXf& values) {
+    const Eigen::Index step = (values.size() + 19'999) / 20'000;
+    std::vector<double> chosen;
+    for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
+    return chosen;
+  }
+
+  [[nodiscard]] static outlier_mixture estimate_from(const deviations& found, const outlier_density& density) {
+    std::vector<double> outliers = subset(found.logarithm);
+    for (double& value : outliers) value = density(value);
+    return estimate_mixture(subset(found.residual), outliers);
+  }
+};
+
+static_assert(outlier_weighting<automatic_weights>);
+
+}  // namespace gonio

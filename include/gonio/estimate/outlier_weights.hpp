@@ -1,0 +1,91 @@
+#pragma once
+/// How far to trust a measurement, given an estimate of it: the concept, and weights of a single residual. Noell,
+/// Koehler and Stricker 2014, Eq. 13; for `automatic_weights`, which need no parameter, see outlier_mixture.hpp.
+
+#include <gonio/estimate/located_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gonio {
+
+/// Sees all measurements beside their estimates and says how much each counts, from 0 (an outlier) to 1.
+///
+/// What the compiler cannot check, and a model must keep: `weigh` returns one number from 0 to 1 for each channel of
+/// each sample; estimates are at least zero, measurements may be negative, both are finite; the order of the samples
+/// does not matter but for rounding; all members are const and thread safe. Weights that do not depend on the estimate
+/// say so, `static constexpr bool fixed = true;`, and their normal equations are built once.
+///
+/// ```cpp
+/// struct trust_all {
+///   static constexpr bool fixed = true;
+///   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values&) const {
+///     return gonio::channel_values::Ones(3, measured.cols());
+///   }
+/// };
+/// static_assert(gonio::outlier_weighting<trust_all>);
+/// ```
+template <class Weighting>
+concept outlier_weighting = requires(const Weighting& weighting, const channel_values& measured) {
+  { weighting.weigh(measured, measured) } -> std::convertible_to<channel_values>;
+};
+
+/// Every measurement counts in full: gamma = 0.
+struct trust_all {
+  static constexpr bool fixed = true;
+
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& /*estimated*/) const {
+    return channel_values::Ones(3, measured.cols());
+  }
+};
+
+static_assert(outlier_weighting<trust_all>);
+
+/// exp(-gamma |rho - estimate| / estimate), Eq. 13, with the estimate at least a millionth. The weight is at least
+/// e^-gamma where the estimate is above the measurement, so that a start that is too bright can come down; a highlight
+/// that the estimate does not have yet looks like outliers.
+struct relative_deviation_weights {
+  double gamma = 3.0;
+
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
+    const channel_values estimate = estimated.max(1e-6f);
+    return (-static_cast<float>(gamma) * (measured - estimate).abs() / estimate).exp();
+  }
+};
+
+static_assert(outlier_weighting<relative_deviation_weights>);
+
+/// Tukey's biweight of the logarithmic deviation, (1 - (u/c)^2)^2 within c and 0 beyond: a redescending M-estimator with
+/// 95 % efficiency for Gaussian errors (Huber, Robust Statistics, 1981). u is in units of the median deviation of the
+/// data, times 1.4826, for each channel by itself. Breaks down when half of the measurements are outliers.
+struct tukey_weights {
+  double cutoff = 4.685;
+  /// Added to measurement and estimate before the logarithm, in sr^-1.
+  float offset = 1e-3f;
+
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
+    const channel_values deviation = ((measured.max(0.0f) + offset).log() - (estimated + offset).log()).abs();
+    channel_values weights(3, measured.cols());
+    std::vector<float> sorted(static_cast<std::size_t>(measured.cols()));
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = deviation(c, static_cast<Eigen::Index>(i));
+      const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+      std::ranges::nth_element(sorted, middle);
+      // Rounding is no deviation.
+      const float limit = static_cast<float>(cutoff) * std::max(1.4826f * *middle, 1e-6f);
+      weights.row(c) = (1.0f - (deviation.row(c) / limit).square()).max(0.0f).square();
+    }
+    return weights;
+  }
+};
+
+static_assert(outlier_weighting<tukey_weights>);
+
+/// Are weights the same whatever the estimate?
+template <class Weighting>
+inline constexpr bool has_fixed_weights = requires {
+  requires bool(Weighting::fixed);
+};
+
+}  // namespace gonio

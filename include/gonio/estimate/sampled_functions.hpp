@@ -1,0 +1,131 @@
+#pragma once
+/// The functions of a basis at given places, for iterations that solve for their weights again and again with the same
+/// rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/solve/gram.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Rows at cells are read where they are; rows between cells are interpolated once and kept, 12 bytes a function.
+template <colour_basis Basis>
+requires tabulated_basis<decltype(channel_of(std::declval<const Basis&>(), 0))>
+class sampled_functions {
+ public:
+  sampled_functions(const Basis& functions, const std::vector<location>& places, thread_count threads = {})
+      : columns_(columns_of(functions)),
+        unknowns_(static_cast<Eigen::Index>(functions.size())),
+        channels_{channel_of(functions, 0), channel_of(functions, 1), channel_of(functions, 2)},
+        threads_(threads) {
+    rows_.fill(std::vector<const float*>(places.size()));
+    interpolate_between_cells(places);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t i = 0; i < places.size(); ++i)
+        if (places[i].count == 1) rows_[c][i] = channels_[c].row(places[i].cell[0]).data();
+  }
+
+  /// Number of places.
+  [[nodiscard]] std::size_t size() const noexcept { return rows_[0].size(); }
+  /// All functions of the basis, those that are left out included.
+  [[nodiscard]] Eigen::Index unknowns() const noexcept { return unknowns_; }
+  /// The functions that take part, ascending.
+  [[nodiscard]] const std::vector<Eigen::Index>& columns() const noexcept { return columns_; }
+
+  /// Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n floats.
+  /// Rows of weight zero cost nothing. Products are float, and sums of 128 of them are added in double, which is
+  /// harmless here (docs/solvers.md): 2 n k^2 operations at most.
+  template <class Weights, class Values>
+  [[nodiscard]] normal_equations normal(std::size_t channel, const Weights& weights, const Values& values) const {
+    using sum_type = detail::product_sum<float>;
+    const auto add_rows = [&](sum_type& sum, block range) {
+      auto out = sum.rows(static_cast<Eigen::Index>(range.size()));
+      Eigen::Index count = 0;
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        const auto sample = static_cast<Eigen::Index>(i);
+        if (!(weights[sample] > 0.0f)) continue;
+        const float root = std::sqrt(weights[sample]);
+        out.row(count).head(unknowns_) = root * row(channel, i);
+        out(count++, unknowns_) = root * values[sample];
+      }
+      sum.add(count);
+    };
+    const sum_type zero(unknowns_ + 1);
+    const Eigen::MatrixXd all = sum_over_blocks(size(), sum_type::block_rows, zero, add_rows, threads_).symmetric();
+    return {all.topLeftCorner(unknowns_, unknowns_), all.topRightCorner(unknowns_, 1), all.diagonal().tail(1)};
+  }
+
+  /// m = A'Vb alone, where Q is known. Reads the rows once, which is what it costs.
+  template <class Weights, class Values>
+  [[nodiscard]] Eigen::VectorXd moment(std::size_t channel, const Weights& weights, const Values& values) const {
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(unknowns_);
+    return sum_over_blocks(
+        size(), 128, zero,
+        [&](Eigen::VectorXd& sum, block range) {
+          Eigen::VectorXf part = Eigen::VectorXf::Zero(unknowns_);
+          for (std::size_t i = range.begin; i < range.end; ++i) {
+            const auto sample = static_cast<Eigen::Index>(i);
+            part += (weights[sample] * values[sample]) * row(channel, i).transpose();
+          }
+          sum += part.cast<double>();
+        },
+        threads_);
+  }
+
+  /// A x at all places of one channel. Reads the rows once.
+  [[nodiscard]] Eigen::ArrayXf apply(std::size_t channel, const Eigen::VectorXd& x) const {
+    const Eigen::VectorXf weights = x.cast<float>();
+    Eigen::ArrayXf values(static_cast<Eigen::Index>(size()));
+    for_each_block(
+        size(), 4096,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            values[static_cast<Eigen::Index>(i)] = row(channel, i).dot(weights);
+        },
+        threads_);
+    return values;
+  }
+
+ private:
+  [[nodiscard]] auto row(std::size_t channel, std::size_t place) const noexcept {
+    return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
+  }
+
+  void interpolate_between_cells(const std::vector<location>& places) {
+    std::vector<std::size_t> between;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (places[i].count != 1) between.push_back(i);
+    interpolated_.resize(3 * std::ssize(between), unknowns_);
+    for_each_block(
+        between.size(), 256,
+        [&](block range) {
+          Eigen::RowVectorXd row(unknowns_);
+          for (std::size_t slot = range.begin; slot < range.end; ++slot)
+            for (std::size_t c = 0; c < 3; ++c) {
+              auto own = interpolated_.row(static_cast<Eigen::Index>(3 * slot + c));
+              read_row_at(channels_[c], places[between[slot]], row);
+              own = row.template cast<float>();
+              rows_[c][between[slot]] = own.data();
+            }
+        },
+        threads_);
+  }
+
+  using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
+
+  std::vector<Eigen::Index> columns_;
+  Eigen::Index unknowns_;
+  std::array<channel_type, 3> channels_;  // they keep the rows alive
+  std::array<std::vector<const float*>, 3> rows_;
+  cell_matrix interpolated_;
+  thread_count threads_;
+};
+
+}  // namespace gonio
