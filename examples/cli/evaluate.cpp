@@ -13,6 +13,7 @@ void add_evaluate(CLI::App& app) {
   add_nielsen_test_materials(*command);
   add_measured_materials(*command);
   add_linear_combination(*command);
+  add_noell_tables(*command);
 }
 
 }  // namespace cli

@@ -2,11 +2,14 @@
 /// Everything but io/image.hpp, which needs stb: link gonio::image to use that.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/basis/correction.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
+#include <gonio/basis/rbf.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>
@@ -16,16 +19,28 @@
 #include <gonio/core/rgb.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/completed_table.hpp>
+#include <gonio/estimate/corrected_brdf.hpp>
+#include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/leave_one_out.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/nearest_material.hpp>
+#include <gonio/estimate/outlier_mixture.hpp>
+#include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/few_samples.hpp>
 #include <gonio/evaluate/linear_combination.hpp>
 #include <gonio/evaluate/material_result.hpp>
+#include <gonio/evaluate/noell_tables.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
@@ -48,6 +63,8 @@
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/network_brdf.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
+#include <gonio/render/environment_map.hpp>
+#include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
 #include <gonio/render/slice.hpp>

@@ -13,8 +13,8 @@ namespace gonio {
 
 /// What a round of the correction iteration did.
 struct correction_round {
-  /// Weighted root mean square of sigma - 1 at the samples before the round, over all channels: the relative error of the
-  /// estimate as the round saw it.
+  /// Weighted root mean square of sigma - 1 at the samples before the round, over all channels: the relative error of
+  /// the estimate as the round saw it.
   double error = 0.0;
   /// Mean of |sigma - 1| of the correction that was found, at the samples.
   double change = 0.0;
@@ -26,8 +26,8 @@ struct correction_round {
 template <tabulated_brdf Initial>
 class corrected_brdf {
  public:
-  corrected_brdf(Initial initial, brdf_table correction, correction_factor factor,
-                 std::vector<Eigen::MatrixXd> weights, std::vector<correction_round> history)
+  corrected_brdf(Initial initial, brdf_table correction, correction_factor factor, std::vector<Eigen::MatrixXd> weights,
+                 std::vector<correction_round> history)
       : initial_(std::move(initial)),
         correction_(std::move(correction)),
         factor_(factor),
@@ -53,8 +53,13 @@ class corrected_brdf {
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     brdf_table table = initial_.tabulate(cells, threads);
     const brdf_table sigma = resample(correction_, cells, threads);
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
-      table.set(cell, corrected(table.at(cell), sigma.at(cell)));
+    for_each_block(
+        cells.size(), 4096,
+        [&](block range) {
+          for (std::size_t cell = range.begin; cell < range.end; ++cell)
+            table.set(cell, corrected(table.at(cell), sigma.at(cell)));
+        },
+        threads);
     return table;
   }
 

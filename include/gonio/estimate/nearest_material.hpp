@@ -1,7 +1,7 @@
 #pragma once
-/// The measured material that comes nearest to measurements of which most may be outliers: a robust start for estimators
-/// that need one. A linear combination of materials is dragged along by outliers; one material that is only brightened
-/// or darkened cannot follow them.
+/// The measured material that comes nearest to measurements of which most may be outliers: a robust start for
+/// estimators that need one. A linear combination of materials is dragged along by outliers; one material that is only
+/// brightened or darkened cannot follow them.
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/completed_table.hpp>

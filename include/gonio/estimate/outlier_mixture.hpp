@@ -1,8 +1,8 @@
 #pragma once
-/// Measurements as a mixture of good ones, which scatter about an estimate, and of outliers, which are anything that was
-/// measured at all. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma, "depending on the dynamic
-/// range and the outlier ratio") is estimated here from the residuals by expectation and maximisation (Dempster, Laird
-/// and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
+/// Measurements as a mixture of good ones, which scatter about an estimate, and of outliers, which are anything that
+/// was measured at all. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma, "depending on the
+/// dynamic range and the outlier ratio") is estimated here from the residuals by expectation and maximisation
+/// (Dempster, Laird and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
 
 #include <gonio/estimate/outlier_weights.hpp>
 
@@ -52,7 +52,8 @@ inline outlier_density::outlier_density(const std::vector<double>& logarithms) :
   const double width = std::max(1.06 * deviation * std::pow(n, -0.2), step_);
   const auto reach = static_cast<std::ptrdiff_t>(3.0 * width / step_) + 1;
   for (std::ptrdiff_t i = 0; i < std::ssize(counts); ++i)
-    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1); ++j) {
+    for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1);
+         ++j) {
       const double z = static_cast<double>(i - j) * step_ / width;
       density_[static_cast<std::size_t>(j)] += counts[static_cast<std::size_t>(i)] * std::exp(-0.5 * z * z);
     }
@@ -95,8 +96,7 @@ struct outlier_mixture {
 /// Estimates a mixture from residuals and the densities of outliers at their measurements, by expectation-maximisation
 /// from `start`. O(n) for each of at most 50 steps.
 [[nodiscard]] inline outlier_mixture estimate_mixture(const std::vector<double>& residuals,
-                                                      const std::vector<double>& outliers,
-                                                      outlier_mixture start = {}) {
+                                                      const std::vector<double>& outliers, outlier_mixture start = {}) {
   constexpr double smallest_scale = 0.01;  // a percent: no basis is better, and zero would be certain of everything
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   outlier_mixture now = start;

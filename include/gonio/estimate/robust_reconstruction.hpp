@@ -26,8 +26,8 @@ class reweighted_combination {
         mapped_(3, std::ssize(samples.at)) {
     for (Eigen::Index i = 0; i < mapped_.cols(); ++i)
       for (Eigen::Index c = 0; c < 3; ++c)
-        mapped_(c, i) = static_cast<float>(
-            materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
+        mapped_(c, i) =
+            static_cast<float>(materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
   }
 
   /// Weights of the materials, k x 3, with x >= 0.
@@ -79,8 +79,8 @@ class reweighted_combination {
 
 }  // namespace detail
 
-/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et al.
-/// 2015 and ten difficult ones (docs/robust-estimation.md).
+/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
+/// al. 2015 and ten difficult ones (docs/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random.
   std::size_t samples = 20'000;

@@ -1,0 +1,197 @@
+#include "noell_experiment.hpp"
+
+#include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/metric/lin.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/metric/root.hpp>
+#include <gonio/render/environment_map.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <charconv>
+#include <chrono>
+
+namespace cli {
+
+// Not unnamed: the tool is compiled as one unit, in which a class of external linkage has members of these types.
+namespace noell {
+
+/// "our-lin" is the method "our" under the metric "lin"; "gamma-3" has a number in its place.
+struct method_name {
+  std::string method, metric = "log";
+  double gamma = 0.0;
+};
+
+[[nodiscard]] std::optional<method_name> parse(const std::string& text) {
+  const auto dash = text.rfind('-');
+  const auto has_metric = [](const std::string& name) {
+    return name == "our" || name == "our-start" || name == "printed" || name == "lc" || name == "rbf";
+  };
+  if (text == "pull-push" || has_metric(text)) return method_name{text};
+  const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
+  if (head == "gamma") {
+    double gamma = 0.0;
+    const auto [end, status] = std::from_chars(tail.data(), tail.data() + tail.size(), gamma);
+    if (status == std::errc() && end == tail.data() + tail.size() && gamma >= 0.0)
+      return method_name{head, "log", gamma};
+  }
+  if (has_metric(head) && (tail == "lin" || tail == "root" || tail == "log")) return method_name{head, tail};
+  return std::nullopt;
+}
+
+/// A value made when it is first asked for.
+template <class Value>
+class made_on_demand {
+ public:
+  template <class Make>
+  const Value& get(Make&& make) {
+    if (!value_) value_.emplace(make());
+    return *value_;
+  }
+
+ private:
+  std::optional<Value> value_;
+};
+
+template <class Metric>
+using measured_under = made_on_demand<gonio::measured<Metric>>;
+
+}  // namespace noell
+
+struct noell_experiment::parts {
+  template <class Metric>
+  using measured_under = noell::measured_under<Metric>;
+
+  gonio::thread_count threads;
+  gonio::material_set truths;
+  gonio::appearance_judge judge;
+  std::optional<gonio::sphere_judge> natural;
+  measured_under<gonio::lin> lin;
+  measured_under<gonio::root> root;
+  measured_under<gonio::log> log;
+  noell::made_on_demand<gonio::correction> corrections, printed_corrections;
+  std::string left_out;
+
+  const gonio::measured<gonio::lin>& materials(gonio::lin metric) {
+    return lin.get([&] { return gonio::measured{truths, metric, threads}; });
+  }
+  const gonio::measured<gonio::root>& materials(gonio::root metric) {
+    return root.get([&] { return gonio::measured{truths, metric, threads}; });
+  }
+  const gonio::measured<gonio::log>& materials(gonio::log metric) {
+    return log.get([&] { return gonio::measured{truths, metric, threads}; });
+  }
+  /// Corrections in no part of which the material takes part, made anew when it is another one than last time. Leaving
+  /// out its own correction only would save that, and is wrong by up to a third of Delta E.
+  const gonio::correction& corrections_without(const std::string& material, bool printed) {
+    if (material != left_out) corrections = printed_corrections = {};
+    left_out = material;
+    const auto rule = printed ? gonio::correction_rule::as_printed() : gonio::correction_rule{};
+    return (printed ? printed_corrections : corrections).get([&] {
+      return gonio::correction{materials(gonio::log{}).without({material}), rule, gonio::nnls{}, threads};
+    });
+  }
+
+  /// The estimate of a material by a method, from all other materials.
+  template <class Metric>
+  [[nodiscard]] gonio::brdf_table estimate(const noell::method_name& method, const Metric& metric,
+                                           const noell_case& which, const gonio::sample_set& samples) {
+    const auto tabulated = [&](const auto& estimator) {
+      return estimator.fit(samples).tabulate(truths.cells, threads);
+    };
+    if (method.method == "rbf")
+      return tabulated(gonio::decomposition{gonio::rbf{truths.cells, metric}, gonio::tikhonov{1e-6}, threads});
+    if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
+
+    const auto others = materials(metric).without({which.material});
+    const gonio::decomposition combination{others, gonio::nnls{}, threads};
+    if (method.method == "lc") return tabulated(combination);
+    if (method.method == "our" || method.method == "our-start") {
+      const gonio::correction_limits limits{.rounds = method.method == "our" ? 10 : 0};
+      return tabulated(
+          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads});
+    }
+    const bool printed = method.method == "printed";
+    const double gamma = printed ? gonio::noell_gamma(which.outlier_ratio) : method.gamma;
+    const auto& functions = corrections_without(which.material, printed);
+    const gonio::correction_limits limits{.smallest_change = 0.0, .inertia = printed ? 0.0 : 1.0};
+    if (gamma == 0.0)
+      return tabulated(
+          gonio::correction_iteration{combination, functions, gonio::trust_all{}, gonio::nnls{}, limits, threads});
+    return tabulated(gonio::correction_iteration{combination, functions, gonio::relative_deviation_weights{gamma},
+                                                 gonio::nnls{}, limits, threads});
+  }
+
+  [[nodiscard]] gonio::brdf_table estimate(const noell::method_name& method, const noell_case& which,
+                                           const gonio::sample_set& samples) {
+    if (method.metric == "lin") return estimate(method, gonio::lin{}, which, samples);
+    if (method.metric == "root") return estimate(method, gonio::root{}, which, samples);
+    return estimate(method, gonio::log{}, which, samples);
+  }
+};
+
+noell_experiment::noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
+                                   gonio::thread_count threads, const gonio::progress& listener) {
+  auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
+  const gonio::valid_cells cells = truths.cells;
+  parts_.reset(
+      new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}, {}, {}, {}});
+  if (!environment.empty())
+    parts_->natural.emplace(
+        cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(environment))), 36,
+        gonio::sphere_judge::middle_grey, threads);
+}
+
+noell_experiment::~noell_experiment() = default;
+
+const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
+
+json noell_experiment::run(const std::string& method, const noell_case& which) {
+  const std::size_t material = parts_->truths.find(which.material);
+  const gonio::brdf_table truth = parts_->truths.table(material);
+  const auto cells = static_cast<double>(truth.cells().size());
+  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(which.data_ratio * cells)));
+  const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, which.seed),
+                                      {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
+
+  const auto start = std::chrono::steady_clock::now();
+  const gonio::brdf_table estimate = parts_->estimate(*noell::parse(method), which, samples);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+
+  const double limit = gonio::radians(70.0);
+  json result{{"delta_e_env", parts_->judge.difference(estimate, truth, parts_->threads).environment},
+              {"peak_ratio", gonio::highlight_peak(estimate, limit).y() / gonio::highlight_peak(truth, limit).y()},
+              {"seconds", elapsed.count()}};
+  if (parts_->natural) result["delta_e_natural"] = parts_->natural->difference(estimate, truth, parts_->threads);
+  return result;
+}
+
+std::string noell_experiment::complaint(const std::string& method) {
+  return noell::parse(method) ? "" : "there is no method '" + method + "'";
+}
+
+std::optional<double> noell_experiment::published(const std::string& method, double data_ratio, double outlier_ratio) {
+  const auto name = noell::parse(method);
+  const bool table_2 = data_ratio == 1.0 && outlier_ratio == 0.0 && name->metric != "log";
+  const std::size_t column = name->metric == "lin" ? 0 : 1;
+  if (name->method == "our" || name->method == "printed")
+    return table_2 ? gonio::noell_table_2[0][column]
+                   : gonio::noell_table_1(gonio::noell_method::ours, data_ratio, outlier_ratio);
+  if (name->method == "lc")
+    return table_2 ? gonio::noell_table_2[1][column]
+                   : gonio::noell_table_1(gonio::noell_method::combination, data_ratio, outlier_ratio);
+  if (name->method == "rbf")
+    return table_2 ? gonio::noell_table_2[2][column]
+                   : gonio::noell_table_1(gonio::noell_method::radial, data_ratio, outlier_ratio);
+  if (name->method == "pull-push")
+    return gonio::noell_table_1(gonio::noell_method::pull_push, data_ratio, outlier_ratio);
+  return std::nullopt;
+}
+
+}  // namespace cli

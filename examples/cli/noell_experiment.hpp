@@ -1,0 +1,46 @@
+#pragma once
+/// One reconstruction of the benchmark of Noell et al. 2014: a material, its simulated measurement, a method.
+
+#include "inputs.hpp"
+#include <gonio/evaluate/noell_tables.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace cli {
+
+struct noell_case {
+  std::string material;
+  double data_ratio = 1.0;
+  double outlier_ratio = 0.0;
+  std::uint64_t seed = 1;
+};
+
+/// Holds the materials, the bases that methods need (each made when first asked for), and the judges.
+class noell_experiment {
+ public:
+  noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
+                   gonio::thread_count threads, const gonio::progress& listener);
+  ~noell_experiment();
+
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept;
+
+  /// Measures the material, reconstructs it by a method from all other materials, and judges: delta_e_env under the
+  /// formula environment at the exposure of a white sphere, delta_e_natural (if there is an environment) at the truth's
+  /// own exposure, peak_ratio of the green highlight with theta_d below 70 degrees, seconds of the fit.
+  [[nodiscard]] json run(const std::string& method, const noell_case& which);
+
+  /// What is wrong with the name of a method; empty if nothing is.
+  [[nodiscard]] static std::string complaint(const std::string& method);
+
+  /// What the paper prints for a method in a setting, if anything.
+  [[nodiscard]] static std::optional<double> published(const std::string& method, double data_ratio,
+                                                       double outlier_ratio);
+
+ private:
+  struct parts;
+  std::unique_ptr<parts> parts_;
+};
+
+}  // namespace cli
