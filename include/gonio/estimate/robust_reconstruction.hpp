@@ -26,8 +26,8 @@ class reweighted_combination {
         mapped_(3, std::ssize(samples.at)) {
     for (Eigen::Index i = 0; i < mapped_.cols(); ++i)
       for (Eigen::Index c = 0; c < 3; ++c)
-        mapped_(c, i) = static_cast<float>(
-            materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
+        mapped_(c, i) =
+            static_cast<float>(materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
   }
 
   /// Weights of the materials, k x 3, with x >= 0.
@@ -79,8 +79,8 @@ class reweighted_combination {
 
 }  // namespace detail
 
-/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et al.
-/// 2015 and ten difficult ones (docs/robust-estimation.md).
+/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
+/// al. 2015 and ten difficult ones (docs/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random.
   std::size_t samples = 20'000;
@@ -89,6 +89,30 @@ struct robust_start {
   /// Rounds of the final iteration that still trust as the start does.
   int trusting_rounds = 3;
   std::uint64_t seed = 0;
+};
+
+/// The final iteration of `robust_reconstruction` as an object that steps, as `correction_run` does.
+template <error_metric Metric>
+class robust_run {
+ public:
+  using run_type = correction_run<fitted_brdf<gonio::measured<Metric>>>;
+
+  /// The first `trusting_rounds` count each measurement as much as `trust` says, those that follow as `run` does.
+  robust_run(run_type run, channel_values trust, int trusting_rounds)
+      : run_(std::move(run)), trust_(std::move(trust)), trusting_rounds_(trusting_rounds) {}
+
+  correction_round step() { return std::ssize(run_.history()) < trusting_rounds_ ? run_.step(trust_) : run_.step(); }
+  [[nodiscard]] bool converged() const noexcept { return run_.converged(); }
+
+  [[nodiscard]] const channel_values& measured() const noexcept { return run_.measured(); }
+  [[nodiscard]] channel_values estimated() const { return run_.estimated(); }
+  [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return run_.history(); }
+  [[nodiscard]] auto result() const { return run_.result(); }
+
+ private:
+  run_type run_;
+  channel_values trust_;
+  int trusting_rounds_;
 };
 
 /// Fits samples of which any share may be outliers, in these steps:
@@ -124,17 +148,22 @@ class robust_reconstruction {
       throw error("materials and corrections must be over the same cells");
   }
 
-  /// Fits samples, or a table, each cell of which is one. Throws gonio::error for unusable samples.
+  /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
+  /// gonio::error for unusable samples.
   template <class Samples>
-  [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
+  [[nodiscard]] robust_run<Metric> start(const Samples& samples) const {
     const located_samples all = locate_samples(corrections_.cells(), samples, threads_);
     const auto [initial, guide] = begin(all);
     correction_run run{initial, corrections_, all, automatic_weights{}, nnls{}, limits_, threads_};
-    if (run.converged()) return run.result();
-
     const channel_values guided = values_at(guide, corrections_.cells(), all.at, threads_);
-    const channel_values trust = automatic_weights{}.weigh(run.measured(), guided);
-    for (int round = 0; round < start_.trusting_rounds && !run.converged(); ++round) run.step(trust);
+    channel_values trust = automatic_weights{}.weigh(run.measured(), guided);
+    return {std::move(run), std::move(trust), start_.trusting_rounds};
+  }
+
+  /// All steps. Throws gonio::error for unusable samples.
+  template <class Samples>
+  [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
+    robust_run run = start(samples);
     while (!run.converged()) run.step();
     return run.result();
   }
