@@ -131,7 +131,7 @@ void add_correction_options(CLI::App& command, reconstruct_options& options) {
                   "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
       ->capture_default_str();
   command.add_option("--iterations", options.iterations, "Rounds of correction at most")
-      ->check(CLI::PositiveNumber)
+      ->check(CLI::Range(1, 10'000))
       ->capture_default_str();
   command.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
   command.add_option("--story", options.story,

@@ -24,7 +24,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   return gamma;
 }
 
-/// The picture's folder, made before the work, of which nothing would be left.
+/// Made before the work, of which nothing would be left.
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
@@ -71,13 +71,11 @@ reconstruction correct(const gonio::measured<Metric>& materials, const reconstru
   const auto gamma = gamma_of(options);
   const gonio::thread_count threads = options.threads;
   const gonio::correction_limits limits{.rounds = options.iterations};
+  if (!options.story.empty()) make_folder(options.story);
   bar.draw("making correction functions", 0.0);
   const gonio::correction corrections{materials, {}, gonio::nnls{}, threads};
   std::optional<story> watched;
-  if (!options.story.empty()) {
-    make_folder(options.story);
-    watched.emplace(corrections, samples, std::move(truth), threads);
-  }
+  if (!options.story.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
   story* watcher = watched ? &*watched : nullptr;
 
   const auto as_published = [&](const auto& weighting) {
