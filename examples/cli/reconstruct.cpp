@@ -1,108 +1,145 @@
 /// gonio reconstruct: samples in, a table over all directions out.
 
 #include "command.hpp"
-#include "inputs.hpp"
 #include "pictures.hpp"
-#include "progress_bar.hpp"
-#include "solver_choice.hpp"
-#include <gonio/basis/measured.hpp>
-#include <gonio/estimate/decomposition.hpp>
+#include "reconstruct_methods.hpp"
 #include <gonio/io/samples.hpp>
-#include <gonio/metric/lin.hpp>
-#include <gonio/metric/log.hpp>
-#include <gonio/metric/root.hpp>
 
+#include <algorithm>
+#include <array>
+#include <charconv>
 #include <iostream>
 #include <memory>
+#include <span>
+#include <string_view>
 
 namespace cli {
 
 namespace {
 
-struct reconstruct_options {
-  std::filesystem::path samples, output, picture;
-  std::string method = "pca", metric;
-  double root = 2.0;
-  material_source materials;
-  solver_choice solver;
-  bool print_json = false;
-  gonio::thread_count threads;
+struct method {
+  const char* name;
+  const char* description;
+  reconstruction (*reconstruct)(const reconstruct_options&, const gonio::sample_set&);
+  /// The options of `restricted_options` that it takes.
+  std::vector<std::string_view> takes;
 };
 
-/// A fit on its way to the user.
-struct reconstruction {
-  gonio::brdf_table table;
-  gonio::solution found;
-};
+/// Options that mean nothing to some methods.
+constexpr std::array restricted_options{"--prior",   "--networks", "--merl",   "--exclude",  "--metric", "--root",
+                                        "--solver",  "--eta",      "--lambda", "--variance", "--gamma",  "--iterations",
+                                        "--history", "--story",    "--truth",  "--seed"};
 
-template <class Basis>
-reconstruction fit(const Basis& basis, const gonio::any_solver& solver, const gonio::sample_set& samples,
-                   gonio::thread_count threads) {
-  const auto fitted = gonio::decomposition{basis, solver, threads}.fit(samples);
-  return {fitted.tabulate(gonio::valid_cells(), threads), fitted.found()};
+const std::vector<method>& methods() {
+  static const std::vector<method> all{
+      {"pca",
+       "principal components (Nielsen et al. 2015)",
+       reconstruct_by_components,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
+        "--variance"}},  // refuses some of them itself, and says why
+      {"linear",
+       "a combination of the materials themselves (Noell et al. 2014)",
+       reconstruct_by_materials,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
+        "--variance"}},
+      {"correction",
+       "such a combination, corrected again and again, for samples with outliers (Noell et al. 2014)",
+       reconstruct_by_corrections,
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--iterations", "--history",
+        "--story", "--truth", "--seed"}},
+      {"rbf",
+       "radial basis functions (a rival of Noell et al. 2014)",
+       reconstruct_by_radial_functions,
+       {"--prior", "--metric", "--root", "--seed"}},
+      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}}};
+  return all;
 }
 
-/// Principal components under the metric that they were learned with.
-reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const auto solver = make_solver(options.solver, {"tikhonov", "40"});
-  if (solver.non_negative())
-    throw gonio::error("--solver " + options.solver.name +
-                       " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
-                       "use tikhonov, lasso, tsvd or ls, or --method linear");
-  if (!options.metric.empty() && options.metric != "log-relative")
-    throw gonio::error("a prior is learned under the log-relative metric: --metric " + options.metric +
-                       " needs --method linear");
-  if (!options.materials.is_prior() || !options.materials.exclude.empty())
-    throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
-  return fit(gonio::io::read_prior(options.materials.prior), solver, samples, options.threads);
+const method& method_named(const std::string& name) {
+  return *std::ranges::find(methods(), name, [](const method& m) { return std::string_view(m.name); });
 }
 
-/// The materials themselves under any metric (Noell et al. 2014, section 2.2).
-reconstruction reconstruct_by_materials(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const auto solver = make_solver(options.solver, {"nnls", "gcv"});
-  progress_bar bar;
-  auto materials = read_materials(options.materials, options.threads, bar.listener());
-  bar.wipe();
-  const auto left_out = options.materials.is_prior() ? options.materials.exclude : std::vector<std::string>{};
-  const auto under = [&](const auto& metric) {
-    const gonio::measured basis{std::move(materials), metric, options.threads};
-    return fit(basis.without(left_out), solver, samples, options.threads);
-  };
-  if (options.metric == "lin") return under(gonio::lin{});
-  if (options.metric == "root") return under(gonio::root{options.root});
-  if (options.metric == "log-relative") {
-    const auto metric = gonio::log_relative::to_median_of(materials, options.threads);
-    return under(metric);
+/// Refuses options that the method would ignore, naming the methods that would not.
+void require_taken(const CLI::App& command, const method& chosen) {
+  const auto takes = [](const method& m, std::string_view option) { return std::ranges::count(m.takes, option) > 0; };
+  for (const char* option : restricted_options) {
+    if (command.count(option) == 0 || takes(chosen, option)) continue;
+    std::string names;
+    for (const method& m : methods())
+      if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
+    throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
+                       names);
   }
-  return under(gonio::log{});
+  if (command.count("--truth") > 0 && command.count("--story") == 0)
+    throw gonio::error("--truth is only for the picture of --story, which is not asked for");
 }
 
-void describe(const gonio::solution& found, std::size_t samples, bool print_json) {
-  const gonio::rgb residual = found.residual.array() / std::sqrt(static_cast<double>(samples));
-  gonio::rgb used;
-  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((found.weights.col(c).array() != 0.0).count());
-  if (print_json) {
-    std::cout << json{{"samples", samples},
-                      {"mapped_residual_rms", per_channel(residual)},
-                      {"certificate", per_channel(found.certificate.array())},
-                      {"non_zero_weights", per_channel(used)},
-                      {"iterations", found.iterations}}
-                     .dump(2)
-              << '\n';
+/// A line for each round; docs/formats.md has the columns.
+void write_history(const std::filesystem::path& path, std::span<const gonio::correction_round> rounds) {
+  std::string text = "round,error,change,down_weighted\n";
+  const auto append = [&](double value, char separator) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    text.append(digits.data(), end).push_back(separator);
+  };
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    text += std::to_string(i + 1) + ',';
+    append(rounds[i].error, ',');
+    append(rounds[i].change, ',');
+    append(rounds[i].down_weighted, '\n');
+  }
+  gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
+}
+
+void print(const reconstruction& result, std::size_t samples, bool as_json) {
+  if (as_json) {
+    json all{{"samples", samples}};
+    all.update(result.details);
+    std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << samples << " samples, residual in the mapped domain (rms) " << fixed(residual.x(), 3) << ' '
-            << fixed(residual.y(), 3) << ' ' << fixed(residual.z(), 3) << ", weights that are not zero "
-            << fixed(used.x(), 0) << ' ' << fixed(used.y(), 0) << ' ' << fixed(used.z(), 0) << '\n';
+  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
 }
 
-void reconstruct(const reconstruct_options& options) {
+void reconstruct(const reconstruct_options& options, const method& chosen) {
   const auto samples = gonio::io::read_samples(options.samples);
-  const auto [table, found] = options.method == "pca" ? reconstruct_by_components(options, samples)
-                                                      : reconstruct_by_materials(options, samples);
-  if (!options.output.empty()) gonio::io::write_merl(options.output, table);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(table, options.threads));
-  describe(found, samples.size(), options.print_json);
+  const reconstruction result = chosen.reconstruct(options, samples);
+  if (!options.output.empty()) gonio::io::write_merl(options.output, result.table);
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(result.table, options.threads));
+  if (!options.history.empty()) write_history(options.history, result.history);
+  if (result.story) {
+    gonio::io::write_png(options.story / "story.png", *result.story);
+    write_history(options.story / "history.csv", result.history);
+  }
+  print(result, samples.size(), options.print_json);
+}
+
+void add_method_option(CLI::App& command, std::string& name) {
+  std::string description;
+  std::vector<std::string> names;
+  for (const method& m : methods()) {
+    description += (names.empty() ? "" : "; ") + std::string(m.name) + ": " + m.description;
+    names.emplace_back(m.name);
+  }
+  command.add_option("--method", name, description)->check(CLI::IsMember(names))->capture_default_str();
+}
+
+void add_correction_options(CLI::App& command, reconstruct_options& options) {
+  command
+      .add_option("--gamma", options.gamma,
+                  "How correction finds outliers: a number, with which the weight of a sample falls off with its "
+                  "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
+      ->capture_default_str();
+  command.add_option("--iterations", options.iterations, "Rounds of correction at most")
+      ->check(CLI::Range(1, 10'000))
+      ->capture_default_str();
+  command.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
+  command.add_option("--story", options.story,
+                     "Folder for a picture of the first rounds of correction and the last, and their history");
+  command.add_option("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
+  command
+      .add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -111,27 +148,26 @@ void add_reconstruct(CLI::App& app) {
   auto* command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
   command->add_option("samples", options->samples, "Measurements (.csv)")->required();
-  command
-      ->add_option("--method", options->method,
-                   "pca: principal components (Nielsen et al. 2015); linear: a combination of the materials themselves "
-                   "(Noell et al. 2014)")
-      ->check(CLI::IsMember({"pca", "linear"}))
-      ->capture_default_str();
+  add_method_option(*command, options->method);
   add_prior_option(*command, options->materials.prior);
   add_material_options(*command, options->materials);
   command
-      ->add_option(
-          "--metric", options->metric,
-          "Errors of linear are those of the reflectance mapped by: lin, root, log (ln(1 + x), the default) or "
-          "log-relative")
+      ->add_option("--metric", options->metric,
+                   "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
+                   "root, log (ln(1 + x), the default) or log-relative")
       ->check(CLI::IsMember({"lin", "root", "log", "log-relative"}));
   command->add_option("--root", options->root, "Which root --metric root takes")->capture_default_str();
   add_solver_options(*command, options->solver);
+  add_correction_options(*command, *options);
   command->add_option("-o,--output", options->output, "Table to write (.binary)");
   command->add_option("--image", options->picture, "Picture of a sphere to write (.png)");
   command->add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(*command, options->threads);
-  command->callback([options] { reconstruct(*options); });
+  command->callback([command, options] {
+    const method& chosen = method_named(options->method);
+    require_taken(*command, chosen);
+    reconstruct(*options, chosen);
+  });
 }
 
 }  // namespace cli

@@ -82,6 +82,41 @@ TEST_CASE("bad samples") {
   refuses("reconstruct /no/such.csv -o x.binary", {"/no/such.csv"});
 }
 
+TEST_CASE("options of one method given to another") {
+  const scratch::folder folder;
+  const auto path = folder / "one.csv";
+  scratch::put(path, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,0.1,0.1,0.1\n");
+  const std::string start = "reconstruct " + path.string() + " -o " + (folder / "out.binary").string() + " --method ";
+  refuses(start + "linear --gamma 3", {"--gamma", "--method linear", "--method correction"});
+  refuses(start + "pca --history h.csv", {"--history", "--method pca", "--method correction"});
+  refuses(start + "rbf --iterations 3", {"--iterations", "--method correction"});
+  refuses(start + "pull-push --story " + (folder / "story").string(), {"--story", "--method correction"});
+  refuses(start + "correction --solver nnls", {"--solver", "pca or linear"});
+  refuses(start + "rbf --eta 3", {"--eta", "pca or linear"});
+  refuses(start + "rbf --exclude chrome", {"--exclude", "linear"});
+  refuses(start + "pull-push --metric log", {"--metric", "rbf"});
+  refuses(start + "linear --seed 3", {"--seed", "correction or rbf"});
+  refuses(start + "magic", {"magic", "pull-push"});
+  CHECK(folder.entries() == 1);
+}
+
+TEST_CASE("bad requests of the correction method") {
+  const scratch::folder folder;
+  const auto path = folder / "one.csv", story = folder / "story";
+  scratch::put(path, "theta_h,theta_d,phi_d,r,g,b\n1,2,3,0.1,0.1,0.1\n");
+  const std::string correction =
+      "reconstruct " + path.string() + " -o " + (folder / "out.binary").string() + " --method correction ";
+  for (const char* gamma : {"-1", "much", "nan", "inf", "3x", "''"})
+    refuses(correction + "--gamma " + gamma, {"--gamma", "auto"});
+  for (const char* count : {"0", "-1", "2.5", "many"})
+    refuses(correction + "--iterations " + count, {"--iterations", count});
+  refuses(correction + "--truth " + path.string(), {"--truth", "--story"});
+  refuses(correction + "--truth " + path.string() + " --story " + story.string(), {"one.csv", "MERL"});
+  refuses(correction + "--exclude no-such-stone --story " + story.string(), {"no-such-stone"});
+  refuses(correction + "--story " + (path / "below-a-file").string(), {"below-a-file", "cannot be made"});
+  CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
+}
+
 TEST_CASE("bad tables and requests of tables") {
   const scratch::folder folder;
   const std::string table = (folder / "t.binary").string(), out = " -o " + (folder / "out.csv").string();

@@ -189,12 +189,18 @@ class correction_iteration {
         limits_(limits),
         threads_(threads) {}
 
-  /// Fits samples, or a table, each cell of which is one. Throws gonio::error for unusable samples, or if a solver
-  /// gives up.
+  /// The initial estimate of samples, or of a table, each cell of which is one: what is returned steps through its
+  /// corrections. Throws gonio::error for unusable samples, or if a solver gives up.
+  template <class Samples>
+  [[nodiscard]] auto start(const Samples& samples) const {
+    const located_samples located = locate_samples(corrections_.cells(), samples, threads_);
+    return correction_run{initial_.fit(samples), corrections_, located, weighting_, solver_, limits_, threads_};
+  }
+
+  /// Corrects until the run has converged. Throws gonio::error for unusable samples, or if a solver gives up.
   template <class Samples>
   [[nodiscard]] auto fit(const Samples& samples) const {
-    const located_samples located = locate_samples(corrections_.cells(), samples, threads_);
-    correction_run run{initial_.fit(samples), corrections_, located, weighting_, solver_, limits_, threads_};
+    auto run = start(samples);
     while (!run.converged()) run.step();
     return run.result();
   }

@@ -91,6 +91,30 @@ struct robust_start {
   std::uint64_t seed = 0;
 };
 
+/// The final iteration of `robust_reconstruction` as an object that steps, as `correction_run` does.
+template <error_metric Metric>
+class robust_run {
+ public:
+  using run_type = correction_run<fitted_brdf<gonio::measured<Metric>>>;
+
+  /// The first `trusting_rounds` count each measurement as much as `trust` says, those that follow as `run` does.
+  robust_run(run_type run, channel_values trust, int trusting_rounds)
+      : run_(std::move(run)), trust_(std::move(trust)), trusting_rounds_(trusting_rounds) {}
+
+  correction_round step() { return std::ssize(run_.history()) < trusting_rounds_ ? run_.step(trust_) : run_.step(); }
+  [[nodiscard]] bool converged() const noexcept { return run_.converged(); }
+
+  [[nodiscard]] const channel_values& measured() const noexcept { return run_.measured(); }
+  [[nodiscard]] channel_values estimated() const { return run_.estimated(); }
+  [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return run_.history(); }
+  [[nodiscard]] auto result() const { return run_.result(); }
+
+ private:
+  run_type run_;
+  channel_values trust_;
+  int trusting_rounds_;
+};
+
 /// Fits samples of which any share may be outliers, in these steps:
 /// 1. Take the material that comes nearest (`nearest_material`), on at most 20,000 of the samples.
 /// 2. Combine materials for relative errors, five times, and correct the combination four times, down-weighting
@@ -124,17 +148,22 @@ class robust_reconstruction {
       throw error("materials and corrections must be over the same cells");
   }
 
-  /// Fits samples, or a table, each cell of which is one. Throws gonio::error for unusable samples.
+  /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
+  /// gonio::error for unusable samples.
   template <class Samples>
-  [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
+  [[nodiscard]] robust_run<Metric> start(const Samples& samples) const {
     const located_samples all = locate_samples(corrections_.cells(), samples, threads_);
     const auto [initial, guide] = begin(all);
     correction_run run{initial, corrections_, all, automatic_weights{}, nnls{}, limits_, threads_};
-    if (run.converged()) return run.result();
-
     const channel_values guided = values_at(guide, corrections_.cells(), all.at, threads_);
-    const channel_values trust = automatic_weights{}.weigh(run.measured(), guided);
-    for (int round = 0; round < start_.trusting_rounds && !run.converged(); ++round) run.step(trust);
+    channel_values trust = automatic_weights{}.weigh(run.measured(), guided);
+    return {std::move(run), std::move(trust), start_.trusting_rounds};
+  }
+
+  /// All steps. Throws gonio::error for unusable samples.
+  template <class Samples>
+  [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
+    robust_run run = start(samples);
     while (!run.converged()) run.step();
     return run.result();
   }

@@ -1,0 +1,79 @@
+/// The methods of gonio reconstruct that are a single fit.
+
+#include "reconstruct_methods.hpp"
+
+#include "progress_bar.hpp"
+#include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <cmath>
+
+namespace cli {
+
+namespace {
+
+/// What the solver said.
+void describe(const gonio::solution& found, std::size_t samples, reconstruction& result) {
+  const gonio::rgb residual = found.residual.array() / std::sqrt(static_cast<double>(samples));
+  gonio::rgb used;
+  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((found.weights.col(c).array() != 0.0).count());
+  result.details = {{"mapped_residual_rms", per_channel(residual)},
+                    {"certificate", per_channel(found.certificate.array())},
+                    {"non_zero_weights", per_channel(used)},
+                    {"iterations", found.iterations}};
+  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
+                    ' ' + fixed(residual.z(), 3) + ", weights that are not zero " + fixed(used.x(), 0) + ' ' +
+                    fixed(used.y(), 0) + ' ' + fixed(used.z(), 0);
+}
+
+template <class Basis, class Solver>
+reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample_set& samples,
+                   gonio::thread_count threads) {
+  const auto fitted = gonio::decomposition{basis, solver, threads}.fit(samples);
+  reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
+  describe(fitted.found(), samples.size(), result);
+  return result;
+}
+
+}  // namespace
+
+reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const auto solver = make_solver(options.solver, {"tikhonov", "40"});
+  if (solver.non_negative())
+    throw gonio::error("--solver " + options.solver.name +
+                       " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
+                       "use tikhonov, lasso, tsvd or ls, or --method linear");
+  if (!options.metric.empty() && options.metric != "log-relative")
+    throw gonio::error("a prior is learned under the log-relative metric: --metric " + options.metric +
+                       " needs --method linear");
+  if (!options.materials.is_prior() || !options.materials.exclude.empty())
+    throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
+  return fit(gonio::io::read_prior(options.materials.prior), solver, samples, options.threads);
+}
+
+reconstruction reconstruct_by_materials(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const auto solver = make_solver(options.solver, {"nnls", "gcv"});
+  progress_bar bar;
+  auto materials = read_materials(options.materials, options.threads, bar.listener());
+  bar.wipe();
+  return with_materials(options, std::move(materials),
+                        [&](const auto& basis) { return fit(basis, solver, samples, options.threads); });
+}
+
+reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const gonio::valid_cells cells;
+  const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
+  return under_metric(
+      options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); },
+      [&](const auto& metric) {
+        return fit(gonio::rbf{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options.threads);
+      });
+}
+
+reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {
+  return {gonio::pull_push{gonio::valid_cells(), options.threads}.fit(samples).table()};
+}
+
+}  // namespace cli
