@@ -95,6 +95,7 @@ template <error_metric Metric, normal_solver Solver>
   using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::vector<Eigen::Index> columns = columns_of(materials);
   const auto count = static_cast<Eigen::Index>(columns.size());
+  if (count < 2) throw error("correction functions need at least two materials: each is explained by the others");
   const Eigen::Index functions = count + (rule.has_constant ? 1 : 0);
   cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * functions);
   for (std::size_t c = 0; c < 3; ++c) {

@@ -55,24 +55,10 @@ class correction_run {
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
   /// One round with the weights of the weighting (Eq. 13).
-  correction_round step() { return step(weighting_.weigh(measured_, estimated())); }
+  correction_round step() { return step(weighting_.weigh(measured_, estimated()), has_fixed_weights<Weighting>); }
 
   /// One round with given outlier weights.
-  correction_round step(const channel_values& trust) {
-    const channel_values sigma = factor().quotient(measured_, estimated());
-    const channel_values weights = trust.rowwise() * confidence_.transpose();
-    Eigen::MatrixXd beta(functions_.unknowns(), 3);
-    channel_values found(3, sigma.cols());
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto row = static_cast<Eigen::Index>(c);
-      beta.col(row) = solve(c, weights.row(row), sigma.row(row));
-      found.row(row) = functions_.apply(c, beta.col(row)).transpose();
-    }
-    total_ *= found;
-    weights_.push_back(std::move(beta));
-    history_.push_back(describe(trust, weights, sigma, found));
-    return history_.back();
-  }
+  correction_round step(const channel_values& trust) { return step(trust, false); }
 
   /// Is the last correction 1 almost everywhere, or the number of rounds reached?
   [[nodiscard]] bool converged() const noexcept {
@@ -90,14 +76,29 @@ class correction_run {
  private:
   [[nodiscard]] const correction_factor& factor() const noexcept { return corrections_.rule().factor; }
 
-  /// Eq. 9-10 with Eq. 16.
+  correction_round step(const channel_values& trust, bool fixed) {
+    const channel_values sigma = factor().quotient(measured_, estimated());
+    const channel_values weights = trust.rowwise() * confidence_.transpose();
+    Eigen::MatrixXd beta(functions_.unknowns(), 3);
+    channel_values found(3, sigma.cols());
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto row = static_cast<Eigen::Index>(c);
+      beta.col(row) = solve(c, weights.row(row), sigma.row(row), fixed);
+      found.row(row) = functions_.apply(c, beta.col(row)).transpose();
+    }
+    total_ *= found;
+    weights_.push_back(std::move(beta));
+    history_.push_back(describe(trust, weights, sigma, found));
+    return history_.back();
+  }
+
+  /// Eq. 9-10 with Eq. 16. With fixed weights only the moments change from round to round.
   template <class Row>
-  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel, const Row& weights, const Row& sigma) {
-    // With fixed weights only the moments change from round to round.
-    if (has_fixed_weights<Weighting> && fixed_gram_[channel])
+  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel, const Row& weights, const Row& sigma, bool fixed) {
+    if (fixed && fixed_gram_[channel])
       return solve_over_columns({*fixed_gram_[channel], moment(channel, weights, sigma)});
     const normal_equations all = with_inertia(functions_.normal(channel, weights, sigma));
-    if (has_fixed_weights<Weighting>) fixed_gram_[channel] = all.gram();
+    if (fixed) fixed_gram_[channel] = all.gram();
     return solve_over_columns(all);
   }
 
@@ -124,7 +125,7 @@ class correction_run {
   [[nodiscard]] static correction_round describe(const channel_values& trust, const channel_values& weights,
                                                  const channel_values& sigma, const channel_values& found) {
     const double total = weights.cast<double>().sum();
-    const double squares = (weights * (sigma - 1.0f).square()).cast<double>().sum();
+    const double squares = (weights.cast<double>() * (sigma.cast<double>() - 1.0).square()).sum();
     return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
             (trust < 0.5f).cast<double>().mean()};
   }

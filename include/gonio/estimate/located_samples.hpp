@@ -10,11 +10,12 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace gonio {
 
-/// Where was measured, what, and how much it counts: n of each.
+/// Where was measured, what, and how much it counts, which is more than nothing: n of each.
 struct located_samples {
   std::vector<location> at;
   Eigen::MatrixXd values;  ///< n x 3, sr^-1
@@ -36,16 +37,25 @@ struct located_samples {
   }
 };
 
-/// Samples on given cells. Throws gonio::error for unusable ones (`require_usable`). O(samples).
+/// Samples on given cells. Those of weight zero are left out: whatever looks at all samples, as outlier weights do,
+/// must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond the range of
+/// float, or if all weights are zero. O(samples).
 template <sample_range Samples>
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const Samples& samples,
                                              thread_count /*threads*/ = {}) {
   require_usable(samples);
-  const auto count = std::ranges::distance(samples);
+  Eigen::Index count = 0;
+  for (const sample& s : samples) count += s.weight > 0.0 ? 1 : 0;
+  if (count == 0) throw error("all samples have weight zero: nothing is known");
   located_samples found{{}, Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
   found.at.reserve(static_cast<std::size_t>(count));
   Eigen::Index i = 0;
+  std::size_t number = 0;
   for (const sample& s : samples) {
+    ++number;
+    if (!(s.weight > 0.0)) continue;
+    if (!s.value.cast<float>().isFinite().all())
+      throw error("sample " + std::to_string(number) + ": a reflectance is beyond the range of float");
     found.at.push_back(locate(cells, s.angles));
     found.values.row(i) = s.value.matrix().transpose();
     found.weights[i++] = s.weight;
@@ -53,7 +63,7 @@ template <sample_range Samples>
   return found;
 }
 
-/// Every cell of a table as a measurement of weight 1.
+/// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
 [[nodiscard]] inline located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
                                                     thread_count threads = {}) {
   const bool own = table.cells() == cells;
@@ -64,6 +74,8 @@ template <sample_range Samples>
       found.size(), 4096,
       [&](block range) {
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+          if (!table.at(cell).isFinite().all())
+            throw error("cell " + std::to_string(cell) + " of a table is not finite");
           found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
           found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
         }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -72,6 +73,7 @@ class sampled_functions {
           Eigen::VectorXf part = Eigen::VectorXf::Zero(unknowns_);
           for (std::size_t i = range.begin; i < range.end; ++i) {
             const auto sample = static_cast<Eigen::Index>(i);
+            if (!(weights[sample] > 0.0f)) continue;
             part += (weights[sample] * values[sample]) * row(channel, i).transpose();
           }
           sum += part.cast<double>();
@@ -102,14 +104,14 @@ class sampled_functions {
     std::vector<std::size_t> between;
     for (std::size_t i = 0; i < places.size(); ++i)
       if (places[i].count != 1) between.push_back(i);
-    interpolated_.resize(3 * std::ssize(between), unknowns_);
+    interpolated_ = std::make_shared<cell_matrix>(3 * std::ssize(between), unknowns_);
     for_each_block(
         between.size(), 256,
         [&](block range) {
           Eigen::RowVectorXd row(unknowns_);
           for (std::size_t slot = range.begin; slot < range.end; ++slot)
             for (std::size_t c = 0; c < 3; ++c) {
-              auto own = interpolated_.row(static_cast<Eigen::Index>(3 * slot + c));
+              auto own = interpolated_->row(static_cast<Eigen::Index>(3 * slot + c));
               read_row_at(channels_[c], places[between[slot]], row);
               own = row.template cast<float>();
               rows_[c][between[slot]] = own.data();
@@ -124,7 +126,7 @@ class sampled_functions {
   Eigen::Index unknowns_;
   std::array<channel_type, 3> channels_;  // they keep the rows alive
   std::array<std::vector<const float*>, 3> rows_;
-  cell_matrix interpolated_;
+  std::shared_ptr<cell_matrix> interpolated_;  // copies read the same rows
   thread_count threads_;
 };
 

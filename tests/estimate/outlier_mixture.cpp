@@ -1,0 +1,239 @@
+#include <gonio/estimate/outlier_mixture.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <random>
+
+using gonio::automatic_weights;
+using gonio::channel_values;
+using gonio::outlier_density;
+using gonio::outlier_mixture;
+
+namespace {
+
+std::vector<double> uniform_numbers(std::size_t count, double low, double high, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform(low, high);
+  std::vector<double> numbers(count);
+  for (double& number : numbers) number = uniform(generator);
+  return numbers;
+}
+
+/// The integral of a density from low to high by the midpoint rule.
+template <class Density>
+double integral(const Density& density, double low, double high, int steps = 40'000) {
+  const double width = (high - low) / steps;
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) sum += width * density(low + (i + 0.5) * width);
+  return sum;
+}
+
+/// Reflectances of a made-up material and an estimate of it: most are diffuse, a few per cent are a highlight; `share`
+/// of the measurements, and no highlights, are those of another place.
+struct made_up_measurement {
+  channel_values measured, estimated;
+  std::vector<bool> outlier;
+};
+
+made_up_measurement made_up_measurement_of(Eigen::Index count, double share, double scale, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::normal_distribution<double> normal;
+  made_up_measurement all{channel_values(3, count), channel_values(3, count), {}};
+  const auto reflectance = [&] { return 0.05 * std::exp(3.0 * std::pow(uniform(generator), 2)); };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double truth = reflectance();
+    all.outlier.push_back(uniform(generator) < share);
+    const double value = all.outlier.back() ? reflectance() : truth * std::exp(scale * normal(generator));
+    all.measured.col(i).setConstant(static_cast<float>(value));
+    all.estimated.col(i).setConstant(static_cast<float>(truth));
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("the density of outliers is positive and integrates to 1") {
+  CHECK(rc::check([] {
+    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 300));
+    const double width = std::pow(10.0, *rc::gen::inRange(-3, 2));
+    const auto logarithms = uniform_numbers(count, -5.0, -5.0 + width, static_cast<unsigned>(count));
+    const outlier_density density(logarithms);
+    const auto [least, most] = std::ranges::minmax_element(logarithms);
+    // It reaches half a unit beyond the measurements, and is constant on 200 bins: exact but for 1 in 200 steps.
+    const double whole = integral(density, *least - 0.5, *most + 0.5);
+    RC_ASSERT(std::abs(whole - 1.0) < 1e-6);
+    for (const double value : logarithms) RC_ASSERT(density(value) > 0.0);
+    RC_ASSERT(density(*least - 100.0) > 0.0);  // the outermost bins go on
+    RC_ASSERT(density(*most + 100.0) > 0.0);
+  }));
+}
+
+TEST_CASE("the density of outliers is higher where more was measured, but flatter than the measurements'") {
+  auto logarithms = uniform_numbers(9000, 0.0, 1.0, 1);
+  const auto few = uniform_numbers(1000, 3.0, 4.0, 2);
+  logarithms.insert(logarithms.end(), few.begin(), few.end());
+  const outlier_density density(logarithms);
+  const double ratio = density(0.5) / density(3.5);
+  // Nine times as many: the square root is three.
+  CHECK(ratio == doctest::Approx(3.0).epsilon(0.05));
+  CHECK(density(2.0) < density(3.5));
+  CHECK(density(2.0) > 0.0);
+}
+
+TEST_CASE("all measurements equal, one, and two") {
+  const outlier_density equal(std::vector<double>(50, -2.0)), one({-2.0}), two({-2.0, 3.0});
+  CHECK(integral(equal, -2.5, -1.5) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(integral(one, -2.5, -1.5) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(integral(two, -2.5, 3.5) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(equal(-2.0) > equal(-1.6));
+  CHECK(two(-2.0) == doctest::Approx(two(3.0)).epsilon(0.05));
+}
+
+TEST_CASE("Student's t: the density of good residuals integrates to 1 and has the right tail") {
+  for (const double scale : {0.02, 0.3, 2.0}) {
+    const outlier_mixture mixture{0.8, scale};
+    // Beyond 100 scales, 3.75 / 100^4 of a side's probability is missing.
+    CHECK(integral([&](double r) { return mixture.good_density(r); }, -100 * scale, 100 * scale) ==
+          doctest::Approx(1.0).epsilon(1e-6));
+    CHECK(mixture.good_density(0.0) == doctest::Approx(0.375 / scale));
+    CHECK(mixture.good_density(2 * scale) == doctest::Approx(0.375 / scale / std::pow(2.0, 2.5)));
+    CHECK(mixture.tail_weight(0.0) == 1.0);
+    CHECK(mixture.tail_weight(2 * scale) == doctest::Approx(0.5));
+  }
+}
+
+TEST_CASE("probabilities are from 0 to 1, fall with the residual, and with the density of outliers") {
+  CHECK(rc::check([] {
+    const outlier_mixture mixture{1e-3 * *rc::gen::inRange(20, 1000), 1e-2 * *rc::gen::inRange(1, 200)};
+    const double residual = 1e-2 * *rc::gen::inRange(0, 2000), outliers = 1e-3 * *rc::gen::inRange(1, 2000);
+    const double probability = mixture.probability(residual, outliers);
+    RC_ASSERT(probability >= 0.0);
+    RC_ASSERT(probability <= 1.0);
+    RC_ASSERT(mixture.probability(-residual, outliers) == probability);
+    RC_ASSERT(mixture.probability(residual + 0.1, outliers) < probability);
+    RC_ASSERT(mixture.probability(residual, 1.1 * outliers) < probability);
+    RC_ASSERT(mixture.tail_weight(residual) > 0.0);
+    RC_ASSERT(mixture.tail_weight(residual) <= 1.0);
+  }));
+}
+
+TEST_CASE("expectation-maximisation finds the share and the scale that residuals were made with") {
+  std::mt19937_64 generator(20);
+  std::student_t_distribution<double> student(outlier_mixture::degrees_of_freedom);
+  std::uniform_real_distribution<double> uniform(-4.0, 4.0);
+  constexpr std::size_t n = 20'000;
+  for (const double share : {0.5, 0.8, 0.97})
+    for (const double scale : {0.05, 0.3}) {
+      std::vector<double> residuals(n);
+      for (std::size_t i = 0; i < n; ++i)
+        residuals[i] =
+            static_cast<double>(i) < share * static_cast<double>(n) ? scale * student(generator) : uniform(generator);
+      const std::vector<double> outliers(n, 0.125);  // the density that they have
+      const auto found = gonio::estimate_mixture(residuals, outliers);
+      CAPTURE(share);
+      CAPTURE(scale);
+      // The number of good ones is known to a few tenths of a per cent; the scale's standard error is 1 / sqrt(n) of
+      // itself or 1 %. The last EM step changes them by less than 1e-4 and 1e-3, which may be a tenth of what is left.
+      CHECK(found.good_share == doctest::Approx(share).epsilon(0.01));
+      CHECK(found.scale == doctest::Approx(scale).epsilon(0.04));
+    }
+}
+
+TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at the solution") {
+  const std::vector<double> outliers(100, 0.2);
+  const auto perfect = gonio::estimate_mixture(std::vector<double>(100, 0.0), outliers);
+  CHECK(perfect.scale == 0.01);
+  CHECK(perfect.good_share == 0.999);
+  const auto hopeless = gonio::estimate_mixture(uniform_numbers(100, 50.0, 60.0, 3), outliers);
+  CHECK(hopeless.good_share >= 0.02);
+  CHECK(std::isfinite(hopeless.scale));
+  const auto one = gonio::estimate_mixture({0.7}, {1.0});
+  CHECK(std::isfinite(one.scale));
+  CHECK(one.good_share <= 0.999);
+}
+
+TEST_CASE("automatic weights tell outliers from good samples") {
+  const auto made = made_up_measurement_of(4000, 0.3, 0.03, 5);
+  const auto mixture = automatic_weights{}.mixture(made.measured, made.estimated);
+  // 1 - 0.3, with 0.7 % of standard error; some outliers have the right value by chance, a few per cent here.
+  CHECK(mixture.good_share > 0.69);
+  CHECK(mixture.good_share < 0.80);
+  CHECK(mixture.scale == doctest::Approx(0.03).epsilon(0.25));  // good residuals are Gaussian, not Student's
+  const auto weights = automatic_weights{}.weigh(made.measured, made.estimated);
+  CHECK(((weights >= 0.0f) && (weights <= 1.0f)).all());
+  CHECK((weights.row(0) == weights.row(1)).all());
+  CHECK((weights.row(0) == weights.row(2)).all());
+  double good = 0.0, bad = 0.0;
+  const auto bad_count = static_cast<double>(std::ranges::count(made.outlier, true));
+  for (std::size_t i = 0; i < made.outlier.size(); ++i)
+    (made.outlier[i] ? bad : good) += double{weights(0, static_cast<Eigen::Index>(i))};
+  CHECK(good / (4000.0 - bad_count) > 0.75);  // the tail's weight is 0.8 in the mean
+  CHECK(bad / bad_count < 0.15);
+  // Without the tail's weight good ones count nearly in full.
+  const auto whole = automatic_weights{.down_weight_tail = false}.weigh(made.measured, made.estimated);
+  CHECK((whole >= weights).all());
+  double whole_good = 0.0;
+  for (std::size_t i = 0; i < made.outlier.size(); ++i)
+    if (!made.outlier[i]) whole_good += double{whole(0, static_cast<Eigen::Index>(i))};
+  CHECK(whole_good / (4000.0 - bad_count) > 0.95);
+}
+
+TEST_CASE("a highlight is trusted more than the same residual at a common value") {
+  auto made = made_up_measurement_of(2000, 0.3, 0.1, 6);
+  // The last two are off by the same factor; one has a value that nothing else comes near.
+  made.measured.col(1998).setConstant(0.05f);
+  made.measured.col(1999).setConstant(50.0f);
+  made.estimated.col(1998).setConstant(0.05f * 1.6f);
+  made.estimated.col(1999).setConstant(50.0f * 1.6f);
+  const auto weights = automatic_weights{.down_weight_tail = false}.weigh(made.measured, made.estimated);
+  CHECK(weights(0, 1999) > 2.0f * weights(0, 1998));
+  CHECK(weights(0, 1999) > 0.5f);
+}
+
+TEST_CASE("offsets are a hundredth of the median of each channel, and at least 1e-4") {
+  channel_values measured(3, 3);
+  measured << 0.5f, 90.0f, 0.1f,  //
+      0.0f, 0.001f, 7.0f,         //
+      -5.0f, -1.0f, 3.0f;
+  const auto offsets = automatic_weights::offsets(measured);
+  CHECK(double{offsets[0]} == doctest::Approx(0.005));
+  CHECK(double{offsets[1]} == doctest::Approx(1e-4));
+  CHECK(double{offsets[2]} == doctest::Approx(1e-4));
+}
+
+TEST_CASE("automatic weights of awkward measurements are from 0 to 1") {
+  const auto check = [](const channel_values& measured, const channel_values& estimated) {
+    for (const bool tail : {false, true}) {
+      const auto weights = automatic_weights{.down_weight_tail = tail}.weigh(measured, estimated);
+      REQUIRE(weights.cols() == measured.cols());
+      CHECK(((weights >= 0.0f) && (weights <= 1.0f)).all());
+    }
+  };
+  for (const Eigen::Index count : {1, 2, 3, 1000}) {
+    const channel_values zero = channel_values::Zero(3, count), half = channel_values::Constant(3, count, 0.5f),
+                         huge = channel_values::Constant(3, count, 1e38f),
+                         negative = channel_values::Constant(3, count, -4.0f),
+                         random = channel_values::Random(3, count);
+    for (const channel_values& measured : {zero, half, huge, negative, random})
+      for (const channel_values& estimated : {zero, half, huge}) check(measured, estimated);
+  }
+  // A perfect fit of equal measurements: outliers would look the same, but all count alike, and rather as good ones.
+  const channel_values half = channel_values::Constant(3, 10, 0.5f);
+  const auto weights = automatic_weights{}.weigh(half, half);
+  CAPTURE(weights(0, 0));
+  CHECK((weights == weights(0, 0)).all());
+  CHECK(weights(0, 0) > 0.5f);
+}
+
+TEST_CASE("more than twenty thousand measurements are judged by some of them") {
+  const auto made = made_up_measurement_of(50'000, 0.3, 0.03, 8);
+  const auto weights = automatic_weights{}.weigh(made.measured, made.estimated);
+  REQUIRE(weights.cols() == 50'000);
+  const auto few = made_up_measurement_of(20'000, 0.3, 0.03, 9);
+  const auto one = automatic_weights{}.mixture(made.measured, made.estimated);
+  const auto other = automatic_weights{}.mixture(few.measured, few.estimated);
+  CHECK(one.good_share == doctest::Approx(other.good_share).epsilon(0.03));  // five standard errors of 17,000
+  CHECK(one.scale == doctest::Approx(other.scale).epsilon(0.05));
+}

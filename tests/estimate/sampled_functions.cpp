@@ -1,0 +1,186 @@
+#include "../archetypes.hpp"
+#include "../made_up_materials.hpp"
+#include <gonio/basis/measured.hpp>
+#include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/metric/log.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+using gonio::sampled_functions;
+
+namespace {
+
+const gonio::measured<gonio::log>& seven_materials() {
+  static const gonio::measured basis{made_up_materials(small_cells(), 7), gonio::log{}};
+  return basis;
+}
+
+/// Cells, and places between them, of which there are more than a block of rows has.
+std::vector<gonio::location> mixed_places(std::size_t count, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_int_distribution<std::size_t> any(0, small_cells().size() - 1);
+  std::vector<gonio::location> places;
+  while (places.size() < count) {
+    const std::size_t cell = any(generator);
+    auto angles = small_cells().angles(cell);
+    angles.theta_h *= 0.9;
+    places.push_back(generator() % 3 == 0 ? gonio::locate(small_cells(), angles)
+                                          : gonio::locate_cell(small_cells(), cell));
+  }
+  return places;
+}
+
+struct random_equations {
+  Eigen::ArrayXf weights, values;
+
+  /// A third of the weights are zero.
+  random_equations(std::size_t count, unsigned seed)
+      : weights(static_cast<Eigen::Index>(count)), values(static_cast<Eigen::Index>(count)) {
+    std::mt19937 generator(seed);
+    std::uniform_real_distribution<float> number(0.0f, 2.0f);
+    for (float& weight : weights) weight = generator() % 3 == 0 ? 0.0f : number(generator);
+    for (float& value : values) value = number(generator);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("normal equations, moments and products are those of the gathered rows in double") {
+  CHECK(rc::check([] {
+    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 400));
+    const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
+    const auto places = mixed_places(count, seed);
+    const random_equations system(count, seed + 1);
+    const sampled_functions functions(seven_materials(), places);
+    RC_ASSERT(functions.size() == count);
+    RC_ASSERT(functions.unknowns() == 7);
+    for (std::size_t c = 0; c < 3; ++c) {
+      Eigen::MatrixXd rows(static_cast<Eigen::Index>(count), 7);
+      for (std::size_t i = 0; i < count; ++i)
+        rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), places[i]);
+      const Eigen::VectorXd w = system.weights.matrix().cast<double>(), b = system.values.matrix().cast<double>();
+      const Eigen::MatrixXd gram = rows.transpose() * w.asDiagonal() * rows;
+      const Eigen::VectorXd moment = rows.transpose() * w.asDiagonal() * b;
+      const auto normal = functions.normal(c, system.weights, system.values);
+      // All terms are positive: a sum of 128 floats is off by at most 128 roundings of itself, usually by a few.
+      const double tolerance = 5e-6;
+      RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
+      RC_ASSERT(((normal.moment() - moment).array().abs() <= tolerance * moment.array()).all());
+      RC_ASSERT(std::abs(normal.energy()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.energy()[0]);
+      RC_ASSERT(
+          ((functions.moment(c, system.weights, system.values) - moment).array().abs() <= tolerance * moment.array())
+              .all());
+      const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(7, 0.1, 2.0);
+      const Eigen::ArrayXd applied = functions.apply(c, x).cast<double>();
+      RC_ASSERT(((applied - (rows * x).array()).abs() <= 2e-6 * (rows * x).array()).all());
+    }
+  }));
+}
+
+TEST_CASE("rows of weight zero are skipped, whatever is there") {
+  const auto places = mixed_places(300, 5);
+  random_equations system(300, 6);
+  const sampled_functions functions(seven_materials(), places);
+  const auto before = functions.normal(0, system.weights, system.values);
+  std::vector<gonio::location> kept;
+  std::vector<float> weights, values;
+  for (Eigen::Index i = 0; i < 300; ++i) {
+    if (system.weights[i] == 0.0f)
+      system.values[i] = std::nanf("");
+    else {
+      kept.push_back(places[static_cast<std::size_t>(i)]);
+      weights.push_back(system.weights[i]);
+      values.push_back(system.values[i]);
+    }
+  }
+  REQUIRE(kept.size() < 250);
+  const auto with_nan = functions.normal(0, system.weights, system.values);
+  CHECK(with_nan.gram() == before.gram());
+  CHECK(with_nan.moment() == before.moment());
+  CHECK(functions.moment(0, system.weights, system.values).allFinite());
+  const auto count = std::ssize(weights);
+  const auto without = sampled_functions(seven_materials(), kept)
+                           .normal(0, Eigen::Map<const Eigen::ArrayXf>(weights.data(), count),
+                                   Eigen::Map<const Eigen::ArrayXf>(values.data(), count));
+  // Blocks of 128 rows begin elsewhere.
+  CHECK(without.gram().isApprox(before.gram(), 1e-6));
+  CHECK(without.moment().isApprox(before.moment(), 1e-6));
+  // Nothing at all.
+  const Eigen::ArrayXf none = Eigen::ArrayXf::Zero(300);
+  CHECK(functions.normal(1, none, none).gram().isZero(0.0));
+}
+
+TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated one") {
+  auto angles = small_cells().angles(100);
+  angles.theta_d += 0.03;
+  const std::vector<gonio::location> places{gonio::locate_cell(small_cells(), 100),
+                                            gonio::locate(small_cells(), angles)};
+  REQUIRE(places[1].count > 1);
+  const sampled_functions functions(seven_materials(), places);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (Eigen::Index f = 0; f < 7; ++f) {
+      const auto values = functions.apply(c, Eigen::VectorXd::Unit(7, f));
+      const auto channel = seven_materials().channel(c);
+      CHECK(values[0] == channel.row(100)[static_cast<std::size_t>(f)]);
+      CHECK(values[1] == static_cast<float>(gonio::row_at(channel, places[1])[f]));
+      CHECK(values[0] != values[1]);
+    }
+}
+
+TEST_CASE("functions left out are in the equations, but not among the columns") {
+  const auto fewer = seven_materials().without({"material-2"});
+  const auto places = mixed_places(50, 3);
+  const random_equations system(50, 4);
+  const sampled_functions functions(fewer, places), all(seven_materials(), places);
+  CHECK(functions.columns() == std::vector<Eigen::Index>{0, 1, 3, 4, 5, 6});
+  CHECK(functions.unknowns() == 7);
+  CHECK(functions.normal(2, system.weights, system.values).gram() ==
+        all.normal(2, system.weights, system.values).gram());
+}
+
+TEST_CASE("sampled functions outlive their basis, and are the same for any number of threads") {
+  const auto places = mixed_places(5000, 11);
+  const random_equations system(5000, 12);
+  const auto make = [&](unsigned threads) {
+    const gonio::measured basis{made_up_materials(small_cells(), 7), gonio::log{}};
+    return sampled_functions(basis, places, {threads});
+  };
+  const auto one = make(1), three = make(3);
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(7);
+  for (std::size_t c = 0; c < 3; ++c) {
+    CHECK(one.normal(c, system.weights, system.values).gram() == three.normal(c, system.weights, system.values).gram());
+    CHECK(one.moment(c, system.weights, system.values) == three.moment(c, system.weights, system.values));
+    CHECK((one.apply(c, x) == three.apply(c, x)).all());
+  }
+}
+
+TEST_CASE("copies do not read the rows of what they were copied from") {
+  const auto places = mixed_places(50, 8);
+  const Eigen::VectorXd x = Eigen::VectorXd::Ones(7);
+  auto original = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(seven_materials(), places);
+  const Eigen::ArrayXf before = original->apply(1, x);
+  const auto copy = *original;
+  original.reset();
+  const auto overwritten = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(
+      seven_materials(), std::vector<gonio::location>(50, places[0]));
+  CHECK((copy.apply(1, x) == before).all());
+}
+
+TEST_CASE("archetype: one function for all channels") {
+  const archetype::constant_basis constant{small_cells()};
+  const sampled_functions functions(constant, mixed_places(10, 1));
+  const Eigen::ArrayXf weights = Eigen::ArrayXf::Constant(10, 0.5f), values = Eigen::ArrayXf::LinSpaced(10, 0, 9);
+  CHECK(functions.normal(2, weights, values).gram()(0, 0) == doctest::Approx(5.0));
+  CHECK(functions.moment(0, weights, values)[0] == doctest::Approx(22.5));
+  CHECK((functions.apply(1, Eigen::VectorXd::Constant(1, 3.0)) == 3.0f).all());
+}
+
+TEST_CASE("no places: nothing is known") {
+  const sampled_functions functions(seven_materials(), {});
+  const Eigen::ArrayXf none;
+  CHECK(functions.size() == 0);
+  CHECK(functions.normal(0, none, none).gram().isZero(0.0));
+  CHECK(functions.moment(0, none, none).isZero(0.0));
+  CHECK(functions.apply(0, Eigen::VectorXd::Ones(7)).size() == 0);
+}
