@@ -21,14 +21,9 @@ struct method {
   const char* name;
   const char* description;
   reconstruction (*reconstruct)(const reconstruct_options&, const gonio::sample_set&);
-  /// The options of `restricted_options` that it takes.
+  /// Those options that not all methods take.
   std::vector<std::string_view> takes;
 };
-
-/// Options that mean nothing to some methods.
-constexpr std::array restricted_options{"--prior",   "--networks", "--merl",   "--exclude",  "--metric", "--root",
-                                        "--solver",  "--eta",      "--lambda", "--variance", "--gamma",  "--iterations",
-                                        "--history", "--story",    "--truth",  "--seed"};
 
 const std::vector<method>& methods() {
   static const std::vector<method> all{
@@ -62,14 +57,15 @@ const method& method_named(const std::string& name) {
 /// Refuses options that the method would ignore, naming the methods that would not.
 void require_taken(const CLI::App& command, const method& chosen) {
   const auto takes = [](const method& m, std::string_view option) { return std::ranges::count(m.takes, option) > 0; };
-  for (const char* option : restricted_options) {
-    if (command.count(option) == 0 || takes(chosen, option)) continue;
-    std::string names;
-    for (const method& m : methods())
-      if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
-    throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
-                       names);
-  }
+  for (const method& other : methods())
+    for (const std::string_view option : other.takes) {
+      if (command.count(std::string(option)) == 0 || takes(chosen, option)) continue;
+      std::string names;
+      for (const method& m : methods())
+        if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
+      throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
+                         names);
+    }
   if (command.count("--truth") > 0 && command.count("--story") == 0)
     throw gonio::error("--truth is only for the picture of --story, which is not asked for");
 }
