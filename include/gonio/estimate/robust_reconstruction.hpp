@@ -6,6 +6,7 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/nearest_material.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -26,8 +27,8 @@ class reweighted_combination {
         mapped_(3, std::ssize(samples.at)) {
     for (Eigen::Index i = 0; i < mapped_.cols(); ++i)
       for (Eigen::Index c = 0; c < 3; ++c)
-        mapped_(c, i) = static_cast<float>(
-            materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
+        mapped_(c, i) =
+            static_cast<float>(materials_.metric().forward(samples.values(i, c), places_[static_cast<std::size_t>(i)]));
   }
 
   /// Weights of the materials, k x 3, with x >= 0.
@@ -48,8 +49,9 @@ class reweighted_combination {
       const auto row = static_cast<Eigen::Index>(c);
       const Eigen::ArrayXf mapped = functions_.apply(c, found.weights.col(row));
       for (Eigen::Index i = 0; i < mapped.size(); ++i)
-        result(row, i) = static_cast<float>(
-            std::max(materials_.metric().inverse(mapped[i], places_[static_cast<std::size_t>(i)]), 0.0));
+        result(row, i) =
+            static_cast<float>(std::clamp(materials_.metric().inverse(mapped[i], places_[static_cast<std::size_t>(i)]),
+                                          0.0, double{correction_factor::largest_estimate}));
     }
     return result;
   }
@@ -79,8 +81,8 @@ class reweighted_combination {
 
 }  // namespace detail
 
-/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et al.
-/// 2015 and ten difficult ones (docs/robust-estimation.md).
+/// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
+/// al. 2015 and ten difficult ones (docs/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random.
   std::size_t samples = 20'000;
@@ -174,7 +176,8 @@ class robust_reconstruction {
     for (std::size_t i = 0; i < samples.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
         values(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) =
-            static_cast<float>(chosen[c].factor * nearest.value(chosen[c].material, c, samples.at[i]));
+            static_cast<float>(std::min(chosen[c].factor * nearest.value(chosen[c].material, c, samples.at[i]),
+                                        double{correction_factor::largest_estimate}));
     return values;
   }
 
