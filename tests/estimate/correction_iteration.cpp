@@ -366,7 +366,8 @@ TEST_CASE("difficult samples give a finite, non-negative BRDF with every weighti
     CAPTURE(named.first);
     const auto check = [&](const auto& weighting, const gonio::correction& corrections) {
       const auto fit = correction_iteration{combination{world().others}, corrections, weighting}.fit(named.second);
-      for (const float value : fit.tabulate(small_cells()).values()) REQUIRE((std::isfinite(value) && value >= 0.0f));
+      const auto table = fit.tabulate(small_cells());
+      for (const float value : table.values()) REQUIRE((std::isfinite(value) && value >= 0.0f));
       for (const auto& round : fit.history()) REQUIRE((std::isfinite(round.error) && std::isfinite(round.change)));
     };
     static const gonio::correction printed{world().others, gonio::correction_rule::as_printed()};

@@ -151,7 +151,8 @@ TEST_CASE("one sample, none but zeros, negative ones, equal ones: a finite mater
       CHECK(std::isfinite(chosen.factor));
       CHECK(chosen.factor > 0.0);
     }
-    for (const float value : nearest.fit(some).table().values()) REQUIRE((std::isfinite(value) && value >= 0.0f));
+    const auto fit = nearest.fit(some);
+    for (const float value : fit.table().values()) REQUIRE((std::isfinite(value) && value >= 0.0f));
   };
   check({samples.begin(), samples.begin() + 1});
   check({samples.begin(), samples.begin() + 2});
