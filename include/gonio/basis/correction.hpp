@@ -20,19 +20,23 @@ struct correction_factor {
   /// The denominator is at least this.
   float smallest = 1e-6f;
 
+  /// Factors and estimates count as at most these: a combination of materials that is extrapolated from a few bad
+  /// samples leaves the range of float, and so do products of some rounds.
+  static constexpr float largest_factor = 1e12f, largest_estimate = 1e24f;
+
   /// The quotient as the paper prints it; only a denominator below a millionth is replaced by that.
   [[nodiscard]] static constexpr correction_factor as_printed() noexcept { return {0.0f, 1e-6f}; }
 
   /// sigma from a measurement and its estimate (numbers, or arrays of them). Negative measurements count as zero.
   template <class Values>
   [[nodiscard]] auto quotient(const Values& measured, const Values& estimate) const {
-    return (measured.max(0.0f) + offset) / (estimate + offset).max(smallest);
+    return ((measured.max(0.0f) + offset) / (estimate + offset).max(smallest)).min(largest_factor);
   }
 
   /// The estimate corrected by sigma, at least zero.
   template <class Values>
   [[nodiscard]] auto correct(const Values& estimate, const Values& sigma) const {
-    return (sigma * (estimate + offset).max(smallest) - offset).max(0.0f);
+    return (sigma.min(largest_factor) * (estimate.min(largest_estimate) + offset).max(smallest) - offset).max(0.0f);
   }
 };
 

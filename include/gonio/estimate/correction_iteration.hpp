@@ -86,7 +86,7 @@ class correction_run {
       beta.col(row) = solve(c, weights.row(row), sigma.row(row), fixed);
       found.row(row) = functions_.apply(c, beta.col(row)).transpose();
     }
-    total_ *= found;
+    total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
     history_.push_back(describe(trust, weights, sigma, found));
     return history_.back();
@@ -144,7 +144,9 @@ class correction_run {
           [&](block range) {
             const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
             const Eigen::MatrixXf sigmas = channel.values().middleRows(begin, count) * betas;
-            const Eigen::VectorXf product = sigmas.rowwise().prod();
+            Eigen::ArrayXf product = Eigen::ArrayXf::Ones(count);
+            for (Eigen::Index round = 0; round < sigmas.cols(); ++round)
+              product = (product * sigmas.col(round).array()).min(correction_factor::largest_factor);
             for (Eigen::Index i = 0; i < count; ++i)
               total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = product[i];
           },

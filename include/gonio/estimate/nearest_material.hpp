@@ -111,8 +111,9 @@ class nearest_material {
     brdf_table table(materials_.cells());
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
-        table.values()[3 * cell + c] =
-            static_cast<float>(chosen[c].factor * value(chosen[c].material, c, locate_cell(table.cells(), cell)));
+        table.values()[3 * cell + c] = static_cast<float>(
+            std::min(chosen[c].factor * value(chosen[c].material, c, locate_cell(table.cells(), cell)),
+                     double{std::numeric_limits<float>::max()}));
     return completed_table(std::move(table));
   }
 

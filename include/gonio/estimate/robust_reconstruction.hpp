@@ -6,6 +6,7 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/nearest_material.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -48,8 +49,9 @@ class reweighted_combination {
       const auto row = static_cast<Eigen::Index>(c);
       const Eigen::ArrayXf mapped = functions_.apply(c, found.weights.col(row));
       for (Eigen::Index i = 0; i < mapped.size(); ++i)
-        result(row, i) = static_cast<float>(
-            std::max(materials_.metric().inverse(mapped[i], places_[static_cast<std::size_t>(i)]), 0.0));
+        result(row, i) =
+            static_cast<float>(std::clamp(materials_.metric().inverse(mapped[i], places_[static_cast<std::size_t>(i)]),
+                                          0.0, double{correction_factor::largest_estimate}));
     }
     return result;
   }
@@ -203,7 +205,8 @@ class robust_reconstruction {
     for (std::size_t i = 0; i < samples.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c)
         values(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) =
-            static_cast<float>(chosen[c].factor * nearest.value(chosen[c].material, c, samples.at[i]));
+            static_cast<float>(std::min(chosen[c].factor * nearest.value(chosen[c].material, c, samples.at[i]),
+                                        double{correction_factor::largest_estimate}));
     return values;
   }
 
