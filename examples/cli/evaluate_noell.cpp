@@ -26,13 +26,13 @@ struct noell_options {
 /// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come.
 class resumable_results {
  public:
-  explicit resumable_results(const std::filesystem::path& path) {
+  explicit resumable_results(const std::filesystem::path& path) : path_(path) {
     if (path.empty()) return;
     std::ifstream earlier(path);
     for (std::string line; std::getline(earlier, line);) {
       // A run that was killed may have left half a line.
       const json entry = json::parse(line, nullptr, false);
-      if (!entry.is_discarded()) entries_.push_back(entry);
+      if (entry.is_object() && entry.contains("key") && entry.contains("result")) entries_.push_back(entry);
     }
     file_.open(path, std::ios::app);
     if (!file_) throw gonio::error("cannot write '" + path.string() + "'");
@@ -46,10 +46,13 @@ class resumable_results {
 
   void add(const json& key, const json& result) {
     entries_.push_back({{"key", key}, {"result", result}});
-    if (file_.is_open()) file_ << entries_.back().dump() << std::endl;
+    if (!file_.is_open()) return;
+    file_ << entries_.back().dump() << std::endl;
+    if (!file_) throw gonio::error("cannot write '" + path_.string() + "'");
   }
 
  private:
+  std::filesystem::path path_;
   std::vector<json> entries_;
   std::ofstream file_;
 };
@@ -86,8 +89,8 @@ class noell_sweep {
  public:
   noell_sweep(const noell_options& options, const gonio::progress& listener)
       : options_(options),
-        experiment_(options.networks, options.environment, options.threads, listener),
         results_(options.state),
+        experiment_(options.networks, options.environment, options.threads, listener),
         listener_(listener) {
     materials_ = chosen_materials(options.materials, experiment_.names());
   }
@@ -126,8 +129,8 @@ class noell_sweep {
   }
 
   noell_options options_;
-  noell_experiment experiment_;
   resumable_results results_;
+  noell_experiment experiment_;
   gonio::progress listener_;
   std::vector<std::string> materials_;
 };
@@ -155,7 +158,8 @@ void print_table(const noell_options& options, const noell_sweep& sweep) {
     for (const double data_ratio : options.data_ratios)
       for (const double outlier_ratio : options.outlier_ratios) {
         const auto results = sweep.results(method, data_ratio, outlier_ratio);
-        std::cout << "| " << method << " | " << fixed(data_ratio, 2) << " | " << fixed(outlier_ratio, 1) << " | "
+        std::cout << "| " << method << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
+                  << fixed(outlier_ratio, 1) << " | "
                   << printed(noell_experiment::published(method, data_ratio, outlier_ratio)) << " | "
                   << summary(results, "delta_e_env") << " |";
         if (natural) std::cout << ' ' << summary(results, "delta_e_natural") << " |";
@@ -192,8 +196,10 @@ CLI::App* add_noell(CLI::App& evaluate, const std::string& name, const std::stri
           "another metric than log")
       ->check(CLI::Validator([](std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
       ->capture_default_str();
-  command->add_option("--data", options->data_ratios, "Shares of the table that are measured")
-      ->check(CLI::Range(1e-6, 1.0))
+  command
+      ->add_option("--data", options->data_ratios,
+                   "Shares of the table that are measured, or, above 1, numbers of samples")
+      ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command->add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
       ->check(CLI::Range(0.0, 1.0))

@@ -152,11 +152,15 @@ noell_experiment::~noell_experiment() = default;
 
 const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
 
+std::size_t noell_experiment::samples_of(double data, std::size_t cells) noexcept {
+  const double count = data <= 1.0 ? data * static_cast<double>(cells) : data;
+  return std::clamp<std::size_t>(static_cast<std::size_t>(std::llround(count)), 1, cells);
+}
+
 json noell_experiment::run(const std::string& method, const noell_case& which) {
   const std::size_t material = parts_->truths.find(which.material);
   const gonio::brdf_table truth = parts_->truths.table(material);
-  const auto cells = static_cast<double>(truth.cells().size());
-  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(which.data_ratio * cells)));
+  const std::size_t count = samples_of(which.data_ratio, truth.cells().size());
   const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, which.seed),
                                       {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
 

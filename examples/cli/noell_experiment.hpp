@@ -12,7 +12,7 @@ namespace cli {
 
 struct noell_case {
   std::string material;
-  double data_ratio = 1.0;
+  double data_ratio = 1.0;  ///< share of the cells; above 1, their number
   double outlier_ratio = 0.0;
   std::uint64_t seed = 1;
 };
@@ -30,6 +30,9 @@ class noell_experiment {
   /// formula environment at the exposure of a white sphere, delta_e_natural (if there is an environment) at the truth's
   /// own exposure, peak_ratio of the green highlight with theta_d below 70 degrees, seconds of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
+
+  /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
+  [[nodiscard]] static std::size_t samples_of(double data, std::size_t cells) noexcept;
 
   /// What is wrong with the name of a method; empty if nothing is.
   [[nodiscard]] static std::string complaint(const std::string& method);

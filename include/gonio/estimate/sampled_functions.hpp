@@ -4,6 +4,7 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/solve/gram.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <Eigen/Core>
 
