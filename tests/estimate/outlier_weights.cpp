@@ -1,6 +1,8 @@
 #include <gonio/estimate/outlier_weights.hpp>
 
 #include <doctest/doctest.h>
+
+#include <limits>
 #include <rapidcheck.h>
 
 using gonio::channel_values;
@@ -88,7 +90,8 @@ TEST_CASE("relative deviation: weights fall as measurements go away, to zero far
   CHECK(weights(0, 0) == 1.0f);
   CHECK(weights(0, 1) < weights(0, 0));
   CHECK(weights(0, 2) < weights(0, 1));
-  CHECK(weights(0, 3) == 0.0f);
+  // Vectorised exponentials of Eigen end at the smallest normal number, scalar ones at zero.
+  CHECK(weights(0, 3) <= std::numeric_limits<float>::min());
   CHECK(weights(0, 4) == 0.0f);
 }
 
