@@ -78,8 +78,8 @@ class resumable_results {
   double sum = 0.0;
   for (const double value : values) sum += value;
   const auto count = static_cast<double>(values.size());
-  return fixed(sum / count, 2) + " | " + fixed(values[values.size() / 2], 2) + " | " + fixed(values.back(), 2) + " | " +
-         fixed(peaks.front(), 2) + " - " + fixed(peaks.back(), 2);
+  return fixed(sum / count, 2) + " | " + fixed((values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2.0, 2) +
+         " | " + fixed(values.back(), 2) + " | " + fixed(peaks.front(), 2) + " - " + fixed(peaks.back(), 2);
 }
 
 [[nodiscard]] std::string printed(const std::optional<double>& figure) { return figure ? fixed(*figure, 2) : ""; }

@@ -59,7 +59,7 @@ std::vector<std::size_t> samples_near_slice(const gonio::sample_set& samples) {
   constexpr std::size_t enough = 400;
   std::vector<std::size_t> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return distance_to_slice(samples[i]); });
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(distance_to_slice(samples[i]), i); });
   std::size_t count = std::min(enough, order.size());
   while (count < order.size() && distance_to_slice(samples[order[count]]) <= gonio::radians(0.51)) ++count;
   order.resize(count);
