@@ -88,7 +88,7 @@ struct noell_experiment::parts {
     return log.get([&] { return gonio::measured{truths, metric, threads}; });
   }
   /// Corrections in no part of which the material takes part, made anew when it is another one than last time. Leaving
-  /// out its own correction only would save that, and is wrong by up to a third of Delta E.
+  /// out its own correction only would save that, and makes estimates worse (docs/robust-estimation.md).
   const gonio::correction& corrections_without(const std::string& material, bool printed) {
     if (material != left_out) corrections = printed_corrections = {};
     left_out = material;

@@ -139,8 +139,8 @@ template <error_metric Metric>
 /// estimate that needs no correction is left as it is. Their metric is linear (Eq. 16).
 ///
 /// A material that the `measured` basis leaves out is in no correction's approximation either. `without` only takes its
-/// own correction away: the others may still have it in their approximations, which makes fits of that very material up
-/// to a third worse than they would be for a material that the database does not have (docs/robust-estimation.md).
+/// own correction away: the others may still have it in their approximations, which makes fits of that very material
+/// worse than they would be for a material that the database does not have (docs/robust-estimation.md).
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
