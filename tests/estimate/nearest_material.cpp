@@ -71,16 +71,19 @@ TEST_CASE("the fit is the chosen material times the factor of each channel") {
   const auto samples = samples_of(scaled_table(2, factors), 200, 0.2, 4);
   const auto chosen = choice_for(nearest, samples);
   const auto table = nearest.fit(samples).tabulate(small_cells());
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+  const auto whole = [](std::size_t material) { return gonio::scaled_material{material, 1.0}; };
+  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
+    const std::vector<gonio::location> here{gonio::locate_cell(small_cells(), cell)};
+    const auto found =
+        nearest.values({whole(chosen[0].material), whole(chosen[1].material), whole(chosen[2].material)}, here);
+    const auto second = nearest.values({whole(2), whole(2), whole(2)}, here);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto at = gonio::locate_cell(small_cells(), cell);
-      REQUIRE(table.values()[3 * cell + c] ==
-              doctest::Approx(chosen[c].factor * nearest.value(chosen[c].material, c, at)).epsilon(1e-6));
-      REQUIRE(nearest.value(2, c, at) ==  // float logarithms, and back
-              doctest::Approx(
-                  double{nine_materials().values(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(6 + c))})
-                  .epsilon(2e-6));
+      const auto row = static_cast<Eigen::Index>(c);
+      REQUIRE(table.values()[3 * cell + c] == doctest::Approx(chosen[c].factor * double{found(row, 0)}).epsilon(1e-6));
+      REQUIRE(second(row, 0) ==  // float logarithms, and back
+              doctest::Approx(double{nine_materials().values(static_cast<Eigen::Index>(cell), 6 + row)}).epsilon(2e-6));
     }
+  }
 }
 
 TEST_CASE("the metric of the basis does not matter at cells") {

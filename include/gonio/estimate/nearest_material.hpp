@@ -78,11 +78,10 @@ struct scaled_likelihood {
 
 /// At most `count` of n numbers, at random, ascending.
 [[nodiscard]] inline std::vector<std::size_t> some_of(std::size_t n, std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> chosen(n), all(n);
+  std::vector<std::size_t> all(n), chosen(std::min(n, count));
   std::iota(all.begin(), all.end(), std::size_t{0});
   std::mt19937_64 generator(seed);
-  chosen.resize(std::min(n, count));
-  std::ranges::sample(all, chosen.begin(), static_cast<std::ptrdiff_t>(chosen.size()), generator);
+  std::ranges::sample(all, chosen.begin(), std::ssize(chosen), generator);
   return chosen;
 }
 
@@ -108,34 +107,48 @@ class nearest_material {
   template <class Samples>
   [[nodiscard]] completed_table fit(const Samples& samples) const {
     const auto chosen = choose(locate_samples(materials_.cells(), samples, threads_));
-    brdf_table table(materials_.cells());
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
-        table.values()[3 * cell + c] = static_cast<float>(
-            std::min(chosen[c].factor * value(chosen[c].material, c, locate_cell(table.cells(), cell)),
-                     double{std::numeric_limits<float>::max()}));
-    return completed_table(std::move(table));
+    const valid_cells& cells = materials_.cells();
+    std::vector<location> places(cells.size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) places[cell] = locate_cell(cells, cell);
+    const channel_values found = values(chosen, places);
+    return completed_table(brdf_table(cells, std::vector<float>(found.data(), found.data() + found.size())));
   }
 
+  /// What is chosen, at given places on the materials' cells.
+  [[nodiscard]] channel_values values(const std::array<scaled_material, 3>& chosen,
+                                      const std::vector<location>& places) const {
+    // A factor found from a few bright samples may lead out of the range of float.
+    constexpr double largest = std::numeric_limits<float>::max();
+    channel_values found(3, std::ssize(places));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto functions = materials_.channel(c);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        found(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) = static_cast<float>(
+            std::min(chosen[c].factor * reflectance(functions, chosen[c].material, places[i]), largest));
+    }
+    return found;
+  }
+
+ private:
   /// The reflectance of a material at a place, at least zero.
-  [[nodiscard]] double value(std::size_t material, std::size_t channel, const location& at) const {
-    const auto functions = materials_.channel(channel);
+  [[nodiscard]] double reflectance(const material_channel<Metric>& functions, std::size_t material,
+                                   const location& at) const {
     const double mapped = interpolate(
         at, [&](std::size_t cell) { return double{functions.row(cell)[material]}; }, 0.0);
     return std::max(materials_.metric().inverse(mapped, at), 0.0);
   }
 
- private:
   [[nodiscard]] scaled_material choose(const located_samples& samples, const std::vector<std::size_t>& some,
                                        std::size_t channel) const {
     const auto column = static_cast<Eigen::Index>(channel);
     std::vector<double> logarithms, outliers;
-    const double offset = std::max(1e-4, 0.01 * median(samples.values.col(column)));
+    const double offset = logarithm_offset(samples.values.col(column));
     for (const std::size_t i : some)
       logarithms.push_back(std::log(std::max(samples.values(static_cast<Eigen::Index>(i), column), 0.0) + offset));
     const outlier_density density(logarithms);
     for (const double value : logarithms) outliers.push_back(density(value));
 
+    const auto functions = materials_.channel(channel);
     const std::vector<Eigen::Index> columns = columns_of(materials_);
     std::vector<detail::scaled_likelihood> found(columns.size());
     for_each_block(
@@ -144,20 +157,13 @@ class nearest_material {
           const auto material = static_cast<std::size_t>(columns[one.begin]);
           std::vector<double> differences(some.size());
           for (std::size_t i = 0; i < some.size(); ++i)
-            differences[i] = logarithms[i] - std::log(value(material, channel, samples.at[some[i]]) + offset);
+            differences[i] = logarithms[i] - std::log(reflectance(functions, material, samples.at[some[i]]) + offset);
           found[one.begin] = detail::best_factor(differences, outliers);
         },
         threads_);
     const auto best = std::ranges::max_element(found, {}, &detail::scaled_likelihood::log_likelihood);
     return {static_cast<std::size_t>(columns[static_cast<std::size_t>(best - found.begin())]),
             std::exp(best->logarithm_of_factor)};
-  }
-
-  [[nodiscard]] static double median(const Eigen::VectorXd& values) {
-    std::vector<double> sorted(values.data(), values.data() + values.size());
-    const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-    std::ranges::nth_element(sorted, middle);
-    return *middle;
   }
 
   measured<Metric> materials_;

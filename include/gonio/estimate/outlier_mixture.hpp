@@ -117,6 +117,13 @@ struct outlier_mixture {
   return now;
 }
 
+/// What is added to reflectance before its logarithm is taken, in sr^-1: a hundredth of the median measurement of a
+/// channel, so that the darkest measurements, which are mostly noise, do not decide; at least 0.0001.
+template <class Measurements>
+[[nodiscard]] double logarithm_offset(const Measurements& measured) {
+  return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median(measured)));
+}
+
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
 /// is judged as a whole, by the root mean square of its three logarithmic residuals: what goes wrong in a measurement
 /// is its direction, not one of its colours.
@@ -144,18 +151,11 @@ struct automatic_weights {
     return estimate_from(found, outlier_density(subset(found.logarithm)));
   }
 
-  /// Added to reflectance before its logarithm is taken, for each channel: a hundredth of the median measurement, which
-  /// is 0.01 % of white at least.
+  /// `logarithm_offset` of each channel.
   [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured) {
-    Eigen::Array3f offset;
-    std::vector<float> values(static_cast<std::size_t>(measured.cols()));
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      for (std::size_t i = 0; i < values.size(); ++i) values[i] = measured(c, static_cast<Eigen::Index>(i));
-      const auto middle = values.begin() + std::ssize(values) / 2;
-      std::ranges::nth_element(values, middle);
-      offset[c] = std::max(1e-4f, 0.01f * *middle);
-    }
-    return offset;
+    return {static_cast<float>(logarithm_offset(measured.row(0))),
+            static_cast<float>(logarithm_offset(measured.row(1))),
+            static_cast<float>(logarithm_offset(measured.row(2)))};
   }
 
  private:

@@ -184,7 +184,8 @@ class robust_reconstruction {
     const Eigen::Array3f offsets = automatic_weights::offsets(measured);
     const detail::reweighted_combination<Metric> combination(materials_, some, threads_);
 
-    channel_values estimates = nearest_values(some);
+    const nearest_material<Metric> nearest(materials_, start_.seed, threads_);
+    channel_values estimates = nearest.values(nearest.choose(some), some.at);
     solution found;
     for (int i = 0; i < start_.combinations; ++i) {
       found = combination.solve(weighting.weigh(measured, estimates) * combination.relative(estimates, offsets));
@@ -196,18 +197,6 @@ class robust_reconstruction {
     constexpr automatic_weights whole{.down_weight_tail = false};
     const solution again = combination.solve(whole.weigh(measured, rough.estimated()));
     return {initial_type{materials_, again}, rough.result()};
-  }
-
-  [[nodiscard]] channel_values nearest_values(const located_samples& samples) const {
-    const nearest_material<Metric> nearest(materials_, start_.seed, threads_);
-    const auto chosen = nearest.choose(samples);
-    channel_values values(3, std::ssize(samples.at));
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c)
-        values(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) =
-            static_cast<float>(std::min(chosen[c].factor * nearest.value(chosen[c].material, c, samples.at[i]),
-                                        double{correction_factor::largest_estimate}));
-    return values;
   }
 
   measured<Metric> materials_;
