@@ -50,7 +50,7 @@ void one_round(benchmark::State& state, const Weighting& weighting) {
   gonio::correction_run run{initial, corrections(), measured, weighting};
   run.step();
   for (auto _ : state) benchmark::DoNotOptimize(run.step());
-  if (!gonio::has_fixed_weights<Weighting>)
+  if constexpr (!std::same_as<Weighting, gonio::trust_all>)
     state.counters["GF/s"] =
         benchmark::Counter(operations(measured) * 1e-9, benchmark::Counter::kIsIterationInvariantRate);
   // A round that builds no normal equations reads the rows twice: moments, and the correction at the samples.

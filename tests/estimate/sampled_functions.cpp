@@ -55,7 +55,13 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
     const sampled_functions functions(seven_materials(), places);
     RC_ASSERT(functions.size() == count);
     RC_ASSERT(functions.unknowns() == 7);
+    const gonio::channel_values all_weights = system.weights.transpose().replicate<3, 1>(),
+                                all_values = system.values.transpose().replicate<3, 1>();
+    const Eigen::MatrixXd moments = functions.moments(all_weights, all_values);
+    const Eigen::MatrixXd x = Eigen::VectorXd::LinSpaced(21, 0.1, 2.0).reshaped(7, 3);
+    const gonio::channel_values all_applied = functions.apply(x);
     for (std::size_t c = 0; c < 3; ++c) {
+      const auto column = static_cast<Eigen::Index>(c);
       Eigen::MatrixXd rows(static_cast<Eigen::Index>(count), 7);
       for (std::size_t i = 0; i < count; ++i)
         rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), places[i]);
@@ -68,12 +74,9 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
       RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
       RC_ASSERT(((normal.moment() - moment).array().abs() <= tolerance * moment.array()).all());
       RC_ASSERT(std::abs(normal.energy()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.energy()[0]);
-      RC_ASSERT(
-          ((functions.moment(c, system.weights, system.values) - moment).array().abs() <= tolerance * moment.array())
-              .all());
-      const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(7, 0.1, 2.0);
-      const Eigen::ArrayXd applied = functions.apply(c, x).cast<double>();
-      RC_ASSERT(((applied - (rows * x).array()).abs() <= 2e-6 * (rows * x).array()).all());
+      RC_ASSERT(((moments.col(column) - moment).array().abs() <= tolerance * moment.array()).all());
+      const Eigen::ArrayXd applied = all_applied.row(column).cast<double>().transpose();
+      RC_ASSERT(((applied - (rows * x.col(column)).array()).abs() <= 2e-6 * (rows * x.col(column)).array()).all());
     }
   }));
 }
@@ -98,7 +101,8 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
   const auto with_nan = functions.normal(0, system.weights, system.values);
   CHECK(with_nan.gram() == before.gram());
   CHECK(with_nan.moment() == before.moment());
-  CHECK(functions.moment(0, system.weights, system.values).allFinite());
+  CHECK(functions.moments(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>())
+            .allFinite());
   const auto count = std::ssize(weights);
   const auto without = sampled_functions(seven_materials(), kept)
                            .normal(0, Eigen::Map<const Eigen::ArrayXf>(weights.data(), count),
@@ -111,6 +115,18 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
   CHECK(functions.normal(1, none, none).gram().isZero(0.0));
 }
 
+TEST_CASE("rows of negligible weight count as rows of weight zero, unless their values are large") {
+  const auto places = mixed_places(2, 5);
+  const sampled_functions functions(seven_materials(), places);
+  const Eigen::Array2f weights(2.0f, 1e-6f);
+  const auto both = functions.normal(1, weights, Eigen::Array2f(1.0f, 1.0f));
+  const auto first = functions.normal(1, Eigen::Array2f(2.0f, 0.0f), Eigen::Array2f(1.0f, 1.0f));
+  CHECK(both.gram() == first.gram());
+  CHECK(both.moment() == first.moment());
+  const auto large = functions.normal(1, weights, Eigen::Array2f(1.0f, 1e3f));
+  CHECK(large.moment()(0, 0) > first.moment()(0, 0));
+}
+
 TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated one") {
   auto angles = small_cells().angles(100);
   angles.theta_d += 0.03;
@@ -118,14 +134,15 @@ TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated
                                             gonio::locate(small_cells(), angles)};
   REQUIRE(places[1].count > 1);
   const sampled_functions functions(seven_materials(), places);
-  for (std::size_t c = 0; c < 3; ++c)
-    for (Eigen::Index f = 0; f < 7; ++f) {
-      const auto values = functions.apply(c, Eigen::VectorXd::Unit(7, f));
-      const auto channel = seven_materials().channel(c);
-      CHECK(values[0] == channel.row(100)[static_cast<std::size_t>(f)]);
-      CHECK(values[1] == static_cast<float>(gonio::row_at(channel, places[1])[f]));
-      CHECK(values[0] != values[1]);
+  for (Eigen::Index f = 0; f < 7; ++f) {
+    const auto values = functions.apply(Eigen::VectorXd::Unit(7, f).replicate<1, 3>());
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const auto channel = seven_materials().channel(static_cast<std::size_t>(c));
+      CHECK(values(c, 0) == channel.row(100)[static_cast<std::size_t>(f)]);
+      CHECK(values(c, 1) == static_cast<float>(gonio::row_at(channel, places[1])[f]));
+      CHECK(values(c, 0) != values(c, 1));
     }
+  }
 }
 
 TEST_CASE("functions left out are in the equations, but not among the columns") {
@@ -147,24 +164,25 @@ TEST_CASE("sampled functions outlive their basis, and are the same for any numbe
     return sampled_functions(basis, places, {threads});
   };
   const auto one = make(1), three = make(3);
-  const Eigen::VectorXd x = Eigen::VectorXd::Ones(7);
-  for (std::size_t c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < 3; ++c)
     CHECK(one.normal(c, system.weights, system.values).gram() == three.normal(c, system.weights, system.values).gram());
-    CHECK(one.moment(c, system.weights, system.values) == three.moment(c, system.weights, system.values));
-    CHECK((one.apply(c, x) == three.apply(c, x)).all());
-  }
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Ones(7, 3);
+  CHECK((one.apply(x) == three.apply(x)).all());
+  const gonio::channel_values weights = system.weights.transpose().replicate<3, 1>(),
+                              values = system.values.transpose().replicate<3, 1>();
+  CHECK(one.moments(weights, values) == three.moments(weights, values));
 }
 
 TEST_CASE("copies do not read the rows of what they were copied from") {
   const auto places = mixed_places(50, 8);
-  const Eigen::VectorXd x = Eigen::VectorXd::Ones(7);
+  const Eigen::MatrixXd x = Eigen::MatrixXd::Ones(7, 3);
   auto original = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(seven_materials(), places);
-  const Eigen::ArrayXf before = original->apply(1, x);
+  const gonio::channel_values before = original->apply(x);
   const auto copy = *original;
   original.reset();
   const auto overwritten = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(
       seven_materials(), std::vector<gonio::location>(50, places[0]));
-  CHECK((copy.apply(1, x) == before).all());
+  CHECK((copy.apply(x) == before).all());
 }
 
 TEST_CASE("archetype: one function for all channels") {
@@ -172,8 +190,10 @@ TEST_CASE("archetype: one function for all channels") {
   const sampled_functions functions(constant, mixed_places(10, 1));
   const Eigen::ArrayXf weights = Eigen::ArrayXf::Constant(10, 0.5f), values = Eigen::ArrayXf::LinSpaced(10, 0, 9);
   CHECK(functions.normal(2, weights, values).gram()(0, 0) == doctest::Approx(5.0));
-  CHECK(functions.moment(0, weights, values)[0] == doctest::Approx(22.5));
-  CHECK((functions.apply(1, Eigen::VectorXd::Constant(1, 3.0)) == 3.0f).all());
+  const Eigen::MatrixXd moments =
+      functions.moments(weights.transpose().replicate<3, 1>(), values.transpose().replicate<3, 1>());
+  CHECK(moments.isApprox(Eigen::RowVector3d::Constant(22.5), 1e-6));
+  CHECK((functions.apply(Eigen::RowVector3d::Constant(3.0)) == 3.0f).all());
 }
 
 TEST_CASE("no places: nothing is known") {
@@ -181,6 +201,6 @@ TEST_CASE("no places: nothing is known") {
   const Eigen::ArrayXf none;
   CHECK(functions.size() == 0);
   CHECK(functions.normal(0, none, none).gram().isZero(0.0));
-  CHECK(functions.moment(0, none, none).isZero(0.0));
-  CHECK(functions.apply(0, Eigen::VectorXd::Ones(7)).size() == 0);
+  CHECK(functions.moments(gonio::channel_values(3, 0), gonio::channel_values(3, 0)).isZero(0.0));
+  CHECK(functions.apply(Eigen::MatrixXd::Ones(7, 3)).size() == 0);
 }

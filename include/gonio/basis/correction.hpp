@@ -8,7 +8,14 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
+#include <functional>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace gonio {
 
@@ -55,27 +62,6 @@ struct correction_rule {
 
 namespace detail {
 
-/// The approximations of all materials by the others, one column of weights for each, for one channel.
-template <error_metric Metric, normal_solver Solver>
-[[nodiscard]] Eigen::MatrixXf leave_one_out_weights(const material_channel<Metric>& functions, const Solver& solver,
-                                                    thread_count threads) {
-  const Eigen::MatrixXd products = functions.products(threads);
-  const std::vector<Eigen::Index> columns(functions.columns().begin(), functions.columns().end());
-  const auto unknowns = static_cast<Eigen::Index>(functions.size());
-  Eigen::MatrixXf weights = Eigen::MatrixXf::Zero(unknowns, static_cast<Eigen::Index>(columns.size()));
-  for_each_block(
-      columns.size(), 1,
-      [&](block one) {
-        std::vector<Eigen::Index> others = columns;
-        std::erase(others, columns[one.begin]);
-        const solution found = solver.solve(leave_one_out(products, columns[one.begin], others));
-        weights.col(static_cast<Eigen::Index>(one.begin)) =
-            spread(found, others, unknowns).weights.template cast<float>();
-      },
-      threads);
-  return weights;
-}
-
 /// Turns an array of mapped values into reflectances, at least zero.
 template <error_metric Metric, class Values>
 void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t first, Values&& values) {
@@ -91,60 +77,113 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t 
   }
 }
 
-/// The factors that turn the approximations of all materials that take part into the materials; then, if the rule has
-/// it, 1 as the last column of each channel.
+/// The approximations of the materials of a basis by the others that take part, and the factors that correct them.
 template <error_metric Metric, normal_solver Solver>
-[[nodiscard]] cell_matrix correction_tables(const measured<Metric>& materials, const Solver& solver,
-                                            const correction_rule& rule, thread_count threads) {
-  using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const std::vector<Eigen::Index> columns = columns_of(materials);
-  const auto count = static_cast<Eigen::Index>(columns.size());
-  if (count < 2) throw error("correction functions need at least two materials: each is explained by the others");
-  const Eigen::Index functions = count + (rule.has_constant ? 1 : 0);
-  cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * functions);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto channel = materials.channel(c);
-    const Eigen::MatrixXf weights = leave_one_out_weights(channel, solver, threads);
+class leave_one_out_approximations {
+ public:
+  /// Throws gonio::error if fewer than two materials take part.
+  leave_one_out_approximations(measured<Metric> materials, const Solver& solver, thread_count threads)
+      : materials_(std::move(materials)), solver_(solver), threads_(threads) {
+    if (materials_.columns().size() < 2)
+      throw error("correction functions need at least two materials: each is explained by the others");
+    const auto count = static_cast<Eigen::Index>(materials_.size());
+    std::vector<Eigen::Index> all(materials_.size());
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
+    for (std::size_t c = 0; c < 3; ++c) {
+      weights_[c] = Eigen::MatrixXf::Zero(count, count);
+      approximate(c, all);
+    }
+    outdated_.fill(all);
+  }
+
+  [[nodiscard]] const measured<Metric>& materials() const noexcept { return materials_; }
+
+  /// The approximations without the materials of these names. One that made no use of them stays as it is.
+  [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
+    leave_one_out_approximations fewer(*this);
+    fewer.materials_ = materials_.without(excluded);
+    if (fewer.materials_.columns().size() < 2)
+      throw error("correction functions need at least two materials: all others are left out");
+    for (std::size_t c = 0; c < 3; ++c) {
+      fewer.outdated_[c].clear();
+      for (const Eigen::Index i : fewer.materials_.columns())
+        if (std::ranges::any_of(materials_.columns(), [&](Eigen::Index other) {
+              return weights_[c](other, i) != 0.0f && !std::ranges::binary_search(fewer.materials_.columns(), other);
+            }))
+          fewer.outdated_[c].push_back(i);
+      fewer.approximate(c, fewer.outdated_[c]);
+    }
+    return fewer;
+  }
+
+  /// Writes the factors of the approximations that were made last into their columns of cells x 3 `functions`.
+  void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      auto channel = tables.middleCols(static_cast<Eigen::Index>(c) * functions, functions);
+      if (outdated_[c].size() == materials_.size())  // no need to look columns up one by one
+        write_columns(c, Eigen::seqN(Eigen::Index{0}, weights_[c].cols()), factor, channel);
+      else
+        write_columns(c, outdated_[c], factor, channel);
+    }
+  }
+
+  [[nodiscard]] thread_count threads() const noexcept { return threads_; }
+
+ private:
+  template <class Columns, class Channel>
+  void write_columns(std::size_t c, const Columns& columns, const correction_factor& factor, Channel& out) const {
+    using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const auto channel = materials_.channel(c);
+    const Eigen::MatrixXf weights = weights_[c](Eigen::all, columns);
     for_each_block(
-        materials.cells().size(), 512,
+        materials_.cells().size(), 128,
         [&](block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
           const auto mapped = channel.values().middleRows(begin, rows);
-          values approximation(rows, count), truth(rows, count);
+          values approximation(rows, weights.cols()), truth = mapped(Eigen::all, columns);
           approximation.matrix().noalias() = mapped * weights;
-          for (Eigen::Index j = 0; j < count; ++j) truth.col(j) = mapped.col(columns[static_cast<std::size_t>(j)]);
-          unmap_at_cells(materials.metric(), materials.cells(), range.begin, approximation);
-          unmap_at_cells(materials.metric(), materials.cells(), range.begin, truth);
-          auto out = tables.block(begin, static_cast<Eigen::Index>(c) * functions, rows, functions);
-          out.leftCols(count) = rule.factor.quotient(truth, approximation);
-          out.rightCols(functions - count).setOnes();
+          unmap_at_cells(materials_.metric(), materials_.cells(), range.begin, approximation);
+          unmap_at_cells(materials_.metric(), materials_.cells(), range.begin, truth);
+          truth = factor.quotient(truth, approximation).eval();
+          out.middleRows(begin, rows)(Eigen::all, columns) = truth.matrix();
         },
-        threads);
+        threads_);
   }
-  return tables;
-}
 
-/// Names of the materials that take part.
-template <error_metric Metric>
-[[nodiscard]] std::vector<std::string> names_of(const measured<Metric>& materials) {
-  std::vector<std::string> names;
-  for (const Eigen::Index column : materials.columns())
-    names.push_back(materials.names()[static_cast<std::size_t>(column)]);
-  return names;
-}
+  void approximate(std::size_t channel, const std::vector<Eigen::Index>& targets) {
+    const Eigen::MatrixXd& products = materials_.channel(channel).products(threads_);
+    for_each_block(
+        targets.size(), 1,
+        [&](block one) {
+          const Eigen::Index target = targets[one.begin];
+          std::vector<Eigen::Index> others = columns_of(materials_);
+          std::erase(others, target);
+          const solution found = solver_.solve(leave_one_out(products, target, others));
+          weights_[channel].col(target) =
+              spread(found, others, weights_[channel].rows()).weights.template cast<float>();
+        },
+        threads_);
+  }
+
+  measured<Metric> materials_;
+  Solver solver_;
+  thread_count threads_;
+  std::array<Eigen::MatrixXf, 3> weights_;             // column i explains material i
+  std::array<std::vector<Eigen::Index>, 3> outdated_;  // columns that were solved for last
+};
 
 }  // namespace detail
 
 /// Corrections C_i of the materials of a basis, one for each, and the constant function 1 as the last, with which an
 /// estimate that needs no correction is left as it is. Their metric is linear (Eq. 16).
 ///
-/// A material that the `measured` basis leaves out is in no correction's approximation either. `without` only takes its
-/// own correction away: the others may still have it in their approximations, which makes fits of that very material
-/// worse than they would be for a material that the database does not have (docs/robust-estimation.md).
+/// A material that is left out, of the `measured` basis or by `without`, takes no part in any correction: neither has
+/// it one of its own, nor is it in the approximation of another.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};
-/// const gonio::correction corrections{materials.without({"chrome"})};
+/// const gonio::correction corrections{materials};
+/// const auto fewer = corrections.without({"chrome"});
 /// ```
 class correction : public material_functions<lin> {
  public:
@@ -152,23 +191,53 @@ class correction : public material_functions<lin> {
   template <error_metric Metric, normal_solver Solver = nnls>
   explicit correction(const measured<Metric>& materials, const correction_rule& rule = {}, const Solver& solver = {},
                       thread_count threads = {})
-      : material_functions<lin>(detail::names_of(materials), materials.cells(), lin{},
-                                detail::correction_tables(materials, solver, rule, threads)),
-        rule_(rule) {}
+      : correction(detail::leave_one_out_approximations<Metric, Solver>(materials, solver, threads), rule, nullptr) {}
 
   /// How the corrections were made, and how they are to be applied.
   [[nodiscard]] const correction_rule& rule() const noexcept { return rule_; }
 
-  /// The same basis in which the corrections of the materials of these names take no part. Nothing is copied. Throws
-  /// gonio::error for a name that there is not, or if none is left.
-  [[nodiscard]] correction without(const std::vector<std::string>& excluded) const {
-    correction fewer(*this);
-    fewer.leave_out(excluded);
-    return fewer;
-  }
+  /// The corrections without the materials of these names. Those whose approximations made use of one of them are made
+  /// anew, which costs as much as making as many corrections, and all are copied. Throws gonio::error for a name that
+  /// there is not, or if fewer than two materials are left.
+  [[nodiscard]] correction without(const std::vector<std::string>& excluded) const { return without_(*this, excluded); }
 
  private:
+  /// From approximations of which the outdated ones are computed, and the others taken from `known`, if any.
+  template <class Approximations>
+  correction(Approximations approximations, const correction_rule& rule, const correction* known)
+      : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},
+                                tables(approximations, rule, known)),
+        rule_(rule) {
+    leave_out(approximations.materials().left_out());
+    without_ = [shared = std::make_shared<const Approximations>(std::move(approximations))](
+                   const correction& all, const std::vector<std::string>& excluded) {
+      return correction(shared->without(excluded), all.rule_, &all);
+    };
+  }
+
+  template <class Approximations>
+  [[nodiscard]] static cell_matrix tables(const Approximations& approximations, const correction_rule& rule,
+                                          const correction* known) {
+    const auto& materials = approximations.materials();
+    const auto functions = static_cast<Eigen::Index>(materials.size()) + (rule.has_constant ? 1 : 0);
+    cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * functions);
+    for_each_block(
+        materials.cells().size(), 1024,
+        [&](block range) {
+          const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
+          if (known)
+            tables.middleRows(begin, rows) = known->mapped().middleRows(begin, rows);
+          else
+            tables.middleRows(begin, rows).setOnes();
+        },
+        approximations.threads());
+    approximations.write_factors(rule.factor, tables, functions);
+    return tables;
+  }
+
   correction_rule rule_;
+  /// Remembers the materials and their approximations, of whatever metric.
+  std::function<correction(const correction&, const std::vector<std::string>&)> without_;
 };
 
 static_assert(channelwise_basis<correction>);

@@ -7,7 +7,9 @@
 #include <gonio/table/material_set.hpp>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <mutex>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -15,19 +17,31 @@
 
 namespace gonio {
 
+namespace detail {
+
+/// A Gram matrix that is computed when it is first asked for.
+struct gram_on_demand {
+  std::once_flag made;
+  Eigen::MatrixXd matrix;
+};
+
+}  // namespace detail
+
 /// One colour channel of functions that belong to materials: function i is that of material i.
 template <error_metric Metric>
 class material_channel {
  public:
   /// A view of `count` columns of mapped tables from `first` on, of which `columns` take part.
   material_channel(std::shared_ptr<const cell_matrix> mapped, Eigen::Index first, Eigen::Index count, valid_cells cells,
-                   Metric metric, std::shared_ptr<const std::vector<Eigen::Index>> columns)
+                   Metric metric, std::shared_ptr<const std::vector<Eigen::Index>> columns,
+                   std::shared_ptr<detail::gram_on_demand> gram)
       : mapped_(std::move(mapped)),
         first_(first),
         count_(count),
         cells_(std::move(cells)),
         metric_(std::move(metric)),
-        columns_(std::move(columns)) {}
+        columns_(std::move(columns)),
+        gram_(std::move(gram)) {}
 
   /// Number of functions, those of materials left out included.
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(count_); }
@@ -44,8 +58,12 @@ class material_channel {
   [[nodiscard]] auto values() const { return mapped_->middleCols(first_, count_); }
 
   /// The Gram matrix of all functions over all cells, those of materials left out included: with it, problems that
-  /// leave materials out or explain one by the others (`leave_one_out`) need no data. O(cells size^2).
-  [[nodiscard]] Eigen::MatrixXd products(thread_count threads = {}) const { return gram(values(), threads); }
+  /// leave materials out or explain one by the others (`leave_one_out`) need no data. O(cells size^2) when it is first
+  /// asked for; all copies of the functions, whatever they leave out, remember it.
+  [[nodiscard]] const Eigen::MatrixXd& products(thread_count threads = {}) const {
+    std::call_once(gram_->made, [&] { gram_->matrix = gram(values(), threads); });
+    return gram_->matrix;
+  }
 
  private:
   std::shared_ptr<const cell_matrix> mapped_;
@@ -53,6 +71,7 @@ class material_channel {
   valid_cells cells_;
   Metric metric_;
   std::shared_ptr<const std::vector<Eigen::Index>> columns_;
+  std::shared_ptr<detail::gram_on_demand> gram_;
 };
 
 /// Functions over the valid cells of a grid, the same number for each colour channel. The first ones belong to named
@@ -75,6 +94,7 @@ class material_functions {
     std::vector<Eigen::Index> all(size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
     columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(all));
+    for (auto& gram : grams_) gram = std::make_shared<detail::gram_on_demand>();
   }
 
   /// Number of functions, those of materials left out included.
@@ -85,12 +105,23 @@ class material_functions {
   /// The functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
+  /// The names of the materials that take no part.
+  [[nodiscard]] std::vector<std::string> left_out() const {
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < names_->size(); ++i)
+      if (!std::ranges::binary_search(*columns_, static_cast<Eigen::Index>(i))) found.push_back((*names_)[i]);
+    return found;
+  }
+
   [[nodiscard]] material_channel<Metric> channel(std::size_t index) const {
     const auto count = static_cast<Eigen::Index>(size());
-    return {mapped_, static_cast<Eigen::Index>(index) * count, count, cells_, metric_, columns_};
+    return {mapped_, static_cast<Eigen::Index>(index) * count, count, cells_, metric_, columns_, grams_[index]};
   }
 
  protected:
+  /// All functions of all channels: cells x 3 size.
+  [[nodiscard]] const cell_matrix& mapped() const noexcept { return *mapped_; }
+
   /// The functions of these materials take no part any more. Nothing is copied. Throws gonio::error for a name that
   /// there is not, or if no material is left.
   void leave_out(const std::vector<std::string>& excluded) {
@@ -114,6 +145,7 @@ class material_functions {
   Metric metric_;
   std::shared_ptr<const cell_matrix> mapped_;
   std::shared_ptr<const std::vector<Eigen::Index>> columns_;
+  std::array<std::shared_ptr<detail::gram_on_demand>, 3> grams_;
 };
 
 }  // namespace gonio

@@ -8,7 +8,6 @@
 #include <gonio/estimate/sampled_functions.hpp>
 
 #include <cmath>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,7 +24,7 @@ struct correction_limits {
 };
 
 /// The iteration as an object that steps. Its rows are read where the basis has them; a round costs O(samples k^2) for
-/// k functions, and O(samples k) where the weights do not depend on the estimate.
+/// k functions, and O(samples k) if the weights are those of the round before.
 ///
 /// ```cpp
 /// gonio::correction_run run{initial, corrections, gonio::locate_samples(corrections.cells(), samples)};
@@ -44,6 +43,7 @@ class correction_run {
         solver_(std::move(solver)),
         limits_(limits),
         threads_(threads),
+        places_(samples.at),
         functions_(corrections_, samples.at, threads),
         measured_(samples.values.transpose().array().template cast<float>()),
         confidence_(samples.weights.array().template cast<float>()),
@@ -55,10 +55,25 @@ class correction_run {
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
   /// One round with the weights of the weighting (Eq. 13).
-  correction_round step() { return step(weighting_.weigh(measured_, estimated()), has_fixed_weights<Weighting>); }
+  correction_round step() { return step(weighting_.weigh(measured_, estimated())); }
 
-  /// One round with given outlier weights.
-  correction_round step(const channel_values& trust) { return step(trust, false); }
+  /// One round with given outlier weights. As long as they stay the same, only the right-hand sides of the normal
+  /// equations are new (Eq. 9-10 with Eq. 16).
+  correction_round step(const channel_values& trust) {
+    const channel_values sigma = factor().quotient(measured_, estimated());
+    const channel_values weights = trust.rowwise() * confidence_.transpose();
+    if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
+      assemble(weights, sigma);
+    else
+      moments_ = functions_.moments(weights, sigma);
+    Eigen::MatrixXd beta(functions_.unknowns(), 3);
+    for (std::size_t c = 0; c < 3; ++c) beta.col(static_cast<Eigen::Index>(c)) = solve(c);
+    const channel_values found = functions_.apply(beta);
+    total_ = (total_ * found).min(correction_factor::largest_factor);
+    weights_.push_back(std::move(beta));
+    history_.push_back(describe(trust, weights, sigma, found));
+    return history_.back();
+  }
 
   /// Is the last correction 1 almost everywhere, or the number of rounds reached?
   [[nodiscard]] bool converged() const noexcept {
@@ -68,6 +83,15 @@ class correction_run {
 
   [[nodiscard]] const std::vector<correction_round>& history() const noexcept { return history_; }
 
+  /// The estimate of another run, after its rounds so far, at the samples of this one.
+  [[nodiscard]] channel_values estimated_by(const correction_run& other) const {
+    const channel_values started = values_at(other.initial_, corrections_.cells(), places_, threads_);
+    channel_values total = channel_values::Ones(3, started.cols());
+    for (const Eigen::MatrixXd& beta : other.weights_)
+      total = (total * functions_.apply(beta)).min(correction_factor::largest_factor);
+    return factor().correct(started, total);
+  }
+
   /// The estimate after the rounds so far. O(cells k rounds).
   [[nodiscard]] corrected_brdf<Initial> result() const {
     return {initial_, total_correction(), factor(), weights_, history_};
@@ -76,50 +100,26 @@ class correction_run {
  private:
   [[nodiscard]] const correction_factor& factor() const noexcept { return corrections_.rule().factor; }
 
-  correction_round step(const channel_values& trust, bool fixed) {
-    const channel_values sigma = factor().quotient(measured_, estimated());
-    const channel_values weights = trust.rowwise() * confidence_.transpose();
-    Eigen::MatrixXd beta(functions_.unknowns(), 3);
-    channel_values found(3, sigma.cols());
+  void assemble(const channel_values& weights, const channel_values& sigma) {
+    moments_.resize(functions_.unknowns(), 3);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto row = static_cast<Eigen::Index>(c);
-      beta.col(row) = solve(c, weights.row(row), sigma.row(row), fixed);
-      found.row(row) = functions_.apply(c, beta.col(row)).transpose();
+      const auto channel = static_cast<Eigen::Index>(c);
+      const normal_equations normal = functions_.normal(c, weights.row(channel), sigma.row(channel));
+      grams_[c] = normal.gram();
+      moments_.col(channel) = normal.moment();
     }
-    total_ = (total_ * found).min(correction_factor::largest_factor);
-    weights_.push_back(std::move(beta));
-    history_.push_back(describe(trust, weights, sigma, found));
-    return history_.back();
+    gram_weights_ = weights;
   }
 
-  /// Eq. 9-10 with Eq. 16. With fixed weights only the moments change from round to round.
-  template <class Row>
-  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel, const Row& weights, const Row& sigma, bool fixed) {
-    if (fixed && fixed_gram_[channel])
-      return solve_over_columns({*fixed_gram_[channel], moment(channel, weights, sigma)});
-    const normal_equations all = with_inertia(functions_.normal(channel, weights, sigma));
-    if (fixed) fixed_gram_[channel] = all.gram();
-    return solve_over_columns(all);
-  }
-
-  template <class Row>
-  [[nodiscard]] Eigen::VectorXd moment(std::size_t channel, const Row& weights, const Row& sigma) const {
-    Eigen::VectorXd sum = functions_.moment(channel, weights, sigma);
-    if (corrections_.rule().has_constant) sum[functions_.unknowns() - 1] += limits_.inertia;
-    return sum;
-  }
-
-  [[nodiscard]] Eigen::VectorXd solve_over_columns(const normal_equations& all) const {
+  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel) const {
+    Eigen::MatrixXd gram = grams_[channel], moment = moments_.col(static_cast<Eigen::Index>(channel));
+    if (corrections_.rule().has_constant) {
+      gram.diagonal().array() += limits_.inertia;
+      moment(moment.rows() - 1, 0) += limits_.inertia;
+    }
     const std::vector<Eigen::Index>& columns = functions_.columns();
-    return spread(solver_.solve(all.subset(columns)), columns, functions_.unknowns()).weights.col(0);
-  }
-
-  [[nodiscard]] normal_equations with_inertia(const normal_equations& normal) const {
-    if (!corrections_.rule().has_constant || limits_.inertia == 0.0) return normal;
-    Eigen::MatrixXd gram = normal.gram(), moment = normal.moment();
-    gram.diagonal().array() += limits_.inertia;
-    moment(moment.rows() - 1, 0) += limits_.inertia;
-    return {std::move(gram), std::move(moment), normal.energy().array() + limits_.inertia};
+    const normal_equations normal{std::move(gram), std::move(moment)};
+    return spread(solver_.solve(normal.subset(columns)), columns, functions_.unknowns()).weights.col(0);
   }
 
   [[nodiscard]] static correction_round describe(const channel_values& trust, const channel_values& weights,
@@ -143,12 +143,13 @@ class correction_run {
           corrections_.cells().size(), 1024,
           [&](block range) {
             const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-            const Eigen::MatrixXf sigmas = channel.values().middleRows(begin, count) * betas;
-            Eigen::ArrayXf product = Eigen::ArrayXf::Ones(count);
-            for (Eigen::Index round = 0; round < sigmas.cols(); ++round)
-              product = (product * sigmas.col(round).array()).min(correction_factor::largest_factor);
-            for (Eigen::Index i = 0; i < count; ++i)
-              total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = product[i];
+            const cell_matrix sigmas = channel.values().middleRows(begin, count) * betas;
+            for (Eigen::Index i = 0; i < count; ++i) {
+              float product = 1.0f;
+              for (const float sigma : sigmas.row(i))
+                product = std::min(product * sigma, correction_factor::largest_factor);
+              total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = product;
+            }
           },
           threads_);
     }
@@ -161,11 +162,14 @@ class correction_run {
   Solver solver_;
   correction_limits limits_;
   thread_count threads_;
+  std::vector<location> places_;
   sampled_functions<correction> functions_;
   channel_values measured_;
   Eigen::ArrayXf confidence_;
   channel_values started_, total_;
-  std::array<std::optional<Eigen::MatrixXd>, 3> fixed_gram_;
+  channel_values gram_weights_;  // for which these were built:
+  std::array<Eigen::MatrixXd, 3> grams_;
+  Eigen::MatrixXd moments_;
   std::vector<Eigen::MatrixXd> weights_;
   std::vector<correction_round> history_;
 };

@@ -47,9 +47,14 @@ class fitted_brdf {
   /// Reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
-    const location at = locate(basis_.cells(), to_half_difference(wi, wo));
-    return reflectance(mapped_at(at), at);
+    return at(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
+
+  /// The cells that places for `at` are on.
+  [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
+
+  /// Reflectance in sr^-1 at a place on the basis' cells, at least zero.
+  [[nodiscard]] rgb at(const location& place) const noexcept { return reflectance(mapped_at(place), place); }
 
   /// The value at a cell of the basis in the metric's domain.
   [[nodiscard]] rgb mapped(std::size_t cell) const noexcept {

@@ -42,13 +42,13 @@ struct located_samples {
 /// float, or if all weights are zero. O(samples).
 template <sample_range Samples>
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const Samples& samples,
-                                             thread_count /*threads*/ = {}) {
+                                             thread_count threads = {}) {
   require_usable(samples);
   Eigen::Index count = 0;
   for (const sample& s : samples) count += s.weight > 0.0 ? 1 : 0;
   if (count == 0) throw error("all samples have weight zero: nothing is known");
-  located_samples found{{}, Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
-  found.at.reserve(static_cast<std::size_t>(count));
+  located_samples found{std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3),
+                        Eigen::VectorXd(count)};
   Eigen::Index i = 0;
   std::size_t number = 0;
   for (const sample& s : samples) {
@@ -56,10 +56,17 @@ template <sample_range Samples>
     if (!(s.weight > 0.0)) continue;
     if (!s.value.cast<float>().isFinite().all())
       throw error("sample " + std::to_string(number) + ": a reflectance is beyond the range of float");
-    found.at.push_back(locate(cells, s.angles));
+    found.at[static_cast<std::size_t>(i)].angles = s.angles;
     found.values.row(i) = s.value.matrix().transpose();
     found.weights[i++] = s.weight;
   }
+  for_each_block(
+      found.size(), 1024,
+      [&](block range) {
+        for (std::size_t place = range.begin; place < range.end; ++place)
+          found.at[place] = locate(cells, found.at[place].angles);
+      },
+      threads);
   return found;
 }
 
@@ -87,28 +94,34 @@ template <sample_range Samples>
 /// One value for each colour channel of each sample: 3 x n.
 using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 
-/// An estimate at given places on `cells`: read from its table where they are cells, otherwise evaluated.
+/// An estimate at given places on `cells`: by its own `at` if it has these cells, else read from its table where places
+/// are cells and there are many, otherwise evaluated.
 template <tabulated_brdf Fit>
 [[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& places,
                                        thread_count threads = {}) {
+  const auto collect = [&](auto&& value_at) {
+    channel_values values(3, std::ssize(places));
+    for_each_block(
+        places.size(), 256,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>();
+        },
+        threads);
+    return values;
+  };
+  if constexpr (requires { fit.at(places[0]); })
+    if (fit.cells() == cells) return collect([&](const location& at) { return fit.at(at); });
   // A table takes as long as some thousand evaluations.
   constexpr std::ptrdiff_t worth_a_table = 4096;
   std::optional<brdf_table> table;
   if (std::ranges::count_if(places, [](const location& at) { return at.count == 1; }) > worth_a_table)
     table = fit.tabulate(cells, threads);
-  channel_values values(3, std::ssize(places));
-  for_each_block(
-      places.size(), 256,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const location& at = places[i];
-          const auto [wi, wo] = to_directions(at.angles);
-          const rgb value = table && at.count == 1 ? table->at(std::size_t{at.cell[0]}) : rgb(fit(wi, wo));
-          values.col(static_cast<Eigen::Index>(i)) = value.cast<float>();
-        }
-      },
-      threads);
-  return values;
+  return collect([&](const location& at) {
+    if (table && at.count == 1) return rgb(table->at(std::size_t{at.cell[0]}));
+    const auto [wi, wo] = to_directions(at.angles);
+    return rgb(fit(wi, wo));
+  });
 }
 
 }  // namespace gonio

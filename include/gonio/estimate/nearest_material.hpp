@@ -35,8 +35,8 @@ struct scaled_likelihood {
 
 /// Expectation-maximisation of an `outlier_mixture` whose centre is unknown: `differences` are the logarithms of
 /// measurements less those of a material.
-[[nodiscard]] inline scaled_likelihood locate_mixture(const std::vector<double>& differences,
-                                                      const std::vector<double>& outliers, double start) {
+[[nodiscard]] inline scaled_likelihood locate_mixture(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& outliers,
+                                                      double start) {
   constexpr int steps = 8;
   constexpr double smallest_scale = 0.02;
   constexpr double nu = outlier_mixture::degrees_of_freedom;
@@ -44,32 +44,26 @@ struct scaled_likelihood {
   outlier_mixture mixture{0.5, 0.3};
   scaled_likelihood found{start};
   for (int step = 0; step < steps; ++step) {
-    double likelihood = 0.0, good = 0.0, weight = 0.0, first = 0.0, second = 0.0;
-    for (std::size_t i = 0; i < differences.size(); ++i) {
-      const double residual = differences[i] - found.logarithm_of_factor;
-      const double density = mixture.good_share * mixture.good_density(residual);
-      const double all = density + (1.0 - mixture.good_share) * outliers[i];
-      const double share = density / all, on_tail = share * mixture.tail_weight(residual);
-      likelihood += std::log(all);
-      good += share;
-      weight += on_tail;
-      first += on_tail * differences[i];
-      second += (nu + 1.0) / nu * on_tail * residual * residual;
-    }
-    found = {weight > 0.0 ? first / weight : start, likelihood};
-    mixture = {std::clamp(good / n, 0.05, 0.99), std::max(std::sqrt(second / std::max(good, 1e-9)), smallest_scale)};
+    const Eigen::ArrayXd residuals = differences - found.logarithm_of_factor;
+    const Eigen::ArrayXd density = mixture.good_share * mixture.good_density(residuals);
+    const Eigen::ArrayXd all = density + (1.0 - mixture.good_share) * outliers;
+    const Eigen::ArrayXd shares = density / all, on_tail = shares * mixture.tail_weight(residuals);
+    const double good = shares.sum(), weight = on_tail.sum();
+    const double squares = (nu + 1.0) / nu * (on_tail * residuals.square()).sum();
+    found.logarithm_of_factor = weight > 0.0 ? (on_tail * differences).sum() / weight : start;
+    if (step + 1 == steps) found.log_likelihood = all.log().sum();
+    mixture = {std::clamp(good / n, 0.05, 0.99), std::max(std::sqrt(squares / std::max(good, 1e-9)), smallest_scale)};
   }
   return found;
 }
 
 /// The best of several starts, for the mode of the differences may be anywhere.
-[[nodiscard]] inline scaled_likelihood best_factor(const std::vector<double>& differences,
-                                                   const std::vector<double>& outliers) {
-  std::vector<double> sorted = differences;
-  std::ranges::sort(sorted);
+[[nodiscard]] inline scaled_likelihood best_factor(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& outliers) {
+  Eigen::ArrayXd sorted = differences;
+  std::sort(sorted.begin(), sorted.end());
   scaled_likelihood best;
   for (const double share : {0.2, 0.35, 0.5, 0.65, 0.8}) {
-    const auto position = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+    const auto position = static_cast<Eigen::Index>(share * static_cast<double>(sorted.size() - 1));
     const scaled_likelihood found = locate_mixture(differences, outliers, sorted[position]);
     if (found.log_likelihood > best.log_likelihood) best = found;
   }
@@ -141,12 +135,13 @@ class nearest_material {
   [[nodiscard]] scaled_material choose(const located_samples& samples, const std::vector<std::size_t>& some,
                                        std::size_t channel) const {
     const auto column = static_cast<Eigen::Index>(channel);
-    std::vector<double> logarithms, outliers;
+    std::vector<double> logarithms;
     const double offset = logarithm_offset(samples.values.col(column));
     for (const std::size_t i : some)
       logarithms.push_back(std::log(std::max(samples.values(static_cast<Eigen::Index>(i), column), 0.0) + offset));
     const outlier_density density(logarithms);
-    for (const double value : logarithms) outliers.push_back(density(value));
+    Eigen::ArrayXd outliers(std::ssize(some));
+    std::ranges::transform(logarithms, outliers.data(), density);
 
     const auto functions = materials_.channel(channel);
     const std::vector<Eigen::Index> columns = columns_of(materials_);
@@ -155,9 +150,10 @@ class nearest_material {
         columns.size(), 1,
         [&](block one) {
           const auto material = static_cast<std::size_t>(columns[one.begin]);
-          std::vector<double> differences(some.size());
+          Eigen::ArrayXd differences(std::ssize(some));
           for (std::size_t i = 0; i < some.size(); ++i)
-            differences[i] = logarithms[i] - std::log(reflectance(functions, material, samples.at[some[i]]) + offset);
+            differences[static_cast<Eigen::Index>(i)] =
+                logarithms[i] - std::log(reflectance(functions, material, samples.at[some[i]]) + offset);
           found[one.begin] = detail::best_factor(differences, outliers);
         },
         threads_);

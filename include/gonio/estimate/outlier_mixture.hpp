@@ -67,7 +67,7 @@ inline outlier_density::outlier_density(const std::vector<double>& logarithms) :
 }
 
 /// Good residuals are `scale` times a variable of Student's t with 4 degrees of freedom, whose tails let the fit be
-/// wrong somewhere; all others are outliers.
+/// wrong somewhere; all others are outliers. Residuals and what is known of them are numbers, or arrays of them.
 struct outlier_mixture {
   double good_share = 0.8;
   double scale = 0.3;  ///< of the logarithm of reflectance
@@ -75,21 +75,25 @@ struct outlier_mixture {
   static constexpr double degrees_of_freedom = 4.0;
 
   /// The density of a good residual.
-  [[nodiscard]] double good_density(double residual) const noexcept {
-    const double z = residual / scale, tail = 1.0 + z * z / degrees_of_freedom;
-    return 0.375 / (scale * tail * tail * std::sqrt(tail));
+  template <class Number>
+  [[nodiscard]] Number good_density(const Number& residual) const {
+    using std::sqrt;
+    const Number tail = tail_weight(residual);
+    return (0.375 / scale) * (tail * tail * sqrt(tail));
   }
 
   /// The probability that a measurement is good, given its residual and the density of outliers there.
-  [[nodiscard]] double probability(double residual, double outliers) const noexcept {
-    const double good = good_share * good_density(residual);
+  template <class Number>
+  [[nodiscard]] Number probability(const Number& residual, const Number& outliers) const {
+    const Number good = good_share * good_density(residual);
     return good / (good + (1.0 - good_share) * outliers);
   }
 
   /// What a good measurement counts in a fit: less the farther it is out on the tail.
-  [[nodiscard]] double tail_weight(double residual) const noexcept {
-    const double z = residual / scale;
-    return degrees_of_freedom / (degrees_of_freedom + z * z);
+  template <class Number>
+  [[nodiscard]] Number tail_weight(const Number& residual) const {
+    const Number z = residual / scale;
+    return 1.0 / (1.0 + z * z / degrees_of_freedom);
   }
 };
 
@@ -99,15 +103,14 @@ struct outlier_mixture {
                                                       const std::vector<double>& outliers, outlier_mixture start = {}) {
   constexpr double smallest_scale = 0.01;  // a percent: no basis is better, and zero would be certain of everything
   constexpr double nu = outlier_mixture::degrees_of_freedom;
+  const Eigen::ArrayXd all = Eigen::ArrayXd::Map(residuals.data(), std::ssize(residuals));
+  const Eigen::ArrayXd densities = Eigen::ArrayXd::Map(outliers.data(), std::ssize(outliers));
   outlier_mixture now = start;
   for (int step = 0; step < 50; ++step) {
-    double good = 0.0, squares = 0.0;
-    for (std::size_t i = 0; i < residuals.size(); ++i) {
-      const double share = now.probability(residuals[i], outliers[i]);
-      good += share;
-      squares += share * (nu + 1.0) / nu * now.tail_weight(residuals[i]) * residuals[i] * residuals[i];
-    }
-    const outlier_mixture next{std::clamp(good / static_cast<double>(residuals.size()), 0.02, 0.999),
+    const Eigen::ArrayXd shares = now.probability(all, densities);
+    const double good = shares.sum();
+    const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
+    const outlier_mixture next{std::clamp(good / static_cast<double>(all.size()), 0.02, 0.999),
                                std::max(std::sqrt(squares / good), smallest_scale)};
     const bool settled =
         std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
@@ -135,14 +138,11 @@ struct automatic_weights {
     const deviations found = deviate(measured, estimated);
     const outlier_density density(subset(found.logarithm));
     const outlier_mixture mixture = estimate_from(found, density);
-    channel_values weights(3, measured.cols());
-    for (Eigen::Index i = 0; i < weights.cols(); ++i) {
-      const double residual = found.residual[i];
-      double weight = mixture.probability(residual, density(found.logarithm[i]));
-      if (down_weight_tail) weight *= mixture.tail_weight(residual);
-      weights.col(i).setConstant(static_cast<float>(weight));
-    }
-    return weights;
+    const Eigen::ArrayXd residual = found.residual.cast<double>();
+    const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
+    Eigen::ArrayXd weights = mixture.probability(residual, outliers);
+    if (down_weight_tail) weights *= mixture.tail_weight(residual);
+    return weights.cast<float>().transpose().replicate<3, 1>();
   }
 
   /// The share of good samples and the scale of their residuals.

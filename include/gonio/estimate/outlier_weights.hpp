@@ -14,12 +14,11 @@ namespace gonio {
 ///
 /// What the compiler cannot check, and a model must keep: `weigh` returns one number from 0 to 1 for each channel of
 /// each sample; estimates are at least zero, measurements may be negative, both are finite; the order of the samples
-/// does not matter but for rounding; all members are const and thread safe. Weights that do not depend on the estimate
-/// say so, `static constexpr bool fixed = true;`, and their normal equations are built once.
+/// does not matter but for rounding; all members are const and thread safe. While weights stay the same from round to
+/// round, an iteration builds its normal equations once.
 ///
 /// ```cpp
 /// struct trust_all {
-///   static constexpr bool fixed = true;
 ///   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values&) const {
 ///     return gonio::channel_values::Ones(3, measured.cols());
 ///   }
@@ -33,8 +32,6 @@ concept outlier_weighting = requires(const Weighting& weighting, const channel_v
 
 /// Every measurement counts in full: gamma = 0.
 struct trust_all {
-  static constexpr bool fixed = true;
-
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& /*estimated*/) const {
     return channel_values::Ones(3, measured.cols());
   }
@@ -92,11 +89,5 @@ struct tukey_weights {
 };
 
 static_assert(outlier_weighting<tukey_weights>);
-
-/// Are weights the same whatever the estimate?
-template <class Weighting>
-inline constexpr bool has_fixed_weights = requires {
-  requires bool(Weighting::fixed);
-};
 
 }  // namespace gonio

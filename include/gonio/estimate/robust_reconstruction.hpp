@@ -44,16 +44,12 @@ class reweighted_combination {
 
   /// The combination's reflectance at the samples.
   [[nodiscard]] channel_values values(const solution& found) const {
-    channel_values result(3, mapped_.cols());
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto row = static_cast<Eigen::Index>(c);
-      const Eigen::ArrayXf mapped = functions_.apply(c, found.weights.col(row));
-      for (Eigen::Index i = 0; i < mapped.size(); ++i)
-        result(row, i) =
-            static_cast<float>(std::clamp(materials_.metric().inverse(mapped[i], places_[static_cast<std::size_t>(i)]),
-                                          0.0, double{correction_factor::largest_estimate}));
-    }
-    return result;
+    channel_values values = functions_.apply(found.weights);
+    for (Eigen::Index i = 0; i < values.cols(); ++i)
+      for (float& value : values.col(i))
+        value = static_cast<float>(std::clamp(materials_.metric().inverse(value, places_[static_cast<std::size_t>(i)]),
+                                              0.0, double{correction_factor::largest_estimate}));
+    return values;
   }
 
   /// The factors that turn squared errors of the mapped reflectance into relative ones: the square of the slope of
@@ -84,8 +80,10 @@ class reweighted_combination {
 /// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
 /// al. 2015 and ten difficult ones (docs/robust-estimation.md).
 struct robust_start {
-  /// Samples that it looks at, chosen at random.
+  /// Samples that it looks at, chosen at random,
   std::size_t samples = 20'000;
+  /// and those that the final iteration looks at: more do not make a hundred unknowns any better known.
+  std::size_t most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
   /// Rounds of the final iteration that still trust as the start does.
@@ -134,6 +132,7 @@ template <error_metric Metric>
 class robust_reconstruction {
  public:
   using initial_type = fitted_brdf<measured<Metric>>;
+  using run_type = typename robust_run<Metric>::run_type;
 
   explicit robust_reconstruction(measured<Metric> materials, thread_count threads = {})
       : robust_reconstruction(materials, correction{materials, {}, nnls{}, threads}, {}, {}, threads) {}
@@ -155,10 +154,10 @@ class robust_reconstruction {
   template <class Samples>
   [[nodiscard]] robust_run<Metric> start(const Samples& samples) const {
     const located_samples all = locate_samples(corrections_.cells(), samples, threads_);
-    const auto [initial, guide] = begin(all);
-    correction_run run{initial, corrections_, all, automatic_weights{}, nnls{}, limits_, threads_};
-    const channel_values guided = values_at(guide, corrections_.cells(), all.at, threads_);
-    channel_values trust = automatic_weights{}.weigh(run.measured(), guided);
+    const located_samples used = some_of(all, start_.most_samples), few = some_of(used, start_.samples);
+    const auto [initial, guide] = begin(few);
+    run_type run{initial, corrections_, used, automatic_weights{}, nnls{}, limits_, threads_};
+    channel_values trust = automatic_weights{}.weigh(run.measured(), run.estimated_by(guide));
     return {std::move(run), std::move(trust), start_.trusting_rounds};
   }
 
@@ -173,12 +172,15 @@ class robust_reconstruction {
  private:
   struct beginning {
     initial_type initial;
-    corrected_brdf<initial_type> guide;  // knows which samples to trust
+    run_type guide;  // knows which samples to trust
   };
 
+  [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
+    return samples.subset(detail::some_of(samples.size(), count, start_.seed));
+  }
+
   /// Steps 1 to 3.
-  [[nodiscard]] beginning begin(const located_samples& all) const {
-    const located_samples some = all.subset(detail::some_of(all.size(), start_.samples, start_.seed));
+  [[nodiscard]] beginning begin(const located_samples& some) const {
     const automatic_weights weighting;
     const channel_values measured = some.values.transpose().array().template cast<float>();
     const Eigen::Array3f offsets = automatic_weights::offsets(measured);
@@ -191,12 +193,12 @@ class robust_reconstruction {
       found = combination.solve(weighting.weigh(measured, estimates) * combination.relative(estimates, offsets));
       estimates = combination.values(found);
     }
-    correction_run rough{initial_type{materials_, found}, corrections_, some, weighting, nnls{}, limits_, threads_};
+    run_type rough{initial_type{materials_, found}, corrections_, some, weighting, nnls{}, limits_, threads_};
     for (int i = 0; i < start_.corrections; ++i) rough.step();
 
     constexpr automatic_weights whole{.down_weight_tail = false};
     const solution again = combination.solve(whole.weigh(measured, rough.estimated()));
-    return {initial_type{materials_, again}, rough.result()};
+    return {initial_type{materials_, again}, std::move(rough)};
   }
 
   measured<Metric> materials_;

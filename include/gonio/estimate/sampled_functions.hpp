@@ -3,6 +3,7 @@
 /// rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/gram.hpp>
 #include <gonio/table/material_set.hpp>
 
@@ -42,17 +43,19 @@ class sampled_functions {
   [[nodiscard]] const std::vector<Eigen::Index>& columns() const noexcept { return columns_; }
 
   /// Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n floats.
-  /// Rows of weight zero cost nothing. Products are float, and sums of 128 of them are added in double, which is
-  /// harmless here (docs/solvers.md): 2 n k^2 operations at most.
+  /// Rows whose weight, times the value if that is above 1, is less than a millionth of the largest weight are taken
+  /// for rows of weight zero, which cost nothing. Products are float, and sums of 128 of them are added in double,
+  /// which is harmless here (docs/solvers.md): 2 n k^2 operations at most.
   template <class Weights, class Values>
   [[nodiscard]] normal_equations normal(std::size_t channel, const Weights& weights, const Values& values) const {
     using sum_type = detail::product_sum<float>;
+    const float least = size() > 0 ? 1e-6f * weights.maxCoeff() : 0.0f;
     const auto add_rows = [&](sum_type& sum, block range) {
       auto out = sum.rows(static_cast<Eigen::Index>(range.size()));
       Eigen::Index count = 0;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const auto sample = static_cast<Eigen::Index>(i);
-        if (!(weights[sample] > 0.0f)) continue;
+        if (!(weights[sample] > 0.0f) || weights[sample] * std::max(1.0f, std::abs(values[sample])) < least) continue;
         const float root = std::sqrt(weights[sample]);
         out.row(count).head(unknowns_) = root * row(channel, i);
         out(count++, unknowns_) = root * values[sample];
@@ -64,33 +67,37 @@ class sampled_functions {
     return {all.topLeftCorner(unknowns_, unknowns_), all.topRightCorner(unknowns_, 1), all.diagonal().tail(1)};
   }
 
-  /// m = A'Vb alone, where Q is known. Reads the rows once, which is what it costs.
-  template <class Weights, class Values>
-  [[nodiscard]] Eigen::VectorXd moment(std::size_t channel, const Weights& weights, const Values& values) const {
-    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(unknowns_);
+  /// m = A'Vb alone, k x 3 for the three channels, where Q is known; weights and values are 3 x n. Reads the rows once,
+  /// which is what it costs.
+  [[nodiscard]] Eigen::MatrixXd moments(const channel_values& weights, const channel_values& values) const {
+    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
     return sum_over_blocks(
         size(), 128, zero,
-        [&](Eigen::VectorXd& sum, block range) {
-          Eigen::VectorXf part = Eigen::VectorXf::Zero(unknowns_);
-          for (std::size_t i = range.begin; i < range.end; ++i) {
-            const auto sample = static_cast<Eigen::Index>(i);
-            if (!(weights[sample] > 0.0f)) continue;
-            part += (weights[sample] * values[sample]) * row(channel, i).transpose();
-          }
+        [&](Eigen::MatrixXd& sum, block range) {
+          Eigen::MatrixXf part = Eigen::MatrixXf::Zero(unknowns_, 3);
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            for (std::size_t c = 0; c < 3; ++c) {
+              const auto channel = static_cast<Eigen::Index>(c), sample = static_cast<Eigen::Index>(i);
+              if (!(weights(channel, sample) > 0.0f)) continue;
+              part.col(channel) += (weights(channel, sample) * values(channel, sample)) * row(c, i).transpose();
+            }
           sum += part.cast<double>();
         },
         threads_);
   }
 
-  /// A x at all places of one channel. Reads the rows once.
-  [[nodiscard]] Eigen::ArrayXf apply(std::size_t channel, const Eigen::VectorXd& x) const {
-    const Eigen::VectorXf weights = x.cast<float>();
-    Eigen::ArrayXf values(static_cast<Eigen::Index>(size()));
+  /// A x at all places, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
+  [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
+    const Eigen::MatrixXf weights = x.cast<float>();
+    channel_values values(3, static_cast<Eigen::Index>(size()));
     for_each_block(
-        size(), 4096,
+        size(), 1024,
         [&](block range) {
           for (std::size_t i = range.begin; i < range.end; ++i)
-            values[static_cast<Eigen::Index>(i)] = row(channel, i).dot(weights);
+            for (std::size_t c = 0; c < 3; ++c) {
+              const auto channel = static_cast<Eigen::Index>(c);
+              values(channel, static_cast<Eigen::Index>(i)) = row(c, i).dot(weights.col(channel));
+            }
         },
         threads_);
     return values;
