@@ -2,6 +2,7 @@
 
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/appearance.hpp>
@@ -16,6 +17,8 @@
 
 #include <charconv>
 #include <chrono>
+#include <map>
+#include <tuple>
 
 namespace cli {
 
@@ -59,22 +62,24 @@ class made_on_demand {
   std::optional<Value> value_;
 };
 
+/// Materials under a metric, and combinations of them at the cells of each share of the data and seed, which all
+/// materials are measured at.
 template <class Metric>
-using measured_under = made_on_demand<gonio::measured<Metric>>;
+struct combinations_under {
+  made_on_demand<gonio::measured<Metric>> materials;
+  std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
+};
 
 }  // namespace noell
 
 struct noell_experiment::parts {
-  template <class Metric>
-  using measured_under = noell::measured_under<Metric>;
-
   gonio::thread_count threads;
   gonio::material_set truths;
   gonio::appearance_judge judge;
   std::optional<gonio::sphere_judge> natural;
-  measured_under<gonio::lin> lin;
-  measured_under<gonio::root> root;
-  measured_under<gonio::log> log;
+  std::tuple<noell::combinations_under<gonio::lin>, noell::combinations_under<gonio::root>,
+             noell::combinations_under<gonio::log>>
+      combinations;
   /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
   struct correction_cache {
     noell::made_on_demand<gonio::correction> all, fewer;
@@ -82,15 +87,23 @@ struct noell_experiment::parts {
   };
   correction_cache corrections, printed_corrections;
 
-  const gonio::measured<gonio::lin>& materials(gonio::lin metric) {
-    return lin.get([&] { return gonio::measured{truths, metric, threads}; });
+  template <class Metric>
+  const gonio::measured<Metric>& materials(const Metric& metric) {
+    return std::get<noell::combinations_under<Metric>>(combinations).materials.get([&] {
+      return gonio::measured{truths, metric, threads};
+    });
   }
-  const gonio::measured<gonio::root>& materials(gonio::root metric) {
-    return root.get([&] { return gonio::measured{truths, metric, threads}; });
+
+  /// The non-negative combination of all other materials.
+  template <class Metric>
+  [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
+    const auto located = gonio::locate_samples(truths.cells, samples, threads);
+    auto& plans = std::get<noell::combinations_under<Metric>>(combinations).plans;
+    const auto plan =
+        plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.at, gonio::nnls{}, threads);
+    return plan.first->second.without({which.material}).fit(located.values.transpose().array().template cast<float>());
   }
-  const gonio::measured<gonio::log>& materials(gonio::log metric) {
-    return log.get([&] { return gonio::measured{truths, metric, threads}; });
-  }
+
   const gonio::correction& corrections_without(const std::string& material, bool printed) {
     correction_cache& cache = printed ? printed_corrections : corrections;
     if (material != cache.left_out) cache.fewer = {};
@@ -114,8 +127,7 @@ struct noell_experiment::parts {
     if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
 
     const auto others = materials(metric).without({which.material});
-    const gonio::decomposition combination{others, gonio::nnls{}, threads};
-    if (method.method == "lc") return tabulated(combination);
+    if (method.method == "lc") return combination(metric, which, samples).tabulate(truths.cells, threads);
     if (method.method == "our" || method.method == "our-start") {
       const gonio::correction_limits limits{.rounds = method.method == "our" ? 10 : 0};
       return tabulated(
@@ -125,10 +137,11 @@ struct noell_experiment::parts {
     const double gamma = printed ? gonio::noell_gamma(which.outlier_ratio) : method.gamma;
     const auto& functions = corrections_without(which.material, printed);
     const gonio::correction_limits limits{.smallest_change = 0.0, .inertia = printed ? 0.0 : 1.0};
+    const gonio::decomposition initial{others, gonio::nnls{}, threads};
     if (gamma == 0.0)
       return tabulated(
-          gonio::correction_iteration{combination, functions, gonio::trust_all{}, gonio::nnls{}, limits, threads});
-    return tabulated(gonio::correction_iteration{combination, functions, gonio::relative_deviation_weights{gamma},
+          gonio::correction_iteration{initial, functions, gonio::trust_all{}, gonio::nnls{}, limits, threads});
+    return tabulated(gonio::correction_iteration{initial, functions, gonio::relative_deviation_weights{gamma},
                                                  gonio::nnls{}, limits, threads});
   }
 
@@ -144,8 +157,7 @@ noell_experiment::noell_experiment(const std::filesystem::path& networks, const 
                                    gonio::thread_count threads, const gonio::progress& listener) {
   auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
   const gonio::valid_cells cells = truths.cells;
-  parts_.reset(
-      new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}, {}, {}});
+  parts_.reset(new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}});
   if (!environment.empty())
     parts_->natural.emplace(
         cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(environment))), 36,

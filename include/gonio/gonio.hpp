@@ -28,6 +28,7 @@
 #include <gonio/estimate/leave_one_out.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/nearest_material.hpp>
+#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/pull_push.hpp>

@@ -1,0 +1,100 @@
+#pragma once
+/// Combinations of measured materials (Noell, Koehler and Stricker 2014, Eq. 7-11) for many surfaces that are measured
+/// in the same directions: the normal equations' matrix depends on the directions alone and is built once.
+
+#include <gonio/basis/measured.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/solve/nnls.hpp>
+
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Fits measurements at places that are given beforehand, each of weight 1. What `decomposition` does for the same
+/// samples, up to float products in the matrix (docs/solvers.md); a fit then reads the materials at the places once.
+///
+/// ```cpp
+/// const auto plan = gonio::locate_samples(materials.cells(), first_surface).at;
+/// const gonio::planned_decomposition combination{materials, plan};
+/// const auto chrome = combination.without({"chrome"}).fit(measurements_of_chrome);
+/// ```
+template <error_metric Metric, normal_solver Solver = nnls>
+class planned_decomposition {
+ public:
+  /// `places` must be on the materials' cells. O(places materials^2).
+  planned_decomposition(measured<Metric> materials, std::vector<location> places, Solver solver = {},
+                        thread_count threads = {})
+      : materials_(std::move(materials)),
+        solver_(std::move(solver)),
+        threads_(threads),
+        plan_(std::make_shared<const plan>(materials_, std::move(places), threads)) {}
+
+  /// The same plan for combinations without these materials. Nothing is copied. Throws gonio::error for a name that
+  /// there is not, or if none is left.
+  [[nodiscard]] planned_decomposition without(const std::vector<std::string>& excluded) const {
+    planned_decomposition fewer(*this);
+    fewer.materials_ = materials_.without(excluded);
+    return fewer;
+  }
+
+  /// From reflectance in sr^-1 at the places, 3 x n. Throws gonio::error if there are not as many, or one is not
+  /// finite, or if the solver gives up. O(places materials).
+  [[nodiscard]] fitted_brdf<measured<Metric>> fit(const channel_values& values) const {
+    const auto count = std::ssize(plan_->places);
+    if (values.cols() != count)
+      throw error("there are " + std::to_string(values.cols()) + " measurements at " + std::to_string(count) +
+                  " planned places");
+    if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");
+    const channel_values right_hand_sides = mapped(values);
+    const Eigen::MatrixXd moments = plan_->functions.moments(channel_values::Ones(3, count), right_hand_sides);
+    const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();
+    const std::vector<Eigen::Index> columns = columns_of(materials_);
+    std::array<solution, 3> found;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto channel = static_cast<Eigen::Index>(c);
+      const normal_equations normal{plan_->grams[c], moments.col(channel), energies.segment<1>(channel)};
+      found[c] = solver_.solve(normal.subset(columns));
+    }
+    return {materials_, spread(side_by_side(found), columns, static_cast<Eigen::Index>(materials_.size()))};
+  }
+
+ private:
+  struct plan {
+    plan(const measured<Metric>& materials, std::vector<location> where, thread_count threads)
+        : places(std::move(where)), functions(materials, places, threads) {
+      const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(std::ssize(places));
+      for (std::size_t c = 0; c < 3; ++c) grams[c] = functions.normal(c, ones, ones).gram();
+    }
+
+    std::vector<location> places;
+    sampled_functions<measured<Metric>> functions;
+    std::array<Eigen::MatrixXd, 3> grams;
+  };
+
+  [[nodiscard]] channel_values mapped(const channel_values& values) const {
+    channel_values result(3, values.cols());
+    for_each_block(
+        plan_->places.size(), 1024,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            for (Eigen::Index c = 0; c < 3; ++c) {
+              const auto place = static_cast<Eigen::Index>(i);
+              result(c, place) =
+                  static_cast<float>(materials_.metric().forward(double{values(c, place)}, plan_->places[i]));
+            }
+        },
+        threads_);
+    return result;
+  }
+
+  measured<Metric> materials_;
+  Solver solver_;
+  thread_count threads_;
+  std::shared_ptr<const plan> plan_;
+};
+
+}  // namespace gonio
