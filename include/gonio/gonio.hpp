@@ -28,11 +28,12 @@
 #include <gonio/estimate/leave_one_out.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/nearest_material.hpp>
-#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>

@@ -237,3 +237,62 @@ TEST_CASE("more than twenty thousand measurements are judged by some of them") {
   CHECK(one.good_share == doctest::Approx(other.good_share).epsilon(0.03));  // five standard errors of 17,000
   CHECK(one.scale == doctest::Approx(other.scale).epsilon(0.05));
 }
+
+namespace {
+
+/// Four thousand samples, an eighth of which are a highlight that the estimate misses by `factor`; 30 % are outliers.
+struct missed_highlight {
+  made_up_measurement made = made_up_measurement_of(4000, 0.3, 0.03, 12);
+  std::shared_ptr<const gonio::sample_regions> regions;
+
+  explicit missed_highlight(float factor) {
+    std::vector<gonio::location> places(4000);
+    for (std::size_t i = 0; i < 4000; ++i) places[i].angles.theta_h = 1e-4 * static_cast<double>(i);
+    regions = std::make_shared<const gonio::sample_regions>(places);
+    for (Eigen::Index i = 0; i < 500; ++i) {
+      made.estimated.col(i) *= 30.0f * factor;
+      if (!made.outlier[static_cast<std::size_t>(i)]) made.measured.col(i) *= 30.0f;
+    }
+  }
+
+  /// The mean weight of good samples, or of outliers, in the highlight.
+  [[nodiscard]] double weight(const automatic_weights& weighting, bool of_outliers) const {
+    const channel_values weights = weighting.weigh(made.measured, made.estimated);
+    double sum = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < 500; ++i)
+      if (made.outlier[i] == of_outliers) {
+        sum += double{weights(0, static_cast<Eigen::Index>(i))};
+        count += 1.0;
+      }
+    return sum / count;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("regions: a highlight that is off by a factor of two is not taken for outliers") {
+  const missed_highlight missed(2.0f);
+  const automatic_weights pooled, regional{.regions = missed.regions};
+  CHECK(missed.weight(pooled, false) < 0.05);
+  CHECK(missed.weight(regional, false) > 0.5);
+  CHECK(missed.weight(regional, true) < 0.1);
+}
+
+TEST_CASE("regions: where a fit is good everywhere they hardly matter") {
+  const missed_highlight found(1.0f);
+  const automatic_weights pooled, regional{.regions = found.regions};
+  CHECK(found.weight(regional, false) == doctest::Approx(found.weight(pooled, false)).epsilon(0.1));
+  const channel_values one = pooled.weigh(found.made.measured, found.made.estimated),
+                       other = regional.weigh(found.made.measured, found.made.estimated);
+  CHECK((one - other).abs().mean() < 0.05f);
+  CHECK(((other >= 0.0f) && (other <= 1.0f)).all());
+}
+
+TEST_CASE("an assessment sees a region that the estimate misses, and prefers an estimate that does not") {
+  const missed_highlight missed(2.0f), found(1.0f);
+  const auto bad = automatic_weights::assess(missed.made.measured, missed.made.estimated, *missed.regions);
+  const auto good = automatic_weights::assess(found.made.measured, found.made.estimated, *found.regions);
+  CHECK(bad.evenness < 0.1);
+  CHECK(good.evenness > 0.85);
+  CHECK(good.log_likelihood > bad.log_likelihood);
+}

@@ -125,6 +125,29 @@ TEST_CASE("the same bytes for any number of threads, and the seed matters only w
                                  with(2, 100, 1).fit(samples).correction().values()));
 }
 
+TEST_CASE("stepping from the start is what the fit does") {
+  for (const double outliers : {0.1, 0.6}) {
+    const auto samples = robust().samples(400, {.outlier_ratio = outliers});
+    auto run = robust().estimator.start(samples);
+    CHECK(run.assess().evenness >= 0.0);
+    while (!run.converged()) run.step();
+    CHECK(
+        std::ranges::equal(run.result().correction().values(), robust().estimator.fit(samples).correction().values()));
+  }
+}
+
+TEST_CASE("the iteration looks at some of the samples, if there are many") {
+  const gonio::correction corrections{robust().others};
+  const auto samples = robust().samples(400, {.outlier_ratio = 0.3});
+  const auto with = [&](std::size_t most, std::uint64_t seed) {
+    return robust_reconstruction{robust().others, corrections, {}, {.most_samples = most, .seed = seed}}.fit(samples);
+  };
+  CHECK(std::ranges::equal(with(400, 1).correction().values(), with(50'000, 2).correction().values()));
+  CHECK_FALSE(std::ranges::equal(with(200, 1).correction().values(), with(200, 2).correction().values()));
+  const gonio::decomposition combination{robust().others, gonio::nnls{}};
+  CHECK(error_of(with(200, 1)) < 0.5 * error_of(combination.fit(samples)));
+}
+
 TEST_CASE("a start on some of the samples serves, too") {
   const robust_reconstruction few{robust().others, gonio::correction{robust().others}, {}, {.samples = 100}};
   const auto samples = robust().samples(300, {.outlier_ratio = 0.4});

@@ -5,12 +5,15 @@
 /// (Dempster, Laird and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
 
 #include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/sample_regions.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace gonio {
@@ -73,6 +76,8 @@ struct outlier_mixture {
   double scale = 0.3;  ///< of the logarithm of reflectance
 
   static constexpr double degrees_of_freedom = 4.0;
+  /// A percent: no basis is better, and a scale of zero would be certain of everything.
+  static constexpr double smallest_scale = 0.01;
 
   /// The density of a good residual.
   template <class Number>
@@ -101,7 +106,6 @@ struct outlier_mixture {
 /// from `start`. O(n) for each of at most 50 steps.
 [[nodiscard]] inline outlier_mixture estimate_mixture(const std::vector<double>& residuals,
                                                       const std::vector<double>& outliers, outlier_mixture start = {}) {
-  constexpr double smallest_scale = 0.01;  // a percent: no basis is better, and zero would be certain of everything
   constexpr double nu = outlier_mixture::degrees_of_freedom;
   const Eigen::ArrayXd all = Eigen::ArrayXd::Map(residuals.data(), std::ssize(residuals));
   const Eigen::ArrayXd densities = Eigen::ArrayXd::Map(outliers.data(), std::ssize(outliers));
@@ -111,7 +115,7 @@ struct outlier_mixture {
     const double good = shares.sum();
     const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
     const outlier_mixture next{std::clamp(good / static_cast<double>(all.size()), 0.02, 0.999),
-                               std::max(std::sqrt(squares / good), smallest_scale)};
+                               std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
     const bool settled =
         std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
     now = next;
@@ -127,22 +131,58 @@ template <class Measurements>
   return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median(measured)));
 }
 
+/// How well outlier weights explain an estimate.
+struct outlier_assessment {
+  /// Of a measurement under the mixture, in the mean.
+  double log_likelihood = 0.0;
+  /// The share of good samples in the region that has the fewest, over that in the middle one of the regions. Outliers
+  /// are everywhere alike: if it is much less than 1, the estimate is wrong there.
+  double evenness = 1.0;
+};
+
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
 /// is judged as a whole, by the root mean square of its three logarithmic residuals: what goes wrong in a measurement
 /// is its direction, not one of its colours.
 struct automatic_weights {
   /// Weigh good samples by their place on the tail, too?
   bool down_weight_tail = true;
+  /// If given, good residuals have another scale in each region of the samples (of which there must be as many as are
+  /// weighed): a fit that is good elsewhere must not make outliers of a highlight that it misses.
+  std::shared_ptr<const sample_regions> regions = {};
 
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
     const deviations found = deviate(measured, estimated);
     const outlier_density density(subset(found.logarithm));
     const outlier_mixture mixture = estimate_from(found, density);
-    const Eigen::ArrayXd residual = found.residual.cast<double>();
+    const Eigen::ArrayXd residuals = found.residual.cast<double>();
     const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
-    Eigen::ArrayXd weights = mixture.probability(residual, outliers);
-    if (down_weight_tail) weights *= mixture.tail_weight(residual);
+    Eigen::ArrayXd weights(residuals.size());
+    if (regions)
+      for (std::size_t region = 0; region < regions->count(); ++region) {
+        const std::span<const std::size_t> here = (*regions)[region];
+        weights(here) = weigh(mixture_in(region, mixture, found.residual), Eigen::ArrayXd(residuals(here)),
+                              Eigen::ArrayXd(outliers(here)));
+      }
+    else
+      weights = weigh(mixture, residuals, outliers);
     return weights.cast<float>().transpose().replicate<3, 1>();
+  }
+
+  /// How well one mixture for all samples explains an estimate. O(n).
+  [[nodiscard]] static outlier_assessment assess(const channel_values& measured, const channel_values& estimated,
+                                                 const sample_regions& regions) {
+    const deviations found = deviate(measured, estimated);
+    const outlier_density density(subset(found.logarithm));
+    const outlier_mixture mixture = estimate_from(found, density);
+    const Eigen::ArrayXd residuals = found.residual.cast<double>();
+    const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
+    const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
+    Eigen::ArrayXd shares(static_cast<Eigen::Index>(regions.count()));
+    for (std::size_t region = 0; region < regions.count(); ++region)
+      shares[static_cast<Eigen::Index>(region)] = good(regions[region]).mean();
+    const Eigen::ArrayXd densities =
+        mixture.good_share * mixture.good_density(residuals) + (1.0 - mixture.good_share) * outliers;
+    return {densities.log().mean(), shares.minCoeff() / std::max(detail::upper_median(shares), 1e-9)};
   }
 
   /// The share of good samples and the scale of their residuals.
@@ -169,6 +209,30 @@ struct automatic_weights {
     const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
     const channel_values differences = logarithms - (estimated.colwise() + offset).log();
     return {differences.square().colwise().mean().sqrt().transpose(), logarithms.colwise().mean().transpose()};
+  }
+
+  [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const Eigen::ArrayXd& residuals,
+                                     const Eigen::ArrayXd& outliers) const {
+    const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
+    return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(residuals)) : good;
+  }
+
+  /// The mixture in a region: as many samples are good as everywhere, and the scale is larger or smaller as the
+  /// residual is below which half of them lie, if the good ones are those with the least. A scale above 1 would tell
+  /// nothing.
+  [[nodiscard]] outlier_mixture mixture_in(std::size_t region, const outlier_mixture& everywhere,
+                                           const Eigen::ArrayXf& residuals) const {
+    const auto half_of_the_good = [&](std::span<const std::size_t> samples) {
+      std::vector<float> sorted;
+      for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
+      const auto middle = sorted.begin() +
+                          static_cast<std::ptrdiff_t>(0.5 * everywhere.good_share * static_cast<double>(sorted.size()));
+      std::ranges::nth_element(sorted, middle);
+      return std::max(double{*middle}, 1e-6);
+    };
+    const double ratio = half_of_the_good((*regions)[region]) / half_of_the_good(regions->all());
+    return {everywhere.good_share,
+            std::clamp(ratio * everywhere.scale, outlier_mixture::smallest_scale, std::max(everywhere.scale, 1.0))};
   }
 
   /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
