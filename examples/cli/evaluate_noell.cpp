@@ -124,8 +124,10 @@ class noell_sweep {
   [[nodiscard]] std::size_t materials() const noexcept { return materials_.size(); }
 
  private:
-  [[nodiscard]] static json key_of(const std::string& method, const noell_case& which) {
-    return {method, which.material, which.data_ratio, which.outlier_ratio, which.seed};
+  [[nodiscard]] json key_of(const std::string& method, const noell_case& which) const {
+    return {method,           which.material,
+            which.data_ratio, which.outlier_ratio,
+            which.seed,       options_.environment.filename().string()};
   }
 
   noell_options options_;

@@ -287,12 +287,3 @@ TEST_CASE("regions: where a fit is good everywhere they hardly matter") {
   CHECK((one - other).abs().mean() < 0.05f);
   CHECK(((other >= 0.0f) && (other <= 1.0f)).all());
 }
-
-TEST_CASE("an assessment sees a region that the estimate misses, and prefers an estimate that does not") {
-  const missed_highlight missed(2.0f), found(1.0f);
-  const auto bad = automatic_weights::assess(missed.made.measured, missed.made.estimated, *missed.regions);
-  const auto good = automatic_weights::assess(found.made.measured, found.made.estimated, *found.regions);
-  CHECK(bad.evenness < 0.1);
-  CHECK(good.evenness > 0.85);
-  CHECK(good.log_likelihood > bad.log_likelihood);
-}

@@ -129,7 +129,6 @@ TEST_CASE("stepping from the start is what the fit does") {
   for (const double outliers : {0.1, 0.6}) {
     const auto samples = robust().samples(400, {.outlier_ratio = outliers});
     auto run = robust().estimator.start(samples);
-    CHECK(run.assess().evenness >= 0.0);
     while (!run.converged()) run.step();
     CHECK(
         std::ranges::equal(run.result().correction().values(), robust().estimator.fit(samples).correction().values()));

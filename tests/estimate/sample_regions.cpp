@@ -4,29 +4,41 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
+#include <functional>
+#include <random>
+
 using gonio::sample_regions;
 
-TEST_CASE("regions are equal parts of the samples in the order of theta_h") {
+TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
   CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 2000));
+    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 4000));
+    std::mt19937 generator(static_cast<unsigned>(n));
     std::vector<gonio::location> places;
     for (std::size_t i = 0; i < n; ++i)
-      places.push_back(gonio::locate_cell(
-          small_cells(), static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(small_cells().size())))));
+      places.push_back(gonio::locate_cell(small_cells(), generator() % small_cells().size()));
     const sample_regions regions(places);
-    RC_ASSERT(regions.count() == std::clamp<std::size_t>(n / 100, 1, 8));
+    const std::size_t strips = std::clamp<std::size_t>(n / 100, 1, 6),
+                      parts = std::clamp<std::size_t>(n / strips / 100, 1, 4);
+    RC_ASSERT(regions.count() == strips * parts);
     RC_ASSERT(regions.all().size() == n);
     std::vector<bool> seen(n, false);
-    double largest = -1.0;
-    for (std::size_t region = 0; region < regions.count(); ++region) {
-      RC_ASSERT(regions[region].size() >= n / regions.count());
-      RC_ASSERT(regions[region].size() <= n / regions.count() + 1);
-      for (const std::size_t sample : regions[region]) {
-        RC_ASSERT(!seen[sample]);
-        seen[sample] = true;
-        RC_ASSERT(places[sample].angles.theta_h >= largest);
-        largest = places[sample].angles.theta_h;
+    double largest_h = -1.0;
+    for (std::size_t strip = 0; strip < strips; ++strip) {
+      double largest_d = -1.0, here = largest_h;
+      for (std::size_t part = 0; part < parts; ++part) {
+        const auto region = regions[strip * parts + part];
+        RC_ASSERT(region.size() >= n / regions.count());
+        RC_ASSERT(region.size() <= n / regions.count() + 2);
+        for (const std::size_t sample : region) {
+          RC_ASSERT(!seen[sample]);
+          seen[sample] = true;
+          RC_ASSERT(places[sample].angles.theta_h >= largest_h);
+          RC_ASSERT(places[sample].angles.theta_d >= largest_d);
+          here = std::max(here, places[sample].angles.theta_h);
+          largest_d = places[sample].angles.theta_d;
+        }
       }
+      largest_h = here;
     }
     RC_ASSERT(std::ranges::all_of(seen, std::identity{}));
   }));

@@ -53,10 +53,13 @@ struct correction_rule {
   /// Is the constant function 1 among them? It stops the iteration from drifting: where nothing is left to correct,
   /// the others can only come near to 1.
   bool has_constant = true;
+  /// Does a sample count less by sigma where that is above 1? Otherwise some outliers decide whatever they count: where
+  /// the estimate is near zero, sigma is in the hundreds, and the error that is minimised is its square.
+  bool tames_large_factors = true;
 
   /// The correction functions of the paper: one for each material, nothing else.
   [[nodiscard]] static constexpr correction_rule as_printed() noexcept {
-    return {correction_factor::as_printed(), false};
+    return {correction_factor::as_printed(), false, false};
   }
 };
 

@@ -61,7 +61,8 @@ class correction_run {
   /// equations are new (Eq. 9-10 with Eq. 16).
   correction_round step(const channel_values& trust) {
     const channel_values sigma = factor().quotient(measured_, estimated());
-    const channel_values weights = trust.rowwise() * confidence_.transpose();
+    channel_values weights = trust.rowwise() * confidence_.transpose();
+    if (corrections_.rule().tames_large_factors) weights /= sigma.max(1.0f);
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
       assemble(weights, sigma);
     else

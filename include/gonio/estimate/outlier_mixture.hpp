@@ -131,15 +131,6 @@ template <class Measurements>
   return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median(measured)));
 }
 
-/// How well outlier weights explain an estimate.
-struct outlier_assessment {
-  /// Of a measurement under the mixture, in the mean.
-  double log_likelihood = 0.0;
-  /// The share of good samples in the region that has the fewest, over that in the middle one of the regions. Outliers
-  /// are everywhere alike: if it is much less than 1, the estimate is wrong there.
-  double evenness = 1.0;
-};
-
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
 /// is judged as a whole, by the root mean square of its three logarithmic residuals: what goes wrong in a measurement
 /// is its direction, not one of its colours.
@@ -166,23 +157,6 @@ struct automatic_weights {
     else
       weights = weigh(mixture, residuals, outliers);
     return weights.cast<float>().transpose().replicate<3, 1>();
-  }
-
-  /// How well one mixture for all samples explains an estimate. O(n).
-  [[nodiscard]] static outlier_assessment assess(const channel_values& measured, const channel_values& estimated,
-                                                 const sample_regions& regions) {
-    const deviations found = deviate(measured, estimated);
-    const outlier_density density(subset(found.logarithm));
-    const outlier_mixture mixture = estimate_from(found, density);
-    const Eigen::ArrayXd residuals = found.residual.cast<double>();
-    const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
-    const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
-    Eigen::ArrayXd shares(static_cast<Eigen::Index>(regions.count()));
-    for (std::size_t region = 0; region < regions.count(); ++region)
-      shares[static_cast<Eigen::Index>(region)] = good(regions[region]).mean();
-    const Eigen::ArrayXd densities =
-        mixture.good_share * mixture.good_density(residuals) + (1.0 - mixture.good_share) * outliers;
-    return {densities.log().mean(), shares.minCoeff() / std::max(detail::upper_median(shares), 1e-9)};
   }
 
   /// The share of good samples and the scale of their residuals.

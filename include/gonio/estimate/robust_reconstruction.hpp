@@ -98,16 +98,8 @@ class robust_run {
   using run_type = correction_run<fitted_brdf<gonio::measured<Metric>>>;
 
   /// The first `trusting_rounds` count each measurement as much as `trust` says, those that follow as `run` does.
-  robust_run(run_type run, channel_values trust, int trusting_rounds, std::shared_ptr<const sample_regions> regions)
-      : run_(std::move(run)),
-        trust_(std::move(trust)),
-        trusting_rounds_(trusting_rounds),
-        regions_(std::move(regions)) {}
-
-  /// How well the estimate so far explains the samples that this run looks at.
-  [[nodiscard]] outlier_assessment assess() const {
-    return automatic_weights::assess(run_.measured(), run_.estimated(), *regions_);
-  }
+  robust_run(run_type run, channel_values trust, int trusting_rounds)
+      : run_(std::move(run)), trust_(std::move(trust)), trusting_rounds_(trusting_rounds) {}
 
   correction_round step() { return std::ssize(run_.history()) < trusting_rounds_ ? run_.step(trust_) : run_.step(); }
   [[nodiscard]] bool converged() const noexcept { return run_.converged(); }
@@ -121,7 +113,6 @@ class robust_run {
   run_type run_;
   channel_values trust_;
   int trusting_rounds_;
-  std::shared_ptr<const sample_regions> regions_;
 };
 
 /// Fits samples of which any share may be outliers, in these steps:
@@ -130,9 +121,9 @@ class robust_run {
 ///    outliers anew each time: the result is rough, but knows which samples to trust.
 /// 3. Combine materials again under their own metric from the samples that are good, and
 /// 4. correct that by more samples: three rounds with what step 2 trusts, then with weights of its own.
-/// 5. If the good samples that this finds are much fewer in some region of theta_h than in others, do it all again with
-///    weights that judge each region by itself, and take what explains the samples better. A fit that is good elsewhere
-///    may have taken a highlight for outliers, and then never learns better.
+///
+/// Outliers are told from good samples in each of the samples' regions by itself: a fit that is good elsewhere would
+/// take a highlight that it misses for outliers, and then never learn better.
 ///
 /// There is no parameter to choose for the data: see `automatic_weights`.
 ///
@@ -161,18 +152,25 @@ class robust_reconstruction {
       throw error("materials and corrections must be over the same cells");
   }
 
-  /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4, with the
-  /// weights that `fit` uses, for which it has to be found what 5 finds. Throws gonio::error for unusable samples.
+  /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
+  /// gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] robust_run<Metric> start(const Samples& samples) const {
-    const located_samples used = locate(samples);
-    return start(used, decide(used).by_region);
+    const located_samples all = locate_samples(corrections_.cells(), samples, threads_);
+    const located_samples used = some_of(all, start_.most_samples);
+    const auto [initial, guide] = begin(some_of(used, start_.samples));
+    const automatic_weights weighting = weights_of(used);
+    run_type run{initial, corrections_, used, weighting, nnls{}, limits_, threads_};
+    channel_values trust = weighting.weigh(run.measured(), run.estimated_by(guide));
+    return {std::move(run), std::move(trust), start_.trusting_rounds};
   }
 
   /// All steps. Throws gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
-    return decide(locate(samples)).run.result();
+    robust_run run = start(samples);
+    while (!run.converged()) run.step();
+    return run.result();
   }
 
  private:
@@ -181,52 +179,17 @@ class robust_reconstruction {
     run_type guide;  // knows which samples to trust
   };
 
-  /// A run at its end.
-  struct decision {
-    robust_run<Metric> run;
-    bool by_region;
-  };
-
-  template <class Samples>
-  [[nodiscard]] located_samples locate(const Samples& samples) const {
-    return some_of(locate_samples(corrections_.cells(), samples, threads_), start_.most_samples);
-  }
-
-  /// Steps 4 and 5.
-  [[nodiscard]] decision decide(const located_samples& used) const {
-    constexpr double even_enough = 0.85;
-    const auto run_to_the_end = [&](bool by_region) {
-      decision made{start(used, by_region), by_region};
-      while (!made.run.converged()) made.run.step();
-      return made;
-    };
-    decision first = run_to_the_end(false);
-    const outlier_assessment found = first.run.assess();
-    if (found.evenness > even_enough) return first;
-    decision second = run_to_the_end(true);
-    return second.run.assess().log_likelihood > found.log_likelihood ? std::move(second) : std::move(first);
-  }
-
-  /// Steps 1 to 3.
-  [[nodiscard]] robust_run<Metric> start(const located_samples& used, bool by_region) const {
-    const auto weights_for = [&](const std::shared_ptr<const sample_regions>& regions) {
-      return by_region ? automatic_weights{.regions = regions} : automatic_weights{};
-    };
-    const located_samples few = some_of(used, start_.samples);
-    const auto [initial, guide] = begin(few, weights_for(std::make_shared<const sample_regions>(few.at)));
-    const auto regions = std::make_shared<const sample_regions>(used.at);
-    const automatic_weights weighting = weights_for(regions);
-    run_type run{initial, corrections_, used, weighting, nnls{}, limits_, threads_};
-    channel_values trust = weighting.weigh(run.measured(), run.estimated_by(guide));
-    return {std::move(run), std::move(trust), start_.trusting_rounds, regions};
+  [[nodiscard]] static automatic_weights weights_of(const located_samples& samples) {
+    return {.regions = std::make_shared<const sample_regions>(samples.at)};
   }
 
   [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
     return samples.subset(detail::some_of(samples.size(), count, start_.seed));
   }
 
-  /// Steps 1 to 3 but for the samples that step 4 looks at.
-  [[nodiscard]] beginning begin(const located_samples& some, const automatic_weights& weighting) const {
+  /// Steps 1 to 3.
+  [[nodiscard]] beginning begin(const located_samples& some) const {
+    const automatic_weights weighting = weights_of(some);
     const channel_values measured = some.values.transpose().array().template cast<float>();
     const Eigen::Array3f offsets = automatic_weights::offsets(measured);
     const detail::reweighted_combination<Metric> combination(materials_, some, threads_);

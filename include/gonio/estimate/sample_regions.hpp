@@ -1,5 +1,5 @@
 #pragma once
-/// Samples grouped by the angle between the half vector and the normal: whatever goes wrong in a measurement does so in
+/// Samples grouped by the angles of their half and difference vectors: whatever goes wrong in a measurement does so in
 /// all directions alike, but a fit may be good for the diffuse part of a surface and bad in its highlight.
 
 #include <gonio/table/location.hpp>
@@ -11,32 +11,49 @@
 
 namespace gonio {
 
-/// At most eight regions of theta_h with equal numbers of samples, at least a hundred in each if there are more than
-/// one.
+/// At most six strips of theta_h with equal numbers of samples, each cut into at most four parts of theta_d: as many as
+/// leave a hundred samples in each.
 class sample_regions {
  public:
   /// O(n log n).
   explicit sample_regions(const std::vector<location>& places)
-      : order_(places.size()), count_(std::clamp<std::size_t>(places.size() / 100, 1, 8)) {
+      : order_(places.size()), strips_(at_most(6, places.size())), parts_(at_most(4, places.size() / strips_)) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::sort(order_, [&](std::size_t one, std::size_t other) {
-      const double first = places[one].angles.theta_h, second = places[other].angles.theta_h;
-      return first != second ? first < second : one < other;
-    });
+    const auto sort_by = [&](double half_difference::*angle, std::span<std::size_t> some) {
+      std::ranges::sort(some, [&](std::size_t one, std::size_t other) {
+        const double first = places[one].angles.*angle, second = places[other].angles.*angle;
+        return first != second ? first < second : one < other;
+      });
+    };
+    sort_by(&half_difference::theta_h, order_);
+    for (std::size_t strip = 0; strip < strips_; ++strip)
+      sort_by(&half_difference::theta_d, part_of<std::size_t>(order_, strip, strips_));
   }
 
-  [[nodiscard]] std::size_t count() const noexcept { return count_; }
+  [[nodiscard]] std::size_t count() const noexcept { return strips_ * parts_; }
 
-  /// The positions of all samples, and of those of one region; the first region is nearest to the highlight.
+  /// The positions of all samples.
   [[nodiscard]] std::span<const std::size_t> all() const noexcept { return order_; }
+  /// Those of one region; the first regions are nearest to the highlight.
   [[nodiscard]] std::span<const std::size_t> operator[](std::size_t region) const noexcept {
-    const std::size_t begin = order_.size() * region / count_, end = order_.size() * (region + 1) / count_;
-    return all().subspan(begin, end - begin);
+    return part_of<const std::size_t>(part_of<const std::size_t>(order_, region / parts_, strips_), region % parts_,
+                                      parts_);
   }
 
  private:
+  [[nodiscard]] static std::size_t at_most(std::size_t most, std::size_t samples) noexcept {
+    return std::clamp<std::size_t>(samples / 100, 1, most);
+  }
+
+  template <class Position>
+  [[nodiscard]] static std::span<Position> part_of(std::span<Position> whole, std::size_t part,
+                                                   std::size_t parts) noexcept {
+    const std::size_t begin = whole.size() * part / parts, end = whole.size() * (part + 1) / parts;
+    return whole.subspan(begin, end - begin);
+  }
+
   std::vector<std::size_t> order_;
-  std::size_t count_;
+  std::size_t strips_, parts_;
 };
 
 }  // namespace gonio
