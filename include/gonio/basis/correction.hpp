@@ -181,7 +181,7 @@ class leave_one_out_approximations {
 /// estimate that needs no correction is left as it is. Their metric is linear (Eq. 16).
 ///
 /// A material that is left out, of the `measured` basis or by `without`, takes no part in any correction: neither has
-/// it one of its own, nor is it in the approximation of another.
+/// it one of its own, nor is it in the approximation of another. For that, corrections keep the materials alive.
 ///
 /// ```cpp
 /// const gonio::measured materials{gonio::expand(prior), gonio::log{}};

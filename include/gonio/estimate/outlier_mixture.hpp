@@ -148,14 +148,17 @@ struct automatic_weights {
     const Eigen::ArrayXd residuals = found.residual.cast<double>();
     const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
     Eigen::ArrayXd weights(residuals.size());
-    if (regions)
+    if (regions) {
+      const double typical = half_of_the_good(found.residual, regions->all(), mixture.good_share);
       for (std::size_t region = 0; region < regions->count(); ++region) {
         const std::span<const std::size_t> here = (*regions)[region];
-        weights(here) = weigh(mixture_in(region, mixture, found.residual), Eigen::ArrayXd(residuals(here)),
-                              Eigen::ArrayXd(outliers(here)));
+        const double ratio = half_of_the_good(found.residual, here, mixture.good_share) / typical;
+        weights(here) =
+            weigh(rescaled(mixture, ratio), Eigen::ArrayXd(residuals(here)), Eigen::ArrayXd(outliers(here)));
       }
-    else
+    } else {
       weights = weigh(mixture, residuals, outliers);
+    }
     return weights.cast<float>().transpose().replicate<3, 1>();
   }
 
@@ -191,22 +194,21 @@ struct automatic_weights {
     return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(residuals)) : good;
   }
 
-  /// The mixture in a region: as many samples are good as everywhere, and the scale is larger or smaller as the
-  /// residual is below which half of them lie, if the good ones are those with the least. A scale above 1 would tell
-  /// nothing.
-  [[nodiscard]] outlier_mixture mixture_in(std::size_t region, const outlier_mixture& everywhere,
-                                           const Eigen::ArrayXf& residuals) const {
-    const auto half_of_the_good = [&](std::span<const std::size_t> samples) {
-      std::vector<float> sorted;
-      for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
-      const auto middle = sorted.begin() +
-                          static_cast<std::ptrdiff_t>(0.5 * everywhere.good_share * static_cast<double>(sorted.size()));
-      std::ranges::nth_element(sorted, middle);
-      return std::max(double{*middle}, 1e-6);
-    };
-    const double ratio = half_of_the_good((*regions)[region]) / half_of_the_good(regions->all());
-    return {everywhere.good_share,
-            std::clamp(ratio * everywhere.scale, outlier_mixture::smallest_scale, std::max(everywhere.scale, 1.0))};
+  /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
+  [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const std::size_t> samples,
+                                               double good_share) {
+    std::vector<float> sorted;
+    for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
+    const auto middle =
+        sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * good_share * static_cast<double>(sorted.size()));
+    std::ranges::nth_element(sorted, middle);
+    return std::max(double{*middle}, 1e-6);
+  }
+
+  /// As many samples are good, and their scale is another one; above 1 it would tell nothing.
+  [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio) {
+    return {mixture.good_share,
+            std::clamp(ratio * mixture.scale, outlier_mixture::smallest_scale, std::max(mixture.scale, 1.0))};
   }
 
   /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
