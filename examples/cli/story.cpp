@@ -146,10 +146,11 @@ gonio::image story::draw_input() const {
                       [&](std::size_t i) { return gonio::rgb(std::numbers::pi * samples_[i].value); });
 }
 
-gonio::image story::draw_factors(const gonio::channel_values& estimated) const {
+/// From the table and not from the run, which may look at some of the samples only.
+gonio::image story::draw_factors(const moment& before) const {
   return sparse_slice(samples_, gonio::rgb::Zero(), [&](std::size_t i) {
-    const Eigen::Array3f measured = samples_[i].value.cast<float>(),
-                         estimate = estimated.col(static_cast<Eigen::Index>(i));
+    const gonio::location at = gonio::locate(before.estimate.cells(), samples_[i].angles);
+    const Eigen::Array3f measured = samples_[i].value.cast<float>(), estimate = before.estimate.at(at).cast<float>();
     const Eigen::Array3f sigma = corrections_.rule().factor.quotient(measured, estimate);
     return factor_colour(sigma.cast<double>());
   });
@@ -185,7 +186,7 @@ story_picture story::draw() const {
     const moment& now = moments_[i];
     if (i > 0) {
       const moment& before = moments_[i - 1];
-      columns.push_back({draw_factors(before.at_samples), draw_correction(now)});
+      columns.push_back({draw_factors(before), draw_correction(now)});
       if (truth_) columns.back().push_back(draw_true_correction(before));
     }
     columns.push_back({slice(now.estimate, threads_), spheres.sphere(now.estimate)});

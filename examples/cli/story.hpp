@@ -2,7 +2,6 @@
 /// The correction iteration in pictures: Noell, Koehler and Stricker 2014, Fig. 4.
 
 #include <gonio/basis/correction.hpp>
-#include <gonio/estimate/located_samples.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -28,7 +27,7 @@ class story {
   template <class Run>
   void look(const Run& run) {
     const auto result = run.result();
-    keep({result.history().size(), result.tabulate(gonio::valid_cells(), threads_), run.estimated(),
+    keep({result.history().size(), result.tabulate(gonio::valid_cells(), threads_),
           result.weights().empty() ? Eigen::MatrixXd() : result.weights().back()});
   }
 
@@ -38,13 +37,12 @@ class story {
   struct moment {
     std::size_t round = 0;
     gonio::brdf_table estimate;
-    gonio::channel_values at_samples;
     Eigen::MatrixXd weights;  ///< of the round's correction functions; none before the first
   };
 
   void keep(moment now);
   [[nodiscard]] gonio::image draw_input() const;
-  [[nodiscard]] gonio::image draw_factors(const gonio::channel_values& estimated) const;
+  [[nodiscard]] gonio::image draw_factors(const moment& before) const;
   [[nodiscard]] gonio::image draw_correction(const moment& round) const;
   [[nodiscard]] gonio::image draw_true_correction(const moment& before) const;
 
