@@ -201,7 +201,7 @@ TEST_CASE("corrections find the outliers, which the other methods believe") {
   static_cast<void>(plastic.reconstruct(correction + "--threads 1"));
   CHECK(scratch::get(plastic.at("out.binary")) == table);
 
-  // The paper's weights help, too; without weights outliers count, though large factors count less than in the paper.
+  // The paper's weights help, too; without weights outliers count.
   const auto paper = plastic.reconstruct(correction + "--gamma 3 --iterations 4");
   const double published = plastic.error();
   CHECK(paper["rounds"] == 4);
@@ -209,7 +209,7 @@ TEST_CASE("corrections find the outliers, which the other methods believe") {
   CHECK(paper["down_weighted"].get<double>() > 0.1);
   CHECK(published < 0.3);
   CHECK(plastic.reconstruct(correction + "--gamma 0 --metric root --iterations 2")["down_weighted"] == 0.0);
-  CHECK(plastic.error() > 1.5 * published);
+  CHECK(plastic.error() > 2.0 * published);
 
   // The rivals interpolate them.
   CHECK(plastic.reconstruct("--method rbf --metric root")["samples"] == 400);

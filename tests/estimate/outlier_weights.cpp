@@ -3,8 +3,6 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-#include <limits>
-
 using gonio::channel_values;
 
 namespace {
@@ -73,16 +71,15 @@ TEST_CASE("relative deviation: from 0 to 1, and at least e^-gamma where the esti
   }));
 }
 
-TEST_CASE("relative deviation: weights fall as measurements go away, to nothing far out, and stay finite") {
+TEST_CASE("relative deviation: weights fall as measurements go away, to zero far out, and stay finite") {
   const auto estimated = row_in_each_channel({0.1f, 0.1f, 0.1f, 0.1f, 0.0f});
   const auto measured = row_in_each_channel({0.1f, 0.2f, 0.4f, 1e30f, 1e38f});
   const auto weights = gonio::relative_deviation_weights{}.weigh(measured, estimated);
   CHECK(weights(0, 0) == 1.0f);
   CHECK(weights(0, 1) < weights(0, 0));
   CHECK(weights(0, 2) < weights(0, 1));
-  // Vectorised exponentials of Eigen end at the smallest normal number, scalar ones at zero.
-  CHECK(weights(0, 3) <= std::numeric_limits<float>::min());
-  CHECK(weights(0, 4) <= std::numeric_limits<float>::min());
+  CHECK(weights(0, 3) == 0.0f);
+  CHECK(weights(0, 4) == 0.0f);
 }
 
 TEST_CASE("tukey: by hand") {

@@ -40,7 +40,7 @@ const planned_world& planned() {
 }
 
 gonio::channel_values values_of(const gonio::sample_set& samples) {
-  return gonio::locate_samples(small_cells(), samples).values.transpose().array().cast<float>();
+  return gonio::locate_samples(small_cells(), samples).channels();
 }
 
 template <class Metric>

@@ -53,13 +53,10 @@ struct correction_rule {
   /// Is the constant function 1 among them? It stops the iteration from drifting: where nothing is left to correct,
   /// the others can only come near to 1.
   bool has_constant = true;
-  /// Does a sample count less by sigma where that is above 1? Otherwise some outliers decide whatever they count: where
-  /// the estimate is near zero, sigma is in the hundreds, and the error that is minimised is its square.
-  bool tames_large_factors = true;
 
   /// The correction functions of the paper: one for each material, nothing else.
   [[nodiscard]] static constexpr correction_rule as_printed() noexcept {
-    return {correction_factor::as_printed(), false, false};
+    return {correction_factor::as_printed(), false};
   }
 };
 
@@ -86,9 +83,7 @@ class leave_one_out_approximations {
  public:
   /// Throws gonio::error if fewer than two materials take part.
   leave_one_out_approximations(measured<Metric> materials, const Solver& solver, thread_count threads)
-      : materials_(std::move(materials)), solver_(solver), threads_(threads) {
-    if (materials_.columns().size() < 2)
-      throw error("correction functions need at least two materials: each is explained by the others");
+      : materials_(at_least_two(std::move(materials))), solver_(solver), threads_(threads) {
     const auto count = static_cast<Eigen::Index>(materials_.size());
     std::vector<Eigen::Index> all(materials_.size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
@@ -96,7 +91,7 @@ class leave_one_out_approximations {
       weights_[c] = Eigen::MatrixXf::Zero(count, count);
       approximate(c, all);
     }
-    outdated_.fill(all);
+    renewed_.fill(all);
   }
 
   [[nodiscard]] const measured<Metric>& materials() const noexcept { return materials_; }
@@ -104,17 +99,15 @@ class leave_one_out_approximations {
   /// The approximations without the materials of these names. One that made no use of them stays as it is.
   [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
     leave_one_out_approximations fewer(*this);
-    fewer.materials_ = materials_.without(excluded);
-    if (fewer.materials_.columns().size() < 2)
-      throw error("correction functions need at least two materials: all others are left out");
+    fewer.materials_ = at_least_two(materials_.without(excluded));
     for (std::size_t c = 0; c < 3; ++c) {
-      fewer.outdated_[c].clear();
+      fewer.renewed_[c].clear();
       for (const Eigen::Index i : fewer.materials_.columns())
         if (std::ranges::any_of(materials_.columns(), [&](Eigen::Index other) {
               return weights_[c](other, i) != 0.0f && !std::ranges::binary_search(fewer.materials_.columns(), other);
             }))
-          fewer.outdated_[c].push_back(i);
-      fewer.approximate(c, fewer.outdated_[c]);
+          fewer.renewed_[c].push_back(i);
+      fewer.approximate(c, fewer.renewed_[c]);
     }
     return fewer;
   }
@@ -123,16 +116,22 @@ class leave_one_out_approximations {
   void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
     for (std::size_t c = 0; c < 3; ++c) {
       auto channel = tables.middleCols(static_cast<Eigen::Index>(c) * functions, functions);
-      if (outdated_[c].size() == materials_.size())  // no need to look columns up one by one
+      if (renewed_[c].size() == materials_.size())  // no need to look columns up one by one
         write_columns(c, Eigen::seqN(Eigen::Index{0}, weights_[c].cols()), factor, channel);
       else
-        write_columns(c, outdated_[c], factor, channel);
+        write_columns(c, renewed_[c], factor, channel);
     }
   }
 
   [[nodiscard]] thread_count threads() const noexcept { return threads_; }
 
  private:
+  [[nodiscard]] static measured<Metric> at_least_two(measured<Metric> materials) {
+    if (materials.columns().size() < 2)
+      throw error("correction functions need at least two materials: each is explained by the others");
+    return materials;
+  }
+
   template <class Columns, class Channel>
   void write_columns(std::size_t c, const Columns& columns, const correction_factor& factor, Channel& out) const {
     using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -171,8 +170,8 @@ class leave_one_out_approximations {
   measured<Metric> materials_;
   Solver solver_;
   thread_count threads_;
-  std::array<Eigen::MatrixXf, 3> weights_;             // column i explains material i
-  std::array<std::vector<Eigen::Index>, 3> outdated_;  // columns that were solved for last
+  std::array<Eigen::MatrixXf, 3> weights_;            // column i explains material i
+  std::array<std::vector<Eigen::Index>, 3> renewed_;  // columns that were solved for last
 };
 
 }  // namespace detail
@@ -205,7 +204,7 @@ class correction : public material_functions<lin> {
   [[nodiscard]] correction without(const std::vector<std::string>& excluded) const { return without_(*this, excluded); }
 
  private:
-  /// From approximations of which the outdated ones are computed, and the others taken from `known`, if any.
+  /// From approximations of which the renewed ones are computed, and the others taken from `known`, if any.
   template <class Approximations>
   correction(Approximations approximations, const correction_rule& rule, const correction* known)
       : material_functions<lin>(approximations.materials().names(), approximations.materials().cells(), lin{},

@@ -45,7 +45,7 @@ class correction_run {
         threads_(threads),
         places_(samples.at),
         functions_(corrections_, samples.at, threads),
-        measured_(samples.values.transpose().array().template cast<float>()),
+        measured_(samples.channels()),
         confidence_(samples.weights.array().template cast<float>()),
         started_(values_at(initial_, corrections_.cells(), samples.at, threads)),
         total_(channel_values::Ones(3, measured_.cols())) {}
@@ -54,25 +54,27 @@ class correction_run {
   [[nodiscard]] const channel_values& measured() const noexcept { return measured_; }
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
-  /// One round with the weights of the weighting (Eq. 13).
-  correction_round step() { return step(weighting_.weigh(measured_, estimated())); }
+  /// How far the weighting trusts each measurement now (Eq. 13), and what its estimate must be multiplied by (Eq. 12).
+  [[nodiscard]] channel_values trust() const { return weighting_.weigh(measured_, estimated()); }
+  [[nodiscard]] channel_values sigma() const { return factor().quotient(measured_, estimated()); }
+
+  /// One round with the weights of the weighting.
+  correction_round step() { return step(trust()); }
 
   /// One round with given outlier weights. As long as they stay the same, only the right-hand sides of the normal
   /// equations are new (Eq. 9-10 with Eq. 16).
   correction_round step(const channel_values& trust) {
-    const channel_values sigma = factor().quotient(measured_, estimated());
-    channel_values weights = trust.rowwise() * confidence_.transpose();
-    if (corrections_.rule().tames_large_factors) weights /= sigma.max(1.0f);
+    const channel_values wanted = sigma(), weights = trust.rowwise() * confidence_.transpose();
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
-      assemble(weights, sigma);
+      assemble(weights, wanted);
     else
-      moments_ = functions_.moments(weights, sigma);
+      moments_ = functions_.moments(weights, wanted);
     Eigen::MatrixXd beta(functions_.unknowns(), 3);
     for (std::size_t c = 0; c < 3; ++c) beta.col(static_cast<Eigen::Index>(c)) = solve(c);
     const channel_values found = functions_.apply(beta);
     total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
-    history_.push_back(describe(trust, weights, sigma, found));
+    history_.push_back(describe(trust, weights, wanted, found));
     return history_.back();
   }
 

@@ -10,7 +10,7 @@
 namespace gonio {
 
 /// Fits materials of a basis by the other ones, over all cells, with weight 1. The Gram matrices of the three channels
-/// are computed once, O(cells size^2); after that a fit touches no data and costs the solver alone.
+/// are the basis's own: O(cells size^2) for the first fit; after that one touches no data and costs the solver alone.
 ///
 /// ```cpp
 /// const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
@@ -20,15 +20,14 @@ template <error_metric Metric, normal_solver Solver>
 class leave_one_out_decomposition {
  public:
   explicit leave_one_out_decomposition(measured<Metric> basis, Solver solver = Solver(), thread_count threads = {})
-      : basis_(std::move(basis)), solver_(std::move(solver)) {
-    for (std::size_t c = 0; c < 3; ++c) products_[c] = basis_.channel(c).products(threads);
-  }
+      : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
   [[nodiscard]] const measured<Metric>& basis() const noexcept { return basis_; }
 
   /// The normal equations of one channel of one material over those that the basis does not leave out, itself excepted.
   [[nodiscard]] normal_equations problem(std::size_t material, std::size_t channel) const {
-    return leave_one_out(products_[channel], static_cast<Eigen::Index>(material), others(material));
+    return leave_one_out(basis_.channel(channel).products(threads_), static_cast<Eigen::Index>(material),
+                         others(material));
   }
 
   /// Throws gonio::error if the material is the only one, or the solver gives up.
@@ -48,7 +47,7 @@ class leave_one_out_decomposition {
 
   measured<Metric> basis_;
   Solver solver_;
-  std::array<Eigen::MatrixXd, 3> products_;
+  thread_count threads_;
 };
 
 }  // namespace gonio

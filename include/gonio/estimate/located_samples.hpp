@@ -2,6 +2,7 @@
 /// Measurements placed on the cells of a basis.
 
 #include <gonio/estimate/estimator.hpp>
+#include <gonio/metric/error_metric.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -15,6 +16,9 @@
 
 namespace gonio {
 
+/// One value for each colour channel of each sample: 3 x n.
+using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
+
 /// Where was measured, what, and how much it counts, which is more than nothing: n of each.
 struct located_samples {
   std::vector<location> at;
@@ -22,6 +26,9 @@ struct located_samples {
   Eigen::VectorXd weights;
 
   [[nodiscard]] std::size_t size() const noexcept { return at.size(); }
+
+  /// The values as estimators keep them.
+  [[nodiscard]] channel_values channels() const { return values.transpose().array().cast<float>(); }
 
   /// Some of the samples, by their positions.
   [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const {
@@ -91,8 +98,23 @@ template <sample_range Samples>
   return found;
 }
 
-/// One value for each colour channel of each sample: 3 x n.
-using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
+/// Reflectances at given places under a metric: 3 x n.
+template <error_metric Metric>
+[[nodiscard]] channel_values map_values(const Metric& metric, const channel_values& values,
+                                        const std::vector<location>& places, thread_count threads = {}) {
+  channel_values mapped(3, values.cols());
+  for_each_block(
+      places.size(), 1024,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i)
+          for (Eigen::Index c = 0; c < 3; ++c) {
+            const auto place = static_cast<Eigen::Index>(i);
+            mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, places[i]));
+          }
+      },
+      threads);
+  return mapped;
+}
 
 /// An estimate at given places on `cells`: by its own `at` if it has these cells, else read from its table where places
 /// are cells and there are many, otherwise evaluated.

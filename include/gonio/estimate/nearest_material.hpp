@@ -45,13 +45,12 @@ struct scaled_likelihood {
   scaled_likelihood found{start};
   for (int step = 0; step < steps; ++step) {
     const Eigen::ArrayXd residuals = differences - found.logarithm_of_factor;
-    const Eigen::ArrayXd density = mixture.good_share * mixture.good_density(residuals);
-    const Eigen::ArrayXd all = density + (1.0 - mixture.good_share) * outliers;
-    const Eigen::ArrayXd shares = density / all, on_tail = shares * mixture.tail_weight(residuals);
+    const Eigen::ArrayXd shares = mixture.probability(residuals, outliers);
+    const Eigen::ArrayXd on_tail = shares * mixture.tail_weight(residuals);
     const double good = shares.sum(), weight = on_tail.sum();
     const double squares = (nu + 1.0) / nu * (on_tail * residuals.square()).sum();
     found.logarithm_of_factor = weight > 0.0 ? (on_tail * differences).sum() / weight : start;
-    if (step + 1 == steps) found.log_likelihood = all.log().sum();
+    if (step + 1 == steps) found.log_likelihood = mixture.density(residuals, outliers).log().sum();
     mixture = {std::clamp(good / n, 0.05, 0.99), std::max(std::sqrt(squares / std::max(good, 1e-9)), smallest_scale)};
   }
   return found;

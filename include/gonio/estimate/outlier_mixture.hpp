@@ -94,6 +94,12 @@ struct outlier_mixture {
     return good / (good + (1.0 - good_share) * outliers);
   }
 
+  /// The density of a residual, good or not, given that of outliers there.
+  template <class Number>
+  [[nodiscard]] Number density(const Number& residual, const Number& outliers) const {
+    return good_share * good_density(residual) + (1.0 - good_share) * outliers;
+  }
+
   /// What a good measurement counts in a fit: less the farther it is out on the tail.
   template <class Number>
   [[nodiscard]] Number tail_weight(const Number& residual) const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace gonio {
@@ -47,7 +48,9 @@ struct relative_deviation_weights {
 
   [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
     const channel_values estimate = estimated.max(1e-6f);
-    return (-static_cast<float>(gamma) * (measured - estimate).abs() / estimate).exp();
+    const channel_values weights = (-static_cast<float>(gamma) * (measured - estimate).abs() / estimate).exp();
+    // Far out Eigen's vectorised exponential ends at the smallest normal number, not at zero.
+    return (weights - std::numeric_limits<float>::min()).max(0.0f);
   }
 };
 

@@ -49,7 +49,7 @@ class planned_decomposition {
       throw error("there are " + std::to_string(values.cols()) + " measurements at " + std::to_string(count) +
                   " planned places");
     if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");
-    const channel_values right_hand_sides = mapped(values);
+    const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->places, threads_);
     const Eigen::MatrixXd moments = plan_->functions.moments(channel_values::Ones(3, count), right_hand_sides);
     const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();
     const std::vector<Eigen::Index> columns = columns_of(materials_);
@@ -74,22 +74,6 @@ class planned_decomposition {
     sampled_functions<measured<Metric>> functions;
     std::array<Eigen::MatrixXd, 3> grams;
   };
-
-  [[nodiscard]] channel_values mapped(const channel_values& values) const {
-    channel_values result(3, values.cols());
-    for_each_block(
-        plan_->places.size(), 1024,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            for (Eigen::Index c = 0; c < 3; ++c) {
-              const auto place = static_cast<Eigen::Index>(i);
-              result(c, place) =
-                  static_cast<float>(materials_.metric().forward(double{values(c, place)}, plan_->places[i]));
-            }
-        },
-        threads_);
-    return result;
-  }
 
   measured<Metric> materials_;
   Solver solver_;
