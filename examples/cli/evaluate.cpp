@@ -14,6 +14,8 @@ void add_evaluate(CLI::App& app) {
   add_measured_materials(*command);
   add_linear_combination(*command);
   add_noell_tables(*command);
+  add_noell_measured(*command);
+  add_noell_corrections(*command);
 }
 
 }  // namespace cli

@@ -14,6 +14,8 @@ void add_nielsen_test_materials(CLI::App& evaluate);
 void add_measured_materials(CLI::App& evaluate);
 void add_linear_combination(CLI::App& evaluate);
 void add_noell_tables(CLI::App& evaluate);
+void add_noell_measured(CLI::App& evaluate);
+void add_noell_corrections(CLI::App& evaluate);
 
 /// The means over materials of all measures, with the keys of `gonio compare --json`.
 [[nodiscard]] inline json mean_errors(std::span<const gonio::material_result> results) {

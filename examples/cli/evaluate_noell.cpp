@@ -3,11 +3,13 @@
 #include "evaluate.hpp"
 #include "noell_experiment.hpp"
 #include "progress_bar.hpp"
+#include "resumable_results.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <iostream>
 #include <memory>
+#include <numeric>
+#include <span>
 
 namespace cli {
 
@@ -19,42 +21,9 @@ struct noell_options {
   std::vector<std::string> methods;
   std::vector<double> data_ratios, outlier_ratios;
   std::vector<std::uint64_t> seeds{1};
+  std::vector<int> iterations;  // if any, otherwise as many as a method takes
   bool print_json = false;
   gonio::thread_count threads;
-};
-
-/// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come.
-class resumable_results {
- public:
-  explicit resumable_results(const std::filesystem::path& path) : path_(path) {
-    if (path.empty()) return;
-    std::ifstream earlier(path);
-    for (std::string line; std::getline(earlier, line);) {
-      // A run that was killed may have left half a line.
-      const json entry = json::parse(line, nullptr, false);
-      if (entry.is_object() && entry.contains("key") && entry.contains("result")) entries_.push_back(entry);
-    }
-    file_.open(path, std::ios::app);
-    if (!file_) throw gonio::error("cannot write '" + path.string() + "'");
-    if (!entries_.empty()) file_ << '\n';
-  }
-
-  [[nodiscard]] const json* find(const json& key) const {
-    const auto found = std::ranges::find_if(entries_, [&](const json& entry) { return entry["key"] == key; });
-    return found == entries_.end() ? nullptr : &*found;
-  }
-
-  void add(const json& key, const json& result) {
-    entries_.push_back({{"key", key}, {"result", result}});
-    if (!file_.is_open()) return;
-    file_ << entries_.back().dump() << std::endl;
-    if (!file_) throw gonio::error("cannot write '" + path_.string() + "'");
-  }
-
- private:
-  std::filesystem::path path_;
-  std::vector<json> entries_;
-  std::ofstream file_;
 };
 
 [[nodiscard]] std::vector<std::string> chosen_materials(const std::string& choice,
@@ -66,20 +35,39 @@ class resumable_results {
   return {choice};
 }
 
-/// Mean, median, worst and range of the peak ratio, as a row's cells.
-[[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure) {
-  std::vector<double> values, peaks;
+/// Which results a row of the table sums up.
+struct noell_setting {
+  std::string method;
+  std::optional<int> iterations;
+  double data_ratio = 1.0, outlier_ratio = 0.0;
+
+  [[nodiscard]] std::string name() const {
+    return iterations ? method + ", " + std::to_string(*iterations) + " iterations" : method;
+  }
+};
+
+[[nodiscard]] double mean_of(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Mean (and its range over seeds, if there are several), median, worst and range of the peak ratio, as a row's cells.
+/// Results are those of the first seed, of the second, and so on.
+[[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
+  std::vector<double> values, peaks, means;
   for (const json& result : results) {
     values.push_back(result[measure]);
     peaks.push_back(result["peak_ratio"]);
   }
+  const std::size_t materials = values.size() / seeds;
+  for (std::size_t seed = 0; seed < seeds; ++seed)
+    means.push_back(mean_of(std::span(values).subspan(seed * materials, materials)));
+  const auto [least, most] = std::ranges::minmax(means);
+  const std::string spread = seeds > 1 ? " (" + fixed(least, 2) + " - " + fixed(most, 2) + ")" : "";
   std::ranges::sort(values);
   std::ranges::sort(peaks);
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  const auto count = static_cast<double>(values.size());
-  return fixed(sum / count, 2) + " | " + fixed((values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2.0, 2) +
-         " | " + fixed(values.back(), 2) + " | " + fixed(peaks.front(), 2) + " - " + fixed(peaks.back(), 2);
+  return fixed(mean_of(values), 2) + spread + " | " +
+         fixed((values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2.0, 2) + " | " +
+         fixed(values.back(), 2) + " | " + fixed(peaks.front(), 2) + " - " + fixed(peaks.back(), 2);
 }
 
 [[nodiscard]] std::string printed(const std::optional<double>& figure) { return figure ? fixed(*figure, 2) : ""; }
@@ -96,38 +84,58 @@ class noell_sweep {
   }
 
   void run() {
-    const std::size_t total = options_.data_ratios.size() * options_.outlier_ratios.size() * options_.methods.size() *
-                              materials_.size() * options_.seeds.size();
+    const std::vector<noell_setting> all = settings();
+    const std::size_t total = all.size() * materials_.size() * options_.seeds.size();
     std::size_t done = 0;
     // Materials outermost: each has corrections of its own.
     for (const std::string& material : materials_)
-      for (const double data_ratio : options_.data_ratios)
-        for (const double outlier_ratio : options_.outlier_ratios)
-          for (const std::uint64_t seed : options_.seeds)
-            for (const std::string& method : options_.methods) {
-              const noell_case which{material, data_ratio, outlier_ratio, seed};
-              gonio::report(listener_, method + ' ' + material,
-                            static_cast<double>(done++) / static_cast<double>(total));
-              const json key = key_of(method, which);
-              if (!results_.find(key)) results_.add(key, experiment_.run(method, which));
-            }
+      for (const noell_setting& setting : all)
+        for (const std::uint64_t seed : options_.seeds) {
+          gonio::report(listener_, setting.method + ' ' + material,
+                        static_cast<double>(done++) / static_cast<double>(total));
+          const noell_case which = case_of(setting, material, seed);
+          const json key = key_of(setting.method, which);
+          if (!results_.find(key)) results_.add(key, experiment_.run(setting.method, which));
+        }
   }
 
-  [[nodiscard]] std::vector<json> results(const std::string& method, double data_ratio, double outlier_ratio) const {
+  /// One for each row of the table. Numbers of iterations stand next to each other.
+  [[nodiscard]] std::vector<noell_setting> settings() const {
+    std::vector<noell_setting> all;
+    for (const std::string& method : options_.methods)
+      for (const double data_ratio : options_.data_ratios)
+        for (const double outlier_ratio : options_.outlier_ratios)
+          if (options_.iterations.empty() || !noell_experiment::iterates(method))
+            all.push_back({method, std::nullopt, data_ratio, outlier_ratio});
+          else
+            for (const int iterations : options_.iterations)
+              all.push_back({method, iterations, data_ratio, outlier_ratio});
+    return all;
+  }
+
+  /// Of all materials with the first seed, then the second, and so on.
+  [[nodiscard]] std::vector<json> results(const noell_setting& setting) const {
     std::vector<json> found;
     for (const std::uint64_t seed : options_.seeds)
       for (const std::string& material : materials_)
-        found.push_back((*results_.find(key_of(method, {material, data_ratio, outlier_ratio, seed})))["result"]);
+        found.push_back(*results_.find(key_of(setting.method, case_of(setting, material, seed))));
     return found;
   }
 
-  [[nodiscard]] std::size_t materials() const noexcept { return materials_.size(); }
+  [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
 
  private:
+  [[nodiscard]] static noell_case case_of(const noell_setting& setting, const std::string& material,
+                                          std::uint64_t seed) {
+    return {material, setting.data_ratio, setting.outlier_ratio, seed, setting.iterations};
+  }
+
   [[nodiscard]] json key_of(const std::string& method, const noell_case& which) const {
-    return {method,           which.material,
-            which.data_ratio, which.outlier_ratio,
-            which.seed,       options_.environment.filename().string()};
+    json key{method,           which.material,
+             which.data_ratio, which.outlier_ratio,
+             which.seed,       options_.environment.filename().string()};
+    if (which.iterations) key.push_back(*which.iterations);
+    return key;
   }
 
   noell_options options_;
@@ -139,34 +147,63 @@ class noell_sweep {
 
 void print_json(const noell_options& options, const noell_sweep& sweep) {
   json all = json::array();
-  for (const std::string& method : options.methods)
-    for (const double data_ratio : options.data_ratios)
-      for (const double outlier_ratio : options.outlier_ratios)
-        all.push_back({{"method", method},
-                       {"data_ratio", data_ratio},
-                       {"outlier_ratio", outlier_ratio},
-                       {"results", sweep.results(method, data_ratio, outlier_ratio)}});
+  for (const noell_setting& setting : sweep.settings()) {
+    json row{{"method", setting.method}};
+    if (setting.iterations) row["iterations"] = *setting.iterations;
+    row["data_ratio"] = setting.data_ratio;
+    row["outlier_ratio"] = setting.outlier_ratio;
+    json results = json::array();
+    for (const std::uint64_t seed : options.seeds)
+      for (const std::string& material : sweep.materials()) results.push_back({{"material", material}, {"seed", seed}});
+    const std::vector<json> measured = sweep.results(setting);
+    for (std::size_t i = 0; i < measured.size(); ++i) results[i].update(measured[i]);
+    row["results"] = std::move(results);
+    all.push_back(std::move(row));
+  }
   std::cout << all.dump(1) << '\n';
+}
+
+/// What the last number of iterations did to each reconstruction: its error over the least that any of them left.
+void print_harm(const noell_options& options, const noell_sweep& sweep) {
+  for (const noell_setting& last : sweep.settings()) {
+    if (last.iterations != options.iterations.back()) continue;
+    std::vector<double> harm(sweep.results(last).size(), 1.0);
+    for (const int iterations : options.iterations) {
+      noell_setting other = last;
+      other.iterations = iterations;
+      const std::vector<json> before = sweep.results(other), after = sweep.results(last);
+      for (std::size_t i = 0; i < harm.size(); ++i)
+        harm[i] = std::max(harm[i], after[i]["delta_e_env"].get<double>() / before[i]["delta_e_env"].get<double>());
+    }
+    const auto worst = std::ranges::max_element(harm);
+    const auto material = static_cast<std::size_t>(worst - harm.begin()) % sweep.materials().size();
+    std::cout << last.name() << ", data " << last.data_ratio << ", outliers " << last.outlier_ratio << ": at most "
+              << fixed(*worst, 3) << " times the best (" << sweep.materials()[material] << "); more than 1.05 times in "
+              << std::ranges::count_if(harm, [](double ratio) { return ratio > 1.05; }) << " of " << harm.size()
+              << " cases\n";
+  }
 }
 
 void print_table(const noell_options& options, const noell_sweep& sweep) {
   const bool natural = !options.environment.empty();
-  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << sweep.materials() << " materials x "
+  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << sweep.materials().size() << " materials x "
             << options.seeds.size() << " outlier seeds, and the range of the peak ratio (green).\n\n"
             << "| method | data | outliers | paper | formula light: mean | median | worst | peak ratio |"
             << (natural ? " natural light: mean | median | worst | peak ratio |\n" : "\n")
             << "|---|---|---|---|---|---|---|---|" << (natural ? "---|---|---|---|\n" : "\n");
-  for (const std::string& method : options.methods)
-    for (const double data_ratio : options.data_ratios)
-      for (const double outlier_ratio : options.outlier_ratios) {
-        const auto results = sweep.results(method, data_ratio, outlier_ratio);
-        std::cout << "| " << method << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
-                  << fixed(outlier_ratio, 1) << " | "
-                  << printed(noell_experiment::published(method, data_ratio, outlier_ratio)) << " | "
-                  << summary(results, "delta_e_env") << " |";
-        if (natural) std::cout << ' ' << summary(results, "delta_e_natural") << " |";
-        std::cout << '\n';
-      }
+  for (const noell_setting& setting : sweep.settings()) {
+    const auto& [method, iterations, data_ratio, outlier_ratio] = setting;
+    const auto results = sweep.results(setting);
+    std::cout << "| " << setting.name() << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
+              << fixed(outlier_ratio, 1) << " | "
+              << printed(noell_experiment::published(method, data_ratio, outlier_ratio)) << " | "
+              << summary(results, "delta_e_env", options.seeds.size()) << " |";
+    if (natural) std::cout << ' ' << summary(results, "delta_e_natural", options.seeds.size()) << " |";
+    std::cout << '\n';
+  }
+  if (options.iterations.size() < 2) return;
+  std::cout << '\n';
+  print_harm(options, sweep);
 }
 
 void run_noell(const noell_options& options) {
@@ -192,10 +229,8 @@ CLI::App* add_noell(CLI::App& evaluate, const std::string& name, const std::stri
   command
       ->add_option(
           "--methods", options->methods,
-          "Any of: our, our-start (what it starts from), printed (the paper's method as printed), gamma-G (our "
-          "corrections "
-          "with the paper's weights), lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for "
-          "another metric than log")
+          "Any of: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's weights), "
+          "lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for another metric than log")
       ->check(CLI::Validator([](std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
       ->capture_default_str();
   command
@@ -207,6 +242,11 @@ CLI::App* add_noell(CLI::App& evaluate, const std::string& name, const std::stri
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--seeds", options->seeds, "Seeds of cells and outliers")->capture_default_str();
+  command
+      ->add_option("--iterations", options->iterations,
+                   "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
+                   "after at most 10")
+      ->check(CLI::NonNegativeNumber);
   command->add_option("--state", options->state, "File in which results are kept, so that a run can be resumed");
   command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(*command, options->threads);

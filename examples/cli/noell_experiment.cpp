@@ -34,7 +34,7 @@ struct method_name {
 [[nodiscard]] std::optional<method_name> parse(const std::string& text) {
   const auto dash = text.rfind('-');
   const auto has_metric = [](const std::string& name) {
-    return name == "our" || name == "our-start" || name == "printed" || name == "lc" || name == "rbf";
+    return name == "our" || name == "printed" || name == "lc" || name == "rbf";
   };
   if (text == "pull-push" || has_metric(text)) return method_name{text};
   const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
@@ -128,15 +128,17 @@ struct noell_experiment::parts {
 
     const auto others = materials(metric).without({which.material});
     if (method.method == "lc") return combination(metric, which, samples).tabulate(truths.cells, threads);
-    if (method.method == "our" || method.method == "our-start") {
-      const gonio::correction_limits limits{.rounds = method.method == "our" ? 10 : 0};
+    gonio::correction_limits limits;
+    limits.rounds = which.iterations.value_or(limits.rounds);
+    if (which.iterations) limits.smallest_change = 0.0;
+    if (method.method == "our")
       return tabulated(
           gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads});
-    }
+    limits.smallest_change = 0.0;
     const bool printed = method.method == "printed";
     const double gamma = printed ? gonio::noell_gamma(which.outlier_ratio) : method.gamma;
     const auto& functions = corrections_without(which.material, printed);
-    const gonio::correction_limits limits{.smallest_change = 0.0, .inertia = printed ? 0.0 : 1.0};
+    if (printed) limits.inertia = 0.0;
     const gonio::decomposition initial{others, gonio::nnls{}, threads};
     if (gamma == 0.0)
       return tabulated(
@@ -190,6 +192,11 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
               {"seconds", elapsed.count()}};
   if (parts_->natural) result["delta_e_natural"] = parts_->natural->difference(estimate, truth, parts_->threads);
   return result;
+}
+
+bool noell_experiment::iterates(const std::string& method) {
+  const std::string name = noell::parse(method)->method;
+  return name == "our" || name == "printed" || name == "gamma";
 }
 
 std::string noell_experiment::complaint(const std::string& method) {

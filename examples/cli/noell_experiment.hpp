@@ -15,6 +15,7 @@ struct noell_case {
   double data_ratio = 1.0;  ///< share of the cells; above 1, their number
   double outlier_ratio = 0.0;
   std::uint64_t seed = 1;
+  std::optional<int> iterations = {};  ///< exactly as many; or else the method stops by itself
 };
 
 /// Holds the materials, the bases that methods need (each made when first asked for), and the judges.
@@ -33,6 +34,9 @@ class noell_experiment {
 
   /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
   [[nodiscard]] static std::size_t samples_of(double data, std::size_t cells) noexcept;
+
+  /// Does a method correct its estimate again and again?
+  [[nodiscard]] static bool iterates(const std::string& method);
 
   /// What is wrong with the name of a method; empty if nothing is.
   [[nodiscard]] static std::string complaint(const std::string& method);

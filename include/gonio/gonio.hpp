@@ -17,6 +17,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/spectrum.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/completed_table.hpp>
@@ -37,6 +38,7 @@
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/correction_check.hpp>
 #include <gonio/evaluate/few_samples.hpp>
 #include <gonio/evaluate/linear_combination.hpp>
 #include <gonio/evaluate/material_result.hpp>
@@ -44,6 +46,7 @@
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/byte_stream.hpp>
+#include <gonio/io/cornell.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/merl.hpp>
@@ -54,6 +57,7 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/io/text.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>

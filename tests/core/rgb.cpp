@@ -30,3 +30,8 @@ TEST_CASE("luminance weights sum to one and sRGB meets its published points") {
   CHECK(gonio::encode_srgb(-3.0) == 0.0);
   CHECK(gonio::encode_srgb(0.0031308) == doctest::Approx(0.04045).epsilon(1e-3));
 }
+
+TEST_CASE("XYZ and back") {
+  for (const rgb& colour : {rgb(1, 1, 1), rgb(0.2, 0.5, 0.9), rgb(-0.1, 2.0, 0.0)})
+    CHECK(((gonio::from_xyz(gonio::to_xyz(colour)) - colour).abs() < 2e-6).all());  // matrices of 7 digits
+}

@@ -11,14 +11,14 @@ using gonio::sample_regions;
 
 TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
   CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 4000));
+    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 600));
     std::mt19937 generator(static_cast<unsigned>(n));
     std::vector<gonio::location> places;
     for (std::size_t i = 0; i < n; ++i)
       places.push_back(gonio::locate_cell(small_cells(), generator() % small_cells().size()));
     const sample_regions regions(places);
-    const std::size_t strips = std::clamp<std::size_t>(n / 100, 1, 6),
-                      parts = std::clamp<std::size_t>(n / strips / 100, 1, 4);
+    const std::size_t strips = std::clamp<std::size_t>(n / 8, 1, 6),
+                      parts = std::clamp<std::size_t>(n / strips / 8, 1, 4);
     RC_ASSERT(regions.count() == strips * parts);
     RC_ASSERT(regions.all().size() == n);
     std::vector<bool> seen(n, false);

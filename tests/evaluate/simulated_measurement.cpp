@@ -67,3 +67,33 @@ TEST_CASE("impossible defects and directions are refused") {
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::cells_at(table().cells(), below)), doctest::Contains("direction 2"),
                        gonio::error);
 }
+
+TEST_CASE("samples of no table are spoiled by values that the caller draws") {
+  gonio::sample_set samples(40, {{0.1, 0.2, 0.3}, gonio::rgb(1, 2, 3), 2.0});
+  const auto five = [](auto&) { return gonio::rgb(5, 5, 5); };
+  const auto spoiled = gonio::spoil(samples, {.outlier_ratio = 0.25}, 3, five);
+  CHECK(std::ranges::count_if(spoiled, [](const auto& s) { return (s.value == 5.0).all(); }) == 10);
+  CHECK(std::ranges::count_if(spoiled, [](const auto& s) { return (s.value == gonio::rgb(1, 2, 3)).all(); }) == 30);
+  CHECK(spoiled[7].weight == 2.0);
+  CHECK_THROWS_AS((void)gonio::spoil(samples, {.outlier_ratio = std::nan("")}, 3, five), gonio::error);
+}
+
+TEST_CASE("parting samples: each is in one part, in order, by the seed") {
+  gonio::sample_set samples;
+  for (int i = 0; i < 50; ++i) samples.push_back({{0.01 * i, 0.2, 0.3}, gonio::rgb::Constant(i), 1.0});
+  const auto [some, others] = gonio::part(samples, 20, 4);
+  REQUIRE(some.size() == 20);
+  REQUIRE(others.size() == 30);
+  const auto value = [](const gonio::sample& s) { return s.value.x(); };
+  CHECK(std::ranges::is_sorted(some, {}, value));
+  CHECK(std::ranges::is_sorted(others, {}, value));
+  gonio::sample_set both = some;
+  both.insert(both.end(), others.begin(), others.end());
+  std::ranges::sort(both, {}, value);
+  for (std::size_t i = 0; i < 50; ++i) CHECK(both[i].value.x() == static_cast<double>(i));
+  CHECK(std::ranges::equal(gonio::part(samples, 20, 4).some, some, {}, value, value));
+  CHECK_FALSE(std::ranges::equal(gonio::part(samples, 20, 5).some, some, {}, value, value));
+  CHECK(gonio::part(samples, 0, 1).some.empty());
+  CHECK(gonio::part(samples, 50, 1).others.empty());
+  CHECK_THROWS_WITH_AS((void)gonio::part(samples, 51, 1), doctest::Contains("51 of 50"), gonio::error);
+}

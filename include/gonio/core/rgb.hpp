@@ -24,6 +24,13 @@ using rgb = Eigen::Array3d;
           0.0193339 * colour.x() + 0.1191920 * colour.y() + 0.9503041 * colour.z()};
 }
 
+/// The linear Rec. 709 colour of CIE XYZ: the inverse of `to_xyz`. Negative where the colour is outside of the gamut.
+[[nodiscard]] inline rgb from_xyz(const rgb& xyz) noexcept {
+  return {3.2404542 * xyz.x() - 1.5371385 * xyz.y() - 0.4985314 * xyz.z(),
+          -0.9692660 * xyz.x() + 1.8760108 * xyz.y() + 0.0415560 * xyz.z(),
+          0.0556434 * xyz.x() - 0.2040259 * xyz.y() + 1.0572252 * xyz.z()};
+}
+
 /// CIELAB 1976 (L*, a*, b*) of a linear Rec. 709 colour under D65. The colour is clipped to [0, 1]
 /// first, as a display would.
 [[nodiscard]] inline rgb to_lab(const rgb& colour) noexcept {

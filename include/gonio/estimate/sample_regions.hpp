@@ -12,9 +12,11 @@
 namespace gonio {
 
 /// At most six strips of theta_h with equal numbers of samples, each cut into at most four parts of theta_d: as many as
-/// leave a hundred samples in each.
+/// leave eight samples in each. With fewer in a region chance decides; with more, few samples have but one.
 class sample_regions {
  public:
+  static constexpr std::size_t fewest_samples = 8;
+
   /// O(n log n).
   explicit sample_regions(const std::vector<location>& places)
       : order_(places.size()), strips_(at_most(6, places.size())), parts_(at_most(4, places.size() / strips_)) {
@@ -42,7 +44,7 @@ class sample_regions {
 
  private:
   [[nodiscard]] static std::size_t at_most(std::size_t most, std::size_t samples) noexcept {
-    return std::clamp<std::size_t>(samples / 100, 1, most);
+    return std::clamp<std::size_t>(samples / fewest_samples, 1, most);
   }
 
   template <class Position>

@@ -58,17 +58,15 @@ struct measurement_defects {
   return chosen;
 }
 
-/// The table's values at cells, at the cells' own angles, with defects. Outliers and noise come from the
-/// seed alone. Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
-[[nodiscard]] inline sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
-                                        const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+/// Gives samples defects, which come from the seed alone: `any_value(generator)` is what an outlier's value becomes.
+/// Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
+template <class AnyValue>
+[[nodiscard]] sample_set spoil(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
+                               AnyValue&& any_value) {
   if (!(defects.outlier_ratio >= 0.0 && defects.outlier_ratio <= 1.0))
     throw error("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
     throw error("the noise must be finite and not negative, not " + std::to_string(defects.noise));
-  sample_set samples;
-  samples.reserve(cells.size());
-  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
 
   // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
   std::mt19937_64 generator(seed);
@@ -77,8 +75,7 @@ struct measurement_defects {
   std::ranges::shuffle(order, generator);
   const auto outliers =
       static_cast<std::size_t>(std::llround(defects.outlier_ratio * static_cast<double>(samples.size())));
-  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
-  for (std::size_t i = 0; i < outliers; ++i) samples[order[i]].value = table.at(any_cell(generator));
+  for (std::size_t i = 0; i < outliers; ++i) samples[order[i]].value = any_value(generator);
 
   if (defects.noise > 0.0) {
     std::normal_distribution<double> normal;
@@ -87,6 +84,39 @@ struct measurement_defects {
         s.value[channel] *= 1.0 + defects.noise * normal(generator);
   }
   return samples;
+}
+
+/// The table's values at cells, at the cells' own angles, with defects: an outlier has the value of a random cell.
+/// Throws as `spoil` does.
+[[nodiscard]] inline sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
+                                        const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  sample_set samples;
+  samples.reserve(cells.size());
+  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
+  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
+  return spoil(std::move(samples), defects, seed,
+               [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
+}
+
+/// Measurements parted in two.
+struct parted_samples {
+  sample_set some, others;
+};
+
+/// `count` of the samples, at random, and the others, both in their order. Throws gonio::error if there are not as
+/// many.
+[[nodiscard]] inline parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed) {
+  if (count > samples.size())
+    throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
+  std::mt19937_64 generator(seed);
+  std::vector<std::size_t> order(samples.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::shuffle(order, generator);
+  std::vector<bool> chosen(samples.size());
+  for (std::size_t i = 0; i < count; ++i) chosen[order[i]] = true;
+  parted_samples parts;
+  for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
+  return parts;
 }
 
 }  // namespace gonio

@@ -4,20 +4,17 @@
 /// `wi_x,wi_y,wi_z,wo_x,wo_y,wo_z` (normal +z); the reflectance is `r,g,b` in sr^-1 without the cosine; a
 /// `weight` is optional. Empty lines and lines that start with # are skipped.
 
-#include <gonio/core/assertion.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace gonio::io {
@@ -41,32 +38,6 @@ inline constexpr std::size_t weight_column = 16;
 
 using sample_row = std::array<double, sample_columns.size()>;
 
-/// Where in which file a reader is, for its errors.
-struct text_place {
-  std::string name;
-  std::size_t line = 0;
-
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw error(name + ", line " + std::to_string(line) + ": " + what);
-  }
-};
-
-/// A field in quotes, short and printable whatever a broken file holds.
-[[nodiscard]] inline std::string quoted(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  std::ranges::replace_if(
-      text, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + text + (field.size() > longest ? "...'" : "'");
-}
-
-[[nodiscard]] inline std::string_view trimmed(std::string_view text) noexcept {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
-}
-
 inline void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
@@ -74,21 +45,6 @@ inline void split_fields(std::string_view line, std::vector<std::string_view>& f
     line.remove_prefix(comma + 1);
   }
   fields.push_back(trimmed(line));
-}
-
-[[nodiscard]] inline double number(std::string_view field, std::size_t column, const text_place& place) {
-  const auto refuse = [&](const char* what) {
-    place.refuse("column " + std::string(sample_columns[column]) + ": " + quoted(field) + what);
-  };
-  // Instruments print a plus sign, which from_chars does not know.
-  const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
-  const std::string_view digits = field.substr(plus ? 1 : 0);
-  double value = 0.0;
-  const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (failed == std::errc::result_out_of_range) refuse(" is out of range");
-  if (failed != std::errc() || end != digits.data() + digits.size()) refuse(" is not a number");
-  if (!std::isfinite(value)) refuse(" is not finite");
-  return value;
 }
 
 /// The header line: which column each field of a line is, and how directions are given.
@@ -143,13 +99,6 @@ class sample_header {
   std::vector<std::size_t> columns_;
   column_group directions_;
 };
-
-[[nodiscard]] inline std::string shortest(double value) {
-  std::array<char, 32> text{};
-  const auto [end, failed] = std::to_chars(text.data(), text.data() + text.size(), value);
-  GONIO_ASSERT(failed == std::errc());
-  return {text.data(), end};
-}
 
 /// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
 /// as an azimuth of 180 degrees.
@@ -207,41 +156,31 @@ class sample_header {
 /// Calls `use(angles, row)` for each line of numbers.
 template <class Use>
 void parse_rows(std::string_view text, const std::string& name, bool needs_colour, Use&& use) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   text_place place{name, 0};
   std::optional<sample_header> header;
   std::vector<std::string_view> fields;
   sample_row row{};
   row[weight_column] = 1.0;
   std::size_t rows = 0;
-  while (!text.empty()) {
-    ++place.line;
-    const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (line.empty() || line.front() == '#') continue;
+  for_each_line(text, place, [&](std::string_view line) {
     if (!header) {
       header.emplace(line, needs_colour, place);
-      continue;
+      return;
     }
     split_fields(line, fields);
     if (fields.size() != header->columns().size())
       place.refuse(std::to_string(fields.size()) + " fields, expected " + std::to_string(header->columns().size()) +
                    " as in the header line");
     for (std::size_t i = 0; i < fields.size(); ++i)
-      row[header->columns()[i]] = number(fields[i], header->columns()[i], place);
+      row[header->columns()[i]] =
+          parse_number(fields[i], place, [&] { return "column " + std::string(sample_columns[header->columns()[i]]); });
     if (row[weight_column] < 0.0)
       place.refuse("column weight: " + shortest(row[weight_column]) + " is negative, expected at least 0");
     use(row_angles(row, header->directions(), place), std::as_const(row));
     ++rows;
-  }
+  });
   if (!header) throw error(name + ": is empty, expected a header line that names the columns");
   if (rows == 0) throw error(name + ": has a header line but no samples, expected at least one");
-}
-
-[[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) noexcept {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace detail

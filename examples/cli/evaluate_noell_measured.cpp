@@ -1,0 +1,203 @@
+/// gonio evaluate noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
+/// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
+
+#include "evaluate.hpp"
+#include "progress_bar.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/io/cornell.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/merl_directory.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/render/environment_map.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+// Not unnamed: the tool is compiled as one unit.
+namespace noell_measured {
+
+struct options {
+  std::filesystem::path networks, environment, tables;
+  std::vector<std::filesystem::path> paints;
+  double data_ratio = 0.1;
+  std::vector<double> outlier_ratios{0.0, 0.2};
+  std::uint64_t seed = 1;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The materials on some cells, their corrections, and the judges there.
+struct workshop {
+  workshop(const options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
+      : threads(given.threads),
+        materials(gonio::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
+                  gonio::log{}, threads),
+        corrections(materials, {}, gonio::nnls{}, threads),
+        judge(cells, 36, threads) {
+    if (!given.environment.empty())
+      natural.emplace(
+          cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(given.environment))),
+          36, gonio::sphere_judge::middle_grey, threads);
+  }
+
+  /// Calls `use(name, fit)` for ours and for the combination of materials.
+  template <class Use>
+  void reconstruct(const gonio::sample_set& samples, Use&& use) const {
+    use("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads}.fit(samples));
+    use("lc", gonio::decomposition{materials, gonio::nnls{}, threads}.fit(samples));
+  }
+
+  gonio::thread_count threads;
+  gonio::measured<gonio::log> materials;
+  gonio::correction corrections;
+  gonio::appearance_judge judge;
+  std::optional<gonio::sphere_judge> natural;
+};
+
+/// Root mean square of the difference of ln(f + 0.001) over values of all channels; negative ones count as zero.
+class logarithmic_error {
+ public:
+  void add(const gonio::rgb& estimate, const gonio::rgb& truth) {
+    constexpr double offset = 1e-3;
+    sum_ += ((estimate.max(0.0) + offset) / (truth.max(0.0) + offset)).log().square().sum();
+    count_ += 3.0;
+  }
+  [[nodiscard]] double value() const { return std::sqrt(sum_ / count_); }
+
+ private:
+  double sum_ = 0.0, count_ = 0.0;
+};
+
+/// One for each method and share of outliers.
+json row(const std::string& name, const std::string& method, std::size_t samples, double outlier_ratio) {
+  return {{"name", name}, {"method", method}, {"samples", samples}, {"outlier_ratio", outlier_ratio}};
+}
+
+/// Judged on the whole table.
+void judge_table(const options& given, const workshop& shop, const std::string& name, const gonio::brdf_table& truth,
+                 json& rows) {
+  const auto count = std::max<std::size_t>(
+      static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(truth.cells().size()))), 1);
+  const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
+  for (const double outlier_ratio : given.outlier_ratios)
+    shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed),
+                     [&](const std::string& method, const auto& fit) {
+                       const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
+                       logarithmic_error error;
+                       for (std::size_t cell = 0; cell < truth.cells().size(); ++cell)
+                         error.add(estimate.at(cell), truth.at(cell));
+                       json result = row(name, method, count, outlier_ratio);
+                       result["log_error"] = error.value();
+                       result["delta_e_env"] = shop.judge.difference(estimate, truth, shop.threads).environment;
+                       if (shop.natural)
+                         result["delta_e_natural"] = shop.natural->difference(estimate, truth, shop.threads);
+                       const double limit = gonio::radians(70.0);
+                       result["peak_ratio"] =
+                           gonio::highlight_peak(estimate, limit).y() / gonio::highlight_peak(truth, limit).y();
+                       rows.push_back(std::move(result));
+                     });
+}
+
+/// Judged on the measurements that the estimate was not made from.
+void judge_paint(const options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
+  const gonio::sample_set all = gonio::io::read_cornell(path);
+  const auto count = std::max<std::size_t>(
+      static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(all.size()))), 1);
+  const auto [some, others] = gonio::part(all, count, given.seed);
+  if (others.empty()) throw gonio::error(path.string() + ": no sample is left to judge by, expected --data below 1");
+  std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
+  for (const double outlier_ratio : given.outlier_ratios) {
+    const auto samples = gonio::spoil(some, {.outlier_ratio = outlier_ratio}, given.seed,
+                                      [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
+    shop.reconstruct(samples, [&](const std::string& method, const auto& fit) {
+      logarithmic_error error;
+      for (const gonio::sample& other : others) {
+        const auto [wi, wo] = to_directions(other.angles);
+        error.add(fit(wi, wo), other.value);
+      }
+      json result = row(path.stem().string(), method, count, outlier_ratio);
+      result["log_error"] = error.value();
+      rows.push_back(std::move(result));
+    });
+  }
+}
+
+void print(const options& given, const json& rows) {
+  if (given.print_json) {
+    std::cout << rows.dump(1) << '\n';
+    return;
+  }
+  std::cout
+      << "Error: root mean square of ln(f + 0.001) over a table's cells, or over the measurements that were not "
+         "used.\n\n"
+      << "| material | samples | outliers | method | error | Delta E formula light | natural light | peak ratio |\n"
+      << "|---|---|---|---|---|---|---|---|\n";
+  const auto figure = [](const json& result, const char* key) {
+    return result.contains(key) ? fixed(result[key], 2) : std::string();
+  };
+  for (const json& result : rows)
+    std::cout << "| " << result["name"].get<std::string>() << " | " << result["samples"] << " | "
+              << fixed(result["outlier_ratio"], 1) << " | " << result["method"].get<std::string>() << " | "
+              << fixed(result["log_error"], 3) << " | " << figure(result, "delta_e_env") << " | "
+              << figure(result, "delta_e_natural") << " | " << figure(result, "peak_ratio") << " |\n";
+}
+
+void run(const options& given) {
+  if (given.tables.empty() && given.paints.empty())
+    throw gonio::error("there is nothing to reconstruct: give --tables or --paints");
+  progress_bar bar;
+  json rows = json::array();
+  std::unique_ptr<workshop> shop;  // of the last table's cells, most often those of the next, too
+  const auto shop_for = [&](const gonio::valid_cells& cells) -> const workshop& {
+    if (!shop || !(shop->materials.cells() == cells)) {
+      shop.reset();  // two would take twice the memory
+      shop = std::make_unique<workshop>(given, cells, bar.listener());
+    }
+    return *shop;
+  };
+  if (!given.tables.empty()) {
+    const auto files = gonio::io::list_merl_directory(given.tables);
+    if (files.empty()) throw gonio::error(given.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      const auto truth = gonio::io::read_merl_any(files[f].path);
+      const workshop& here = shop_for(truth.cells());
+      bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
+      judge_table(given, here, files[f].name, truth, rows);
+    }
+  }
+  for (const std::filesystem::path& paint : given.paints)
+    judge_paint(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), paint, rows);
+  bar.wipe();
+  print(given, rows);
+}
+
+}  // namespace noell_measured
+
+void add_noell_measured(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand(
+      "noell-measured", "Reconstruct real measurements, some of which are outliers, from the materials of a database");
+  const auto options = std::make_shared<noell_measured::options>();
+  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
+  command->add_option("--environment", options->environment,
+                      "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+  command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command->add_option("--paints", options->paints, "Spectral measurements in Cornell's text format (.brdf)");
+  command->add_option("--data", options->data_ratio, "Share of the data that is measured")
+      ->check(CLI::PositiveNumber & CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of cells and outliers")->capture_default_str();
+  command->add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(*command, options->threads);
+  command->callback([options] { noell_measured::run(*options); });
+}
+
+}  // namespace cli

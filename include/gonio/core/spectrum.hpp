@@ -1,0 +1,76 @@
+#pragma once
+/// Colours of spectral reflectance: CIE 1931 2-degree observer, by the fits of Wyman, Sloan and Shirley, "Simple
+/// Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013 (section 2.2), under CIE standard
+/// illuminant D65 (ISO 11664-2).
+
+#include <gonio/core/error.hpp>
+#include <gonio/core/rgb.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace gonio {
+
+/// The observer's three responses at a wavelength in nanometres: off the standard's tables by a percent of the peak.
+[[nodiscard]] inline rgb colour_matching(double wavelength) noexcept {
+  const auto lobe = [wavelength](double height, double centre, double below, double above) {
+    const double z = (wavelength - centre) / (wavelength < centre ? below : above);
+    return height * std::exp(-0.5 * z * z);
+  };
+  return {lobe(1.056, 599.8, 37.9, 31.0) + lobe(0.362, 442.0, 16.0, 26.7) - lobe(0.065, 501.1, 20.4, 26.2),
+          lobe(0.821, 568.8, 46.9, 40.5) + lobe(0.286, 530.9, 16.3, 31.1),
+          lobe(1.217, 437.0, 11.8, 36.0) + lobe(0.681, 459.0, 26.0, 13.8)};
+}
+
+/// Relative power of daylight D65 at a wavelength in nanometres, 100 at 560: linear between the standard's values every
+/// 10 nanometres from 380 to 780, constant outside.
+[[nodiscard]] inline double daylight(double wavelength) noexcept {
+  constexpr std::array power{49.9755, 54.6482, 82.7549, 91.4860, 93.4318, 86.6823, 104.865, 117.008, 117.812,
+                             114.861, 115.923, 108.811, 109.354, 107.802, 104.790, 107.689, 104.405, 104.046,
+                             100.000, 96.3342, 95.7880, 88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992,
+                             80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.3490, 61.6040, 69.8856,
+                             75.0870, 63.5927, 46.4182, 66.8054, 63.3828};
+  const double position = std::clamp((wavelength - 380.0) / 10.0, 0.0, static_cast<double>(power.size() - 1));
+  const auto below = std::min(static_cast<std::size_t>(position), power.size() - 2);
+  return std::lerp(power[below], power[below + 1], position - static_cast<double>(below));
+}
+
+/// Turns reflectance at given wavelengths into linear Rec. 709, by the trapezoidal rule, such that a reflectance that
+/// is the same at all of them is that grey.
+class spectral_colour {
+ public:
+  /// Wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, one of which
+  /// the observer sees.
+  explicit spectral_colour(std::span<const double> wavelengths)
+      : weights_(static_cast<Eigen::Index>(wavelengths.size()), 3) {
+    if (wavelengths.size() < 2) throw error("a spectrum needs at least two wavelengths");
+    for (std::size_t i = 0; i < wavelengths.size(); ++i) {
+      if (!std::isfinite(wavelengths[i]) || (i > 0 && !(wavelengths[i] > wavelengths[i - 1])))
+        throw error("wavelength " + std::to_string(i + 1) + " of a spectrum is not above the one before");
+      const double from = wavelengths[i == 0 ? 0 : i - 1], to = wavelengths[std::min(i + 1, wavelengths.size() - 1)];
+      weights_.row(static_cast<Eigen::Index>(i)) =
+          (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();
+    }
+    const Eigen::Array3d white = weights_.colwise().sum().transpose();
+    if (!(white > 0.0).all()) throw error("a spectrum has no visible wavelength");
+    weights_.rowwise() *= (to_xyz(rgb::Ones()) / white).transpose();
+  }
+
+  /// The number of wavelengths.
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(weights_.rows()); }
+
+  /// The colour of as many reflectances as there are wavelengths. Components of saturated colours may be negative.
+  [[nodiscard]] rgb operator()(std::span<const double> reflectance) const {
+    const Eigen::Map<const Eigen::ArrayXd> values(reflectance.data(), weights_.rows());
+    return from_xyz((weights_.colwise() * values).colwise().sum().transpose());
+  }
+
+ private:
+  Eigen::ArrayX3d weights_;
+};
+
+}  // namespace gonio

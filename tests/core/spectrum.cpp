@@ -1,0 +1,99 @@
+#include <gonio/core/spectrum.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <numeric>
+#include <vector>
+
+using gonio::rgb;
+using gonio::spectral_colour;
+
+namespace {
+
+/// From 400 to 700 nanometres every 10.
+std::vector<double> visible() {
+  std::vector<double> wavelengths;
+  for (int i = 0; i <= 30; ++i) wavelengths.push_back(400.0 + 10.0 * i);
+  return wavelengths;
+}
+
+/// Reflectance 1 from one wavelength to another, 0 outside.
+std::vector<double> band(double from, double to) {
+  std::vector<double> values;
+  for (const double wavelength : visible()) values.push_back(wavelength >= from && wavelength <= to ? 1.0 : 0.0);
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("the observer is near the standard's tables") {
+  // CIE 1931 2-degree observer, ISO 11664-1.
+  struct entry {
+    double wavelength;
+    rgb expected;
+  };
+  for (const auto& [wavelength, expected] :
+       {entry{450, {0.3362, 0.0380, 1.7721}}, entry{500, {0.0049, 0.3230, 0.2720}}, entry{555, {0.5121, 1.0, 0.0057}},
+        entry{600, {1.0622, 0.6310, 0.0008}}, entry{650, {0.2835, 0.1070, 0.0}}}) {
+    CAPTURE(wavelength);
+    CHECK(((gonio::colour_matching(wavelength) - expected).abs() < 0.03).all());
+  }
+}
+
+TEST_CASE("daylight: the standard's values and between them") {
+  CHECK(gonio::daylight(560) == 100.0);
+  CHECK(gonio::daylight(460) == doctest::Approx(117.812));
+  CHECK(gonio::daylight(465) == doctest::Approx(0.5 * (117.812 + 114.861)));
+  CHECK(gonio::daylight(300) == gonio::daylight(380));
+  CHECK(gonio::daylight(900) == gonio::daylight(780));
+}
+
+TEST_CASE("observer and daylight together see D65's white") {
+  rgb white = rgb::Zero();
+  for (double wavelength = 380; wavelength <= 780; wavelength += 1)
+    white += gonio::daylight(wavelength) * gonio::colour_matching(wavelength);
+  white /= white.y();
+  CHECK(white.x() == doctest::Approx(0.95047).epsilon(0.01));
+  CHECK(white.z() == doctest::Approx(1.08883).epsilon(0.01));
+}
+
+TEST_CASE("grey is grey, whatever the wavelengths") {
+  CHECK(rc::check([] {
+    const auto count = static_cast<std::size_t>(*rc::gen::inRange(5, 60));
+    std::vector<double> wavelengths{380.0};
+    while (wavelengths.size() < count)
+      wavelengths.push_back(wavelengths.back() +
+                            400.0 / static_cast<double>(count) * 0.01 * *rc::gen::inRange(20, 180));
+    const double grey = 0.01 * *rc::gen::inRange(-10, 200);
+    const spectral_colour colour(wavelengths);
+    RC_ASSERT(colour.size() == count);
+    const rgb found = colour(std::vector<double>(count, grey));
+    RC_ASSERT(((found - grey).abs() <= 1e-6 * std::max(1.0, std::abs(grey))).all());  // matrices of 7 digits
+  }));
+}
+
+TEST_CASE("bands are red, green and blue, and add up to white") {
+  const spectral_colour colour(visible());
+  const rgb blue = colour(band(400, 490)), green = colour(band(500, 580)), red = colour(band(590, 700));
+  CHECK(blue.z() > 0.8);
+  CHECK(blue.z() > 3.0 * blue.head<2>().maxCoeff());
+  CHECK(green.y() > 0.8);
+  CHECK(green.y() > 2.0 * std::max(green.x(), green.z()));
+  CHECK(red.x() > 0.8);
+  CHECK(red.x() > 3.0 * red.tail<2>().maxCoeff());
+  CHECK(((blue + green + red - 1.0).abs() < 1e-6).all());
+}
+
+TEST_CASE("wavelengths that are no spectrum are refused") {
+  const auto refused = [](const std::vector<double>& wavelengths, const char* word) {
+    CHECK_THROWS_WITH_AS((void)spectral_colour(wavelengths), doctest::Contains(word), gonio::error);
+  };
+  refused({}, "two wavelengths");
+  refused({500}, "two wavelengths");
+  refused({500, 600, 600}, "wavelength 3");
+  refused({500, 400}, "wavelength 2");
+  refused({std::nan(""), 400}, "wavelength 1");
+  refused({400, std::numeric_limits<double>::infinity()}, "wavelength 2");
+  refused({20'000, 30'000}, "visible");
+}

@@ -1,0 +1,35 @@
+#include "scratch.hpp"
+#include <gonio/io/text.hpp>
+
+#include <rapidcheck.h>
+
+namespace detail = gonio::io::detail;
+using scratch::check_refused;
+
+TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") {
+  detail::text_place place{"a file"};
+  std::vector<std::pair<std::size_t, std::string>> lines;
+  detail::for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", place,
+                        [&](std::string_view line) { lines.emplace_back(place.line, line); });
+  const decltype(lines) expected{{1, "one"}, {5, "two  2"}, {7, "last"}};
+  CHECK(lines == expected);
+  check_refused([&]() -> int { place.refuse("is wrong"); }, {"a file, line 7: is wrong"});
+}
+
+TEST_CASE("numbers read back as they were written") {
+  const detail::text_place place{"a file", 3};
+  const auto parse = [&](std::string_view field) {
+    return detail::parse_number(field, place, [] { return std::string("depth"); });
+  };
+  CHECK(parse("+1.5") == 1.5);
+  CHECK(parse("-2e3") == -2000.0);
+  CHECK(rc::check([&](double value) { RC_ASSERT(parse(detail::shortest(value)) == value); }));
+  for (const char* wrong : {"", "+", "+-1", "1,5", "1 2", "x", "0x10", "nan", "inf", "1e999"})
+    check_refused([&] { return parse(wrong); }, {"a file, line 3: depth", detail::quoted(wrong)});
+}
+
+TEST_CASE("quotes: short and printable") {
+  CHECK(detail::quoted("plain") == "'plain'");
+  CHECK(detail::quoted("a\x01\xff z") == "'a?? z'");
+  CHECK(detail::quoted(std::string(100, 'x')) == "'" + std::string(40, 'x') + "...'");
+}
