@@ -42,7 +42,8 @@ struct noell_setting {
   double data_ratio = 1.0, outlier_ratio = 0.0;
 
   [[nodiscard]] std::string name() const {
-    return iterations ? method + ", " + std::to_string(*iterations) + " iterations" : method;
+    if (!iterations) return method;
+    return method + ", " + std::to_string(*iterations) + (*iterations == 1 ? " iteration" : " iterations");
   }
 };
 

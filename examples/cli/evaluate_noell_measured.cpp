@@ -5,6 +5,7 @@
 #include "progress_bar.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/noell_tables.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/cornell.hpp>
@@ -39,6 +40,7 @@ struct workshop {
         materials(gonio::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
                   gonio::log{}, threads),
         corrections(materials, {}, gonio::nnls{}, threads),
+        printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
         judge(cells, 36, threads) {
     if (!given.environment.empty())
       natural.emplace(
@@ -46,16 +48,22 @@ struct workshop {
           36, gonio::sphere_judge::middle_grey, threads);
   }
 
-  /// Calls `use(name, fit)` for ours and for the combination of materials.
+  /// Calls `use(name, fit)` for ours, the paper's method as printed, and the combination of materials.
   template <class Use>
-  void reconstruct(const gonio::sample_set& samples, Use&& use) const {
+  void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
+    const gonio::decomposition combination{materials, gonio::nnls{}, threads};
+    const gonio::relative_deviation_weights weights{gonio::noell_gamma(outlier_ratio)};
+    const gonio::correction_limits ten_rounds{.smallest_change = 0.0, .inertia = 0.0};
     use("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads}.fit(samples));
-    use("lc", gonio::decomposition{materials, gonio::nnls{}, threads}.fit(samples));
+    use("printed",
+        gonio::correction_iteration{combination, printed_corrections, weights, gonio::nnls{}, ten_rounds, threads}.fit(
+            samples));
+    use("lc", combination.fit(samples));
   }
 
   gonio::thread_count threads;
   gonio::measured<gonio::log> materials;
-  gonio::correction corrections;
+  gonio::correction corrections, printed_corrections;
   gonio::appearance_judge judge;
   std::optional<gonio::sphere_judge> natural;
 };
@@ -86,7 +94,7 @@ void judge_table(const options& given, const workshop& shop, const std::string& 
       static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(truth.cells().size()))), 1);
   const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
   for (const double outlier_ratio : given.outlier_ratios)
-    shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed),
+    shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
                      [&](const std::string& method, const auto& fit) {
                        const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
                        logarithmic_error error;
@@ -115,7 +123,7 @@ void judge_paint(const options& given, const workshop& shop, const std::filesyst
   for (const double outlier_ratio : given.outlier_ratios) {
     const auto samples = gonio::spoil(some, {.outlier_ratio = outlier_ratio}, given.seed,
                                       [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
-    shop.reconstruct(samples, [&](const std::string& method, const auto& fit) {
+    shop.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
       logarithmic_error error;
       for (const gonio::sample& other : others) {
         const auto [wi, wo] = to_directions(other.angles);

@@ -88,11 +88,13 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   scratch::put(database.at("paint.brdf"), text);
   const std::string arguments = "noell-measured --data 0.5 --paints " + database.at("paint.brdf");
   const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
-  REQUIRE(rows.size() == 4);
+  REQUIRE(rows.size() == 6);
   CHECK(rows[0]["name"] == "paint");
   CHECK(rows[0]["method"] == "our");
   CHECK(rows[0]["samples"] == 30);
   CHECK(rows[3]["outlier_ratio"] == 0.2);
+  CHECK(rows[4]["method"] == "printed");
+  CHECK(rows[5]["method"] == "lc");
   for (const auto& row : rows) CHECK(row["log_error"].get<double>() < 2.0);
 
   const auto everything = gonio_tool("evaluate noell-measured --data 1 --networks " + database.at("n.npy") +
