@@ -8,7 +8,6 @@
 #include <gonio/evaluate/noell_tables.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
-#include <gonio/io/cornell.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/metric/log.hpp>
@@ -25,7 +24,7 @@ namespace noell_measured {
 
 struct options {
   std::filesystem::path networks, environment, tables;
-  std::vector<std::filesystem::path> paints;
+  std::vector<std::filesystem::path> samples;
   double data_ratio = 0.1;
   std::vector<double> outlier_ratios{0.0, 0.2};
   std::uint64_t seed = 1;
@@ -113,8 +112,8 @@ void judge_table(const options& given, const workshop& shop, const std::string& 
 }
 
 /// Judged on the measurements that the estimate was not made from.
-void judge_paint(const options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
-  const gonio::sample_set all = gonio::io::read_cornell(path);
+void judge_samples(const options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
+  const gonio::sample_set all = read_measurements(path);
   const auto count = std::max<std::size_t>(
       static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(all.size()))), 1);
   const auto [some, others] = gonio::part(all, count, given.seed);
@@ -157,8 +156,8 @@ void print(const options& given, const json& rows) {
 }
 
 void run(const options& given) {
-  if (given.tables.empty() && given.paints.empty())
-    throw gonio::error("there is nothing to reconstruct: give --tables or --paints");
+  if (given.tables.empty() && given.samples.empty())
+    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
   json rows = json::array();
   std::unique_ptr<workshop> shop;  // of the last table's cells, most often those of the next, too
@@ -179,8 +178,8 @@ void run(const options& given) {
       judge_table(given, here, files[f].name, truth, rows);
     }
   }
-  for (const std::filesystem::path& paint : given.paints)
-    judge_paint(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), paint, rows);
+  for (const std::filesystem::path& file : given.samples)
+    judge_samples(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), file, rows);
   bar.wipe();
   print(given, rows);
 }
@@ -195,7 +194,8 @@ void add_noell_measured(CLI::App& evaluate) {
   command->add_option("--environment", options->environment,
                       "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
   command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  command->add_option("--paints", options->paints, "Spectral measurements in Cornell's text format (.brdf)");
+  command->add_option("--samples", options->samples,
+                      "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
   command->add_option("--data", options->data_ratio, "Share of the data that is measured")
       ->check(CLI::PositiveNumber & CLI::Range(0.0, 1.0))
       ->capture_default_str();

@@ -2,7 +2,6 @@
 
 #include "command.hpp"
 #include "inputs.hpp"
-#include <gonio/io/samples.hpp>
 
 #include <iostream>
 #include <memory>
@@ -67,7 +66,7 @@ json describe(const gonio::sample_set& samples) {
 /// By what the file starts with or how its name ends.
 json describe_file(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
-  if (name.ends_with(".csv")) return describe(gonio::io::read_samples(path));
+  if (name.ends_with(".csv") || name.ends_with(".brdf")) return describe(read_measurements(path));
   if (name.ends_with(".npy")) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};

@@ -1,7 +1,9 @@
 #include "inputs.hpp"
 
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/io/cornell.hpp>
 #include <gonio/io/merl_directory.hpp>
+#include <gonio/io/samples.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -37,6 +39,10 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
   if (source.networks.empty()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
   const auto chosen = networks_except(gonio::io::read_networks(source.networks), source.exclude);
   return gonio::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
+}
+
+gonio::sample_set read_measurements(const std::filesystem::path& path) {
+  return path.extension() == ".brdf" ? gonio::io::read_cornell(path) : gonio::io::read_samples(path);
 }
 
 void add_threads_option(CLI::App& command, gonio::thread_count& threads) {

@@ -6,6 +6,7 @@
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -39,6 +40,9 @@ CLI::Option_group* add_material_options(CLI::App& command, material_source& sour
 /// gonio::error; of a prior all materials come, for a basis to leave out.
 [[nodiscard]] gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                                  const gonio::progress& listener = {});
+
+/// Measurements: samples as CSV, or if the name ends in .brdf, Cornell's text format.
+[[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path);
 
 /// Adds `--threads N`.
 void add_threads_option(CLI::App& command, gonio::thread_count& threads);

@@ -1,9 +1,10 @@
 /// gonio reconstruct: samples in, a table over all directions out.
 
 #include "command.hpp"
+#include "inputs.hpp"
 #include "pictures.hpp"
 #include "reconstruct_methods.hpp"
-#include <gonio/io/samples.hpp>
+#include <gonio/io/file.hpp>
 
 #include <algorithm>
 #include <array>
@@ -98,7 +99,7 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
 }
 
 void reconstruct(const reconstruct_options& options, const method& chosen) {
-  const auto samples = gonio::io::read_samples(options.samples);
+  const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
   if (!options.output.empty()) gonio::io::write_merl(options.output, result.table);
   if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(result.table, options.threads));
@@ -143,7 +144,8 @@ void add_correction_options(CLI::App& command, reconstruct_options& options) {
 void add_reconstruct(CLI::App& app) {
   auto* command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
-  command->add_option("samples", options->samples, "Measurements (.csv)")->required();
+  command->add_option("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)")
+      ->required();
   add_method_option(*command, options->method);
   add_prior_option(*command, options->materials.prior);
   add_material_options(*command, options->materials);

@@ -128,7 +128,7 @@ TEST_CASE("bad requests of the experiments after Noell et al.") {
   refuses(table + "--state /no/such/folder/state", {"/no/such/folder/state"});
   refuses("evaluate noell-table2 --networks /no/such/file.npy", {"/no/such/file.npy"});
   refuses(measured + "--tables x", {"--networks"});
-  refuses(measured + "--networks n.npy", {"--tables", "--paints"});
+  refuses(measured + "--networks n.npy", {"--tables", "--samples"});
   refuses(measured + "--networks n.npy --data 2 --tables x", {"--data"});
   refuses(measured + "--networks n.npy --tables /no/such/folder", {"/no/such/folder"});
   refuses("evaluate noell-corrections --networks /no/such/file.npy", {"/no/such/file.npy"});

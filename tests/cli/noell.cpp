@@ -86,7 +86,7 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   std::string text = "3\n450 550 650\n";
   for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 " + std::to_string(0.6) + " 2 .1 .2 .3\n";
   scratch::put(database.at("paint.brdf"), text);
-  const std::string arguments = "noell-measured --data 0.5 --paints " + database.at("paint.brdf");
+  const std::string arguments = "noell-measured --data 0.5 --samples " + database.at("paint.brdf");
   const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
   REQUIRE(rows.size() == 6);
   CHECK(rows[0]["name"] == "paint");
@@ -98,7 +98,7 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   for (const auto& row : rows) CHECK(row["log_error"].get<double>() < 2.0);
 
   const auto everything = gonio_tool("evaluate noell-measured --data 1 --networks " + database.at("n.npy") +
-                                     " --paints " + database.at("paint.brdf"));
+                                     " --samples " + database.at("paint.brdf"));
   CHECK(everything.exit_code == 2);
   CHECK(everything.output.find("--data below 1") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 /// Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013 (section 2.2), under CIE standard
 /// illuminant D65 (ISO 11664-2).
 
+#include <gonio/core/assertion.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/rgb.hpp>
 
@@ -65,6 +66,7 @@ class spectral_colour {
 
   /// The colour of as many reflectances as there are wavelengths. Components of saturated colours may be negative.
   [[nodiscard]] rgb operator()(std::span<const double> reflectance) const {
+    GONIO_ASSERT(reflectance.size() == size());
     const Eigen::Map<const Eigen::ArrayXd> values(reflectance.data(), weights_.rows());
     return from_xyz((weights_.colwise() * values).colwise().sum().transpose());
   }
