@@ -17,17 +17,17 @@ using gonio::valid_cells;
 namespace {
 
 /// A small grid on which a judge is quick to make.
-const valid_cells& small_cells() {
+const valid_cells& sphere_cells() {
   static const valid_cells cells(gonio::grid({20, 15, 30}));
   return cells;
 }
 
 const appearance_judge& small_judge() {
-  static const appearance_judge judge(small_cells(), 12);
+  static const appearance_judge judge(sphere_cells(), 12);
   return judge;
 }
 
-brdf_table grey(double albedo) { return tabulate(lambertian{rgb::Constant(albedo)}, small_cells()); }
+brdf_table grey(double albedo) { return tabulate(lambertian{rgb::Constant(albedo)}, sphere_cells()); }
 
 }  // namespace
 
@@ -72,7 +72,7 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
 }
 
 TEST_CASE("a table does not differ from itself, and differences are symmetric") {
-  const brdf_table paint = tabulate(gonio::formula_material("red-paint"), small_cells());
+  const brdf_table paint = tabulate(gonio::formula_material("red-paint"), sphere_cells());
   CHECK(small_judge().difference(paint, paint).lights == 0.0);
   CHECK(small_judge().difference(paint, paint).environment == 0.0);
   const auto there = small_judge().difference(paint, grey(0.2)), back = small_judge().difference(grey(0.2), paint);
@@ -83,7 +83,7 @@ TEST_CASE("a table does not differ from itself, and differences are symmetric") 
 }
 
 TEST_CASE("the difference is the mean over the pixels of the pictures' differences") {
-  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("gold-metal"), small_cells());
+  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("gold-metal"), sphere_cells());
   const auto& op = small_judge().environment();
   const gonio::sphere_colours p = op.apply(a), q = op.apply(b);
   double sum = 0.0;
@@ -101,7 +101,7 @@ TEST_CASE("black and an overexposed sphere are 100 apart in lightness where ligh
 TEST_CASE("negative reflectance counts as zero, cell by cell") {
   const brdf_table positive = grey(0.3);
   brdf_table negative = positive, clamped = positive;
-  for (std::size_t cell = 0; cell < small_cells().size(); cell += 3) {
+  for (std::size_t cell = 0; cell < sphere_cells().size(); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }
@@ -112,8 +112,8 @@ TEST_CASE("negative reflectance counts as zero, cell by cell") {
 }
 
 TEST_CASE("the number of threads does not change a byte of a difference, and other cells are refused") {
-  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("blue-rubber"), small_cells());
-  const appearance_judge one(small_cells(), 12, {1});
+  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("blue-rubber"), sphere_cells());
+  const appearance_judge one(sphere_cells(), 12, {1});
   CHECK(one.difference(a, b, {1}).environment == small_judge().difference(a, b, {4}).environment);
   const brdf_table other(valid_cells(gonio::grid({20, 15, 31})));
   CHECK_THROWS_AS((void)small_judge().difference(a, other), gonio::error);
