@@ -71,7 +71,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(kind(at("samples.csv")) == "samples");
     scratch::put(at("spectra.brdf"), "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n");
     CHECK(kind(at("spectra.brdf")) == "samples");
-    CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output == "2 samples\n");
+    CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output.starts_with("2 samples,"));
     CHECK(kind(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior") == "prior");
   }
   SUBCASE("the prior expands to the materials it was learned from") {
