@@ -6,7 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <numeric>
 #include <span>
+#include <vector>
 
 namespace cli {
 
@@ -16,6 +19,24 @@ void add_linear_combination(CLI::App& evaluate);
 void add_noell_tables(CLI::App& evaluate);
 void add_noell_measured(CLI::App& evaluate);
 void add_noell_corrections(CLI::App& evaluate);
+
+/// Adds `--networks FILE`, which must be given.
+inline void add_networks_option(CLI::App& command, std::filesystem::path& networks) {
+  command.add_option("--networks", networks, "File of networks of the 100 materials (.npy)")->required();
+}
+
+/// What a row of a table says of one figure of many reconstructions, of which there is at least one.
+struct distribution {
+  double mean = 0.0, median = 0.0, worst = 0.0;
+
+  explicit distribution(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::ranges::sort(sorted);
+    mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    median = (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2.0;
+    worst = sorted.back();
+  }
+};
 
 /// The means over materials of all measures, with the keys of `gonio compare --json`.
 [[nodiscard]] inline json mean_errors(std::span<const gonio::material_result> results) {

@@ -87,7 +87,7 @@ void add_linear_combination(CLI::App& evaluate) {
   auto* command = evaluate.add_subcommand(
       "linear-combination", "Noell et al. 2014: ten materials as non-negative combinations of the 99 others");
   const auto options = std::make_shared<combination_options>();
-  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
+  add_networks_option(*command, options->networks);
   command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(*command, options->threads);
   command->callback([options] { run_combination(*options); });

@@ -95,7 +95,7 @@ void add_nielsen_test_materials(CLI::App& evaluate) {
       "nielsen-test-materials",
       "Nielsen et al. 2015: ten materials from 1 to 20 published directions, 90 others learned");
   const auto options = std::make_shared<nielsen_options>();
-  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
+  add_networks_option(*command, options->networks);
   command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
   command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(*command, options->threads);

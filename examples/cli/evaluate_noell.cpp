@@ -2,13 +2,13 @@
 
 #include "evaluate.hpp"
 #include "noell_experiment.hpp"
+#include "noell_judges.hpp"
 #include "progress_bar.hpp"
 #include "resumable_results.hpp"
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <numeric>
 #include <span>
 
 namespace cli {
@@ -47,10 +47,6 @@ struct noell_setting {
   }
 };
 
-[[nodiscard]] double mean_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 /// Mean (and its range over seeds, if there are several), median, worst and range of the peak ratio, as a row's cells.
 /// Results are those of the first seed, of the second, and so on.
 [[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
@@ -61,14 +57,13 @@ struct noell_setting {
   }
   const std::size_t materials = values.size() / seeds;
   for (std::size_t seed = 0; seed < seeds; ++seed)
-    means.push_back(mean_of(std::span(values).subspan(seed * materials, materials)));
+    means.push_back(distribution(std::span(values).subspan(seed * materials, materials)).mean);
   const auto [least, most] = std::ranges::minmax(means);
   const std::string spread = seeds > 1 ? " (" + fixed(least, 2) + " - " + fixed(most, 2) + ")" : "";
-  std::ranges::sort(values);
-  std::ranges::sort(peaks);
-  return fixed(mean_of(values), 2) + spread + " | " +
-         fixed((values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2.0, 2) + " | " +
-         fixed(values.back(), 2) + " | " + fixed(peaks.front(), 2) + " - " + fixed(peaks.back(), 2);
+  const distribution all(values);
+  const auto [lowest, highest] = std::ranges::minmax(peaks);
+  return fixed(all.mean, 2) + spread + " | " + fixed(all.median, 2) + " | " + fixed(all.worst, 2) + " | " +
+         fixed(lowest, 2) + " - " + fixed(highest, 2);
 }
 
 [[nodiscard]] std::string printed(const std::optional<double>& figure) { return figure ? fixed(*figure, 2) : ""; }
@@ -222,9 +217,8 @@ CLI::App* add_noell(CLI::App& evaluate, const std::string& name, const std::stri
                     const noell_options& defaults) {
   auto* command = evaluate.add_subcommand(name, description);
   const auto options = std::make_shared<noell_options>(defaults);
-  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
-  command->add_option("--environment", options->environment,
-                      "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+  add_networks_option(*command, options->networks);
+  add_environment_option(*command, options->environment);
   command->add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
       ->capture_default_str();
   command

@@ -7,7 +7,6 @@
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 
-#include <algorithm>
 #include <iostream>
 #include <memory>
 
@@ -20,17 +19,6 @@ struct corrections_options {
   bool print_json = false;
   gonio::thread_count threads;
 };
-
-/// One row: the mean over the corrections of their mean deviations, the median, the worst.
-void print_deviations(const std::string& rule, const std::string& solver, std::vector<double> deviations) {
-  std::ranges::sort(deviations);
-  double sum = 0.0;
-  for (const double deviation : deviations) sum += deviation;
-  const std::size_t count = deviations.size();
-  std::cout << "| " << rule << " | " << solver << " | " << fixed(sum / static_cast<double>(count), 3) << " | "
-            << fixed((deviations[count / 2] + deviations[(count - 1) / 2]) / 2.0, 3) << " | "
-            << fixed(deviations.back(), 3) << " |\n";
-}
 
 void run_corrections(const corrections_options& options) {
   progress_bar bar;
@@ -63,7 +51,11 @@ void run_corrections(const corrections_options& options) {
   std::cout << "Mean |C - combination of the others| over all cells and channels, of " << materials.size()
             << " correction functions. The paper prints 0.076.\n\n"
             << "| correction functions | solver | mean | median | worst |\n|---|---|---|---|---|\n";
-  for (const row& each : rows) print_deviations(each.rule, each.solver, each.deviations);
+  for (const row& each : rows) {
+    const distribution all(each.deviations);
+    std::cout << "| " << each.rule << " | " << each.solver << " | " << fixed(all.mean, 3) << " | "
+              << fixed(all.median, 3) << " | " << fixed(all.worst, 3) << " |\n";
+  }
 }
 
 }  // namespace
@@ -72,7 +64,7 @@ void add_noell_corrections(CLI::App& evaluate) {
   auto* command = evaluate.add_subcommand(
       "noell-corrections", "Noell et al. 2014, section 2: correction functions as combinations of one another");
   const auto options = std::make_shared<corrections_options>();
-  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
+  add_networks_option(*command, options->networks);
   command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(*command, options->threads);
   command->callback([options] { run_corrections(*options); });

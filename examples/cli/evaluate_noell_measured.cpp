@@ -2,20 +2,17 @@
 /// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
 
 #include "evaluate.hpp"
+#include "noell_judges.hpp"
 #include "progress_bar.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/noell_tables.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
-#include <gonio/io/image.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/metric/log.hpp>
-#include <gonio/render/environment_map.hpp>
 
 #include <iostream>
 #include <memory>
-#include <optional>
 
 namespace cli {
 
@@ -40,12 +37,7 @@ struct workshop {
                   gonio::log{}, threads),
         corrections(materials, {}, gonio::nnls{}, threads),
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
-        judge(cells, 36, threads) {
-    if (!given.environment.empty())
-      natural.emplace(
-          cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(given.environment))),
-          36, gonio::sphere_judge::middle_grey, threads);
-  }
+        judges(cells, given.environment, threads) {}
 
   /// Calls `use(name, fit)` for ours, the paper's method as printed, and the combination of materials.
   template <class Use>
@@ -63,8 +55,7 @@ struct workshop {
   gonio::thread_count threads;
   gonio::measured<gonio::log> materials;
   gonio::correction corrections, printed_corrections;
-  gonio::appearance_judge judge;
-  std::optional<gonio::sphere_judge> natural;
+  noell_judges judges;
 };
 
 /// Root mean square of the difference of ln(f + 0.001) over values of all channels; negative ones count as zero.
@@ -89,8 +80,7 @@ json row(const std::string& name, const std::string& method, std::size_t samples
 /// Judged on the whole table.
 void judge_table(const options& given, const workshop& shop, const std::string& name, const gonio::brdf_table& truth,
                  json& rows) {
-  const auto count = std::max<std::size_t>(
-      static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(truth.cells().size()))), 1);
+  const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
   const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
   for (const double outlier_ratio : given.outlier_ratios)
     shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
@@ -101,12 +91,7 @@ void judge_table(const options& given, const workshop& shop, const std::string& 
                          error.add(estimate.at(cell), truth.at(cell));
                        json result = row(name, method, count, outlier_ratio);
                        result["log_error"] = error.value();
-                       result["delta_e_env"] = shop.judge.difference(estimate, truth, shop.threads).environment;
-                       if (shop.natural)
-                         result["delta_e_natural"] = shop.natural->difference(estimate, truth, shop.threads);
-                       const double limit = gonio::radians(70.0);
-                       result["peak_ratio"] =
-                           gonio::highlight_peak(estimate, limit).y() / gonio::highlight_peak(truth, limit).y();
+                       result.update(shop.judges.judge(estimate, truth));
                        rows.push_back(std::move(result));
                      });
 }
@@ -114,8 +99,7 @@ void judge_table(const options& given, const workshop& shop, const std::string& 
 /// Judged on the measurements that the estimate was not made from.
 void judge_samples(const options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
   const gonio::sample_set all = read_measurements(path);
-  const auto count = std::max<std::size_t>(
-      static_cast<std::size_t>(std::llround(given.data_ratio * static_cast<double>(all.size()))), 1);
+  const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
   const auto [some, others] = gonio::part(all, count, given.seed);
   if (others.empty()) throw gonio::error(path.string() + ": no sample is left to judge by, expected --data below 1");
   std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
@@ -190,9 +174,8 @@ void add_noell_measured(CLI::App& evaluate) {
   auto* command = evaluate.add_subcommand(
       "noell-measured", "Reconstruct real measurements, some of which are outliers, from the materials of a database");
   const auto options = std::make_shared<noell_measured::options>();
-  command->add_option("--networks", options->networks, "File of networks of the 100 materials (.npy)")->required();
-  command->add_option("--environment", options->environment,
-                      "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+  add_networks_option(*command, options->networks);
+  add_environment_option(*command, options->environment);
   command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
   command->add_option("--samples", options->samples,
                       "Measurements in any directions (.csv, or .brdf in Cornell's text format)");

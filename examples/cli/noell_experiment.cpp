@@ -1,18 +1,15 @@
 #include "noell_experiment.hpp"
 
+#include "noell_judges.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
-#include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
-#include <gonio/io/image.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
-#include <gonio/render/environment_map.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <charconv>
@@ -75,8 +72,7 @@ struct combinations_under {
 struct noell_experiment::parts {
   gonio::thread_count threads;
   gonio::material_set truths;
-  gonio::appearance_judge judge;
-  std::optional<gonio::sphere_judge> natural;
+  noell_judges judges;
   std::tuple<noell::combinations_under<gonio::lin>, noell::combinations_under<gonio::root>,
              noell::combinations_under<gonio::log>>
       combinations;
@@ -159,11 +155,7 @@ noell_experiment::noell_experiment(const std::filesystem::path& networks, const 
                                    gonio::thread_count threads, const gonio::progress& listener) {
   auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
   const gonio::valid_cells cells = truths.cells;
-  parts_.reset(new parts{threads, std::move(truths), gonio::appearance_judge(cells, 36, threads), {}, {}, {}, {}});
-  if (!environment.empty())
-    parts_->natural.emplace(
-        cells, gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(environment))), 36,
-        gonio::sphere_judge::middle_grey, threads);
+  parts_.reset(new parts{threads, std::move(truths), noell_judges(cells, environment, threads), {}, {}, {}});
 }
 
 noell_experiment::~noell_experiment() = default;
@@ -171,8 +163,7 @@ noell_experiment::~noell_experiment() = default;
 const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
 
 std::size_t noell_experiment::samples_of(double data, std::size_t cells) noexcept {
-  const double count = data <= 1.0 ? data * static_cast<double>(cells) : data;
-  return std::clamp<std::size_t>(static_cast<std::size_t>(std::llround(count)), 1, cells);
+  return data <= 1.0 ? gonio::share_of(cells, data) : std::min(static_cast<std::size_t>(std::llround(data)), cells);
 }
 
 json noell_experiment::run(const std::string& method, const noell_case& which) {
@@ -186,11 +177,8 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const gonio::brdf_table estimate = parts_->estimate(*noell::parse(method), which, samples);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
-  const double limit = gonio::radians(70.0);
-  json result{{"delta_e_env", parts_->judge.difference(estimate, truth, parts_->threads).environment},
-              {"peak_ratio", gonio::highlight_peak(estimate, limit).y() / gonio::highlight_peak(truth, limit).y()},
-              {"seconds", elapsed.count()}};
-  if (parts_->natural) result["delta_e_natural"] = parts_->natural->difference(estimate, truth, parts_->threads);
+  json result = parts_->judges.judge(estimate, truth);
+  result["seconds"] = elapsed.count();
   return result;
 }
 

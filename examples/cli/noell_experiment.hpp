@@ -27,9 +27,8 @@ class noell_experiment {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept;
 
-  /// Measures the material, reconstructs it by a method from all other materials, and judges: delta_e_env under the
-  /// formula environment at the exposure of a white sphere, delta_e_natural (if there is an environment) at the truth's
-  /// own exposure, peak_ratio of the green highlight with theta_d below 70 degrees, seconds of the fit.
+  /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_judges::judge`);
+  /// seconds are those of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 
   /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.

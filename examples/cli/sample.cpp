@@ -5,7 +5,6 @@
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/samples.hpp>
 
-#include <cmath>
 #include <memory>
 
 namespace cli {
@@ -22,8 +21,8 @@ struct sample_options {
 
 std::vector<std::size_t> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
   if (!options.directions.empty()) return gonio::cells_at(cells, gonio::io::read_directions(options.directions));
-  const auto share = static_cast<std::size_t>(std::llround(options.ratio * static_cast<double>(cells.size())));
-  return gonio::random_cells(cells, options.count != 0 ? options.count : std::max<std::size_t>(share, 1), options.seed);
+  const std::size_t count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
+  return gonio::random_cells(cells, count, options.seed);
 }
 
 }  // namespace

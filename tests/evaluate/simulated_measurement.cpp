@@ -29,6 +29,13 @@ TEST_CASE("random cells are different, in order, and given by the seed") {
   CHECK_THROWS_AS(static_cast<void>(random_cells(table().cells(), table().cells().size() + 1, 1)), gonio::error);
 }
 
+TEST_CASE("a share is rounded to a number, at least one") {
+  CHECK(gonio::share_of(1000, 0.1234) == 123);
+  CHECK(gonio::share_of(1000, 0.1236) == 124);
+  CHECK(gonio::share_of(1000, 1.0) == 1000);
+  CHECK(gonio::share_of(1000, 0.0) == 1);
+}
+
 TEST_CASE("a clean measurement reads the table") {
   const auto cells = random_cells(table().cells(), 50, 4);
   const auto samples = measure(table(), cells);

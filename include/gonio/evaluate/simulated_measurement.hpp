@@ -22,23 +22,33 @@ struct measurement_defects {
   double noise = 0.0;
 };
 
+/// How many of `all` a share of them, between 0 and 1, is: at least one.
+[[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
+  return std::max<std::size_t>(static_cast<std::size_t>(std::llround(share * static_cast<double>(all))), 1);
+}
+
+/// `count` different ones of the numbers 0 ... all - 1 at random, in increasing order; `count` is at most `all`.
+[[nodiscard]] inline std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::vector<std::size_t> chosen(all);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  // The first steps of a Fisher-Yates shuffle.
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
+    std::swap(chosen[i], chosen[rest(generator)]);
+  }
+  chosen.resize(count);
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
 /// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
 /// between 1 and the number of cells.
 [[nodiscard]] inline std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count,
                                                            std::uint64_t seed) {
   if (count == 0 || count > cells.size())
     throw error("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
-  std::mt19937_64 generator(seed);
-  std::vector<std::size_t> all(cells.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  // The first steps of a Fisher-Yates shuffle.
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uniform_int_distribution<std::size_t> rest(i, all.size() - 1);
-    std::swap(all[i], all[rest(generator)]);
-  }
-  all.resize(count);
-  std::ranges::sort(all);
-  return all;
+  return random_choice(cells.size(), count, seed);
 }
 
 /// The cells nearest to directions, the same cell twice if two directions share it. Throws gonio::error
@@ -108,12 +118,8 @@ struct parted_samples {
 [[nodiscard]] inline parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed) {
   if (count > samples.size())
     throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
-  std::mt19937_64 generator(seed);
-  std::vector<std::size_t> order(samples.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::shuffle(order, generator);
   std::vector<bool> chosen(samples.size());
-  for (std::size_t i = 0; i < count; ++i) chosen[order[i]] = true;
+  for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
   parted_samples parts;
   for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
   return parts;
