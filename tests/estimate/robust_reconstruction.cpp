@@ -96,6 +96,25 @@ TEST_CASE("outliers are recognised: their share of the samples is what counts li
   CHECK(fit.history().back().down_weighted < 0.45);
 }
 
+TEST_CASE("where nothing was measured, the surface is expected to be like the nearest material") {
+  const auto peak_ratio = [&](const robust_reconstruction<gonio::log>& estimator, const gonio::sample_set& samples) {
+    const auto found = estimator.fit(samples).tabulate(small_cells());
+    return double{std::ranges::max(found.values())} / double{std::ranges::max(robust().truth.values())};
+  };
+  const gonio::correction corrections{robust().others};
+  const robust_reconstruction credulous{robust().others, corrections, {}, {.expectation = 0.0}};
+  double worst = 1.0, worst_without = 1.0;
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+    auto samples = robust().samples(150, {.outlier_ratio = 0.2, .noise = 0.1}, seed);
+    std::erase_if(samples, [](const gonio::sample& s) { return s.angles.theta_h < gonio::radians(15.0); });
+    const double with = peak_ratio(robust().estimator, samples), without = peak_ratio(credulous, samples);
+    worst = std::max({worst, with, 1.0 / with});
+    worst_without = std::max({worst_without, without, 1.0 / without});
+  }
+  CHECK(worst < 3.0);
+  CHECK(worst_without > 10.0);
+}
+
 TEST_CASE("any metric of the materials will do") {
   const auto samples = robust().samples(200, {.outlier_ratio = 0.3});
   const auto check = [&](const auto& metric) {

@@ -23,6 +23,20 @@ TEST_CASE("objective and residual are those of the rows") {
   CHECK(normal.residual(x)[0] == doctest::Approx((a * x - b).norm()));
 }
 
+TEST_CASE("the sum of two problems is that of the rows of both") {
+  const Eigen::MatrixXd& a = five_columns();
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(20, 2), top = a.topRows(12), bottom = a.bottomRows(8);
+  const auto normal = [](const Eigen::MatrixXd& rows, const Eigen::MatrixXd& right) {
+    return normal_equations(rows.transpose() * rows, rows.transpose() * right, right.colwise().squaredNorm());
+  };
+  const normal_equations both = normal(top, b.topRows(12)) + normal(bottom, b.bottomRows(8)), all = normal(a, b);
+  CHECK(both.gram().isApprox(all.gram(), 1e-14));
+  CHECK(both.moment().isApprox(all.moment(), 1e-14));
+  CHECK(both.energy().isApprox(all.energy(), 1e-14));
+  CHECK_THROWS_WITH_AS(static_cast<void>(all + normal(top.leftCols(4), b.topRows(12))),
+                       doctest::Contains("cannot be added"), gonio::error);
+}
+
 TEST_CASE("leaving a column out is a submatrix of the whole's products") {
   const Eigen::MatrixXd& a = five_columns();
   const Eigen::MatrixXd gram = a.transpose() * a;

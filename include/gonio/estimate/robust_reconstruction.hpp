@@ -28,13 +28,12 @@ class reweighted_combination {
 
   /// Weights of the materials, k x 3, with x >= 0.
   [[nodiscard]] solution solve(const channel_values& trust) const {
-    const channel_values weights = trust.rowwise() * confidence_.transpose();
-    std::array<solution, 3> found;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto row = static_cast<Eigen::Index>(c);
-      found[c] = nnls().solve(functions_.normal(c, weights.row(row), mapped_.row(row)).subset(functions_.columns()));
-    }
-    return spread(side_by_side(found), functions_.columns(), functions_.unknowns());
+    return combine([&](std::size_t c) { return equations(c, trust); });
+  }
+  /// Weights that follow other samples as well, all of which are trusted.
+  [[nodiscard]] solution solve(const channel_values& trust, const reweighted_combination& others) const {
+    const channel_values all = channel_values::Ones(3, std::ssize(others.places_));
+    return combine([&](std::size_t c) { return equations(c, trust) + others.equations(c, all); });
   }
 
   /// The combination's reflectance at the samples.
@@ -63,6 +62,20 @@ class reweighted_combination {
   }
 
  private:
+  [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& trust) const {
+    const auto row = static_cast<Eigen::Index>(channel);
+    return functions_.normal(channel, trust.row(row) * confidence_.transpose(), mapped_.row(row))
+        .subset(functions_.columns());
+  }
+
+  template <class Equations>
+  [[nodiscard]] solution combine(const Equations& equations_of) const {
+    const nnls solver;
+    const std::array<solution, 3> found{solver.solve(equations_of(0)), solver.solve(equations_of(1)),
+                                        solver.solve(equations_of(2))};
+    return spread(side_by_side(found), functions_.columns(), functions_.unknowns());
+  }
+
   measured<Metric> materials_;
   sampled_functions<measured<Metric>> functions_;
   std::vector<location> places_;
@@ -89,6 +102,9 @@ struct robust_start {
   std::size_t most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
+  /// As many samples as this say, all over the cells, that the surface is like the nearest material. It decides where
+  /// nothing was measured: a combination that fits all samples but sees no highlight may have any highlight.
+  double expectation = 1.0;
   /// Rounds of the final iteration that still trust as the start does.
   int trusting_rounds = 3;
   std::uint64_t seed = 0;
@@ -124,7 +140,9 @@ class robust_run {
 /// 1. Take the material that comes nearest (`nearest_material`), on at most 20,000 of the samples.
 /// 2. Combine materials for relative errors, five times, and correct the combination four times, down-weighting
 ///    outliers anew each time: the result is rough, but knows which samples to trust.
-/// 3. Combine materials again under their own metric from the samples that are good, and
+/// 3. Combine materials again under their own metric from the samples that are good, expecting the nearest material
+/// where
+///    there are none, and
 /// 4. correct that by more samples: three rounds with what step 2 trusts, then with weights of its own.
 ///
 /// Outliers are told from good samples in each of the samples' regions by itself: a fit that is good elsewhere would
@@ -200,7 +218,8 @@ class robust_reconstruction {
     const detail::reweighted_combination<Metric> combination(materials_, some, threads_);
 
     const nearest_material<Metric> nearest(materials_, start_.seed, threads_);
-    channel_values estimates = nearest.values(nearest.choose(some), some.at);
+    const std::array<scaled_material, 3> chosen = nearest.choose(some);
+    channel_values estimates = nearest.values(chosen, some.at);
     solution found;
     for (int i = 0; i < start_.combinations; ++i) {
       found = combination.solve(weighting.weigh(measured, estimates) * combination.relative(estimates, offsets));
@@ -210,8 +229,22 @@ class robust_reconstruction {
     for (int i = 0; i < start_.corrections; ++i) detail::tamed_step(rough, rough.trust());
 
     const automatic_weights whole{.down_weight_tail = false, .regions = weighting.regions};
-    const solution again = combination.solve(whole.weigh(measured, rough.estimated()));
+    const detail::reweighted_combination<Metric> expected(materials_, expectation(nearest, chosen), threads_);
+    const solution again = combination.solve(whole.weigh(measured, rough.estimated()), expected);
     return {initial_type{materials_, again}, std::move(rough)};
+  }
+
+  /// What is expected of a surface that was never measured, at cells all over the grid.
+  [[nodiscard]] located_samples expectation(const nearest_material<Metric>& nearest,
+                                            const std::array<scaled_material, 3>& chosen) const {
+    const valid_cells& cells = materials_.cells();
+    const std::size_t count = std::min<std::size_t>(cells.size(), 1'000);
+    located_samples expected;
+    for (std::size_t i = 0; i < count; ++i) expected.at.push_back(locate_cell(cells, i * cells.size() / count));
+    expected.values = nearest.values(chosen, expected.at).template cast<double>().matrix().transpose();
+    expected.weights =
+        Eigen::VectorXd::Constant(std::ssize(expected.at), start_.expectation / static_cast<double>(count));
+    return expected;
   }
 
   measured<Metric> materials_;

@@ -57,6 +57,15 @@ class normal_equations {
     return (2.0 * half_squares).cwiseMax(0.0).cwiseSqrt();
   }
 
+  /// The problem of the rows of both: of the same sizes, else gonio::error.
+  [[nodiscard]] friend normal_equations operator+(const normal_equations& a, const normal_equations& b) {
+    if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
+      throw error("normal equations of " + std::to_string(a.unknowns()) + " x " + std::to_string(a.right_hand_sides()) +
+                  " and of " + std::to_string(b.unknowns()) + " x " + std::to_string(b.right_hand_sides()) +
+                  " unknowns cannot be added");
+    return {a.gram_ + b.gram_, a.moment_ + b.moment_, a.energy_ + b.energy_};
+  }
+
   /// The problem over some of the columns, in the order given: a submatrix.
   [[nodiscard]] normal_equations subset(std::span<const Eigen::Index> columns) const {
     const auto k = static_cast<Eigen::Index>(columns.size());
