@@ -140,10 +140,9 @@ class robust_run {
 /// 1. Take the material that comes nearest (`nearest_material`), on at most 20,000 of the samples.
 /// 2. Combine materials for relative errors, five times, and correct the combination four times, down-weighting
 ///    outliers anew each time: the result is rough, but knows which samples to trust.
-/// 3. Combine materials again under their own metric from the samples that are good, expecting the nearest material
-/// where
-///    there are none, and
-/// 4. correct that by more samples: three rounds with what step 2 trusts, then with weights of its own.
+/// 3. Combine materials again under their own metric from the samples that are good; where there are none the nearest
+///    material is expected.
+/// 4. Correct that by more samples: three rounds with what step 2 trusts, then with weights of its own.
 ///
 /// Outliers are told from good samples in each of the samples' regions by itself: a fit that is good elsewhere would
 /// take a highlight that it misses for outliers, and then never learn better.
