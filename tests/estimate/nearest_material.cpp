@@ -103,6 +103,7 @@ TEST_CASE("the same seed chooses the same from many samples, for any number of t
   auto samples = gonio::measure(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 1);
   const auto more = gonio::measure(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 2);
   while (samples.size() <= 20'000) samples.insert(samples.end(), more.begin(), more.end());
+  REQUIRE(samples.size() > 20'000);  // else all are looked at, whatever the seed
   const auto one = choice_for(nearest_material{nine_in_log(), 5, {1}}, samples);
   const auto three = choice_for(nearest_material{nine_in_log(), 5, {3}}, samples);
   const auto other_seed = choice_for(nearest_material{nine_in_log(), 6}, samples);

@@ -141,13 +141,13 @@ class nearest_material {
   /// Samples of one channel as a mixture sees them.
   struct evidence {
     evidence(const located_samples& samples, std::size_t channel, double offset_of_logarithm)
-        : at(samples.at), offset(offset_of_logarithm) {
+        : at(&samples.at), offset(offset_of_logarithm) {
       logarithms = (samples.values.col(static_cast<Eigen::Index>(channel)).array().max(0.0) + offset).log();
       const outlier_density density({logarithms.begin(), logarithms.end()});
       outliers = logarithms.unaryExpr([&](double value) { return density(value); });
     }
 
-    std::vector<location> at;
+    const std::vector<location>* at;  // the three channels have the same places
     double offset;
     Eigen::ArrayXd logarithms, outliers;
   };
@@ -161,8 +161,8 @@ class nearest_material {
   [[nodiscard]] Eigen::ArrayXd differences(const evidence& seen, const material_channel<Metric>& functions,
                                            std::size_t material) const {
     Eigen::ArrayXd values(seen.logarithms.size());
-    for (std::size_t i = 0; i < seen.at.size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = std::log(reflectance(functions, material, seen.at[i]) + seen.offset);
+    for (std::size_t i = 0; i < seen.at->size(); ++i)
+      values[static_cast<Eigen::Index>(i)] = std::log(reflectance(functions, material, (*seen.at)[i]) + seen.offset);
     return seen.logarithms - values;
   }
 
