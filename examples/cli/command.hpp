@@ -7,6 +7,8 @@ namespace cli {
 
 void add_learn(CLI::App& app);
 void add_expand(CLI::App& app);
+void add_design(CLI::App& app);
+void add_plan(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_reconstruct(CLI::App& app);
 void add_compare(CLI::App& app);

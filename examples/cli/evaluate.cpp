@@ -16,6 +16,7 @@ void add_evaluate(CLI::App& app) {
   add_noell_tables(*command);
   add_noell_measured(*command);
   add_noell_corrections(*command);
+  add_directions(*command);
 }
 
 }  // namespace cli

@@ -19,6 +19,7 @@ void add_linear_combination(CLI::App& evaluate);
 void add_noell_tables(CLI::App& evaluate);
 void add_noell_measured(CLI::App& evaluate);
 void add_noell_corrections(CLI::App& evaluate);
+void add_directions(CLI::App& evaluate);
 
 /// Adds `--networks FILE`, which must be given.
 inline void add_networks_option(CLI::App& command, std::filesystem::path& networks) {

@@ -25,6 +25,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   cli::add_learn(app);
   cli::add_expand(app);
+  cli::add_design(app);
+  cli::add_plan(app);
   cli::add_sample(app);
   cli::add_reconstruct(app);
   cli::add_compare(app);

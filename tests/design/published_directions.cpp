@@ -21,3 +21,19 @@ TEST_CASE("a number that is not in the table is refused") {
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::nielsen_directions(3)), doctest::Contains("1, 2, 5, 10 or 20"),
                        gonio::error);
 }
+
+TEST_CASE("industry's directions are in the plane of the light, whose angle from the mirror direction they state") {
+  const auto directions = gonio::westlund_meyer_directions();
+  REQUIRE(directions.size() == 5);
+  const std::array aspecular{15.0, 25.0, 45.0, 75.0, 110.0};
+  for (std::size_t i = 0; i < 5; ++i) {
+    // In the plane of incidence theta_h is half of how far the viewer is from the mirror direction.
+    CHECK(gonio::degrees(directions[i].theta_h) == doctest::Approx(aspecular[i] / 2.0));
+    const auto pair = gonio::to_directions(directions[i]);
+    CHECK(pair.wi.y() == doctest::Approx(0.0));
+    const auto near_45 = [](const gonio::direction& w) {
+      return std::abs(gonio::degrees(std::acos(w.z())) - 45) < 1e-6;
+    };
+    CHECK((near_45(pair.wi) || near_45(pair.wo)));
+  }
+}

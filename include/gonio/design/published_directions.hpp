@@ -1,6 +1,7 @@
 #pragma once
 /// Directions at which the literature recommends to measure, as data.
-/// Nielsen et al. 2015, Table 1: the best n directions of a search over MERL's grid by condition number.
+/// Nielsen et al. 2015, Table 1: the best n directions of a search over MERL's grid by condition number. Westlund and
+/// Meyer 2001, "Applying Appearance Standards to Light Reflection Models": what industry measures.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -52,6 +53,16 @@ inline constexpr std::array<std::size_t, 5> nielsen_direction_counts{1, 2, 5, 10
     return directions;
   }
   throw error("there is no published set of " + std::to_string(n) + " directions: choose 1, 2, 5, 10 or 20");
+}
+
+/// The five measurements of industry's goniospectrophotometers (Westlund and Meyer 2001), in radians: the light at 45
+/// degrees, the viewer in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the light.
+[[nodiscard]] inline std::vector<half_difference> westlund_meyer_directions() {
+  std::vector<half_difference> directions;
+  const direction light = spherical_direction(radians(45), 0.0);
+  for (const double aspecular : {15.0, 25.0, 45.0, 75.0, 110.0})
+    directions.push_back(to_half_difference(light, spherical_direction(radians(aspecular - 45.0), 0.0)));
+  return directions;
 }
 
 }  // namespace gonio

@@ -13,23 +13,31 @@
 
 namespace gonio {
 
-/// Measures each truth without defects at the cells nearest to `directions`, reconstructs it by a prior with
-/// Tikhonov's penalty eta (Eq. 12), and compares over the truth's cells in the domain of `metric`.
+/// Measures each truth at cells of its table, reconstructs it by a prior with Tikhonov's penalty eta (Eq. 12), and
+/// compares over the truth's cells in the domain of `metric`. A material's defects come from `seed` plus its number.
+template <basis Basis, error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_cells(
+    const Basis& prior, double eta, std::span<const std::size_t> cells, const material_set& truths,
+    const Metric& metric, const appearance_judge& judge, thread_count threads = {},
+    const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  const decomposition estimator{prior, tikhonov{eta}};
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const brdf_table truth = truths.table(m);
+    const brdf_table estimate = estimator.fit(measure(truth, cells, defects, seed + m)).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
+  }
+  return results;
+}
+
+/// The same without defects, at the cells nearest to `directions`.
 template <basis Basis, error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_directions(const Basis& prior, double eta,
                                                                        std::span<const half_difference> directions,
                                                                        const material_set& truths, const Metric& metric,
                                                                        const appearance_judge& judge,
                                                                        thread_count threads = {}) {
-  const auto cells = cells_at(truths.cells, directions);
-  const decomposition estimator{prior, tikhonov{eta}};
-  std::vector<material_result> results;
-  for (std::size_t m = 0; m < truths.names.size(); ++m) {
-    const brdf_table truth = truths.table(m);
-    const brdf_table estimate = estimator.fit(measure(truth, cells)).tabulate(truths.cells, threads);
-    results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
-  }
-  return results;
+  return reconstruct_from_cells(prior, eta, cells_at(truths.cells, directions), truths, metric, judge, threads);
 }
 
 /// The lower bound: each truth projected on the prior's components. Prior and truths must share their cells.

@@ -210,6 +210,15 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
   return directions;
 }
 
+/// Writes directions alone, as `read_directions` reads them.
+inline void write_directions(const std::filesystem::path& path, std::span<const half_difference> directions) {
+  std::string text = "theta_h,theta_d,phi_d\n";
+  for (const half_difference& at : directions)
+    text += detail::shortest(degrees(at.theta_h)) + ',' + detail::shortest(degrees(at.theta_d)) + ',' +
+            detail::shortest(degrees(fold_phi_d(at.phi_d))) + '\n';
+  write_atomically(path, std::as_bytes(std::span(text)));
+}
+
 /// Samples as CSV text, every number in the fewest digits that read back as the same number.
 template <sample_range Samples>
 [[nodiscard]] std::string format_samples(const Samples& samples) {

@@ -1,0 +1,98 @@
+/// `gonio design`: what to measure, so that a prior's materials are told apart best.
+
+#include "command.hpp"
+#include "design_search.hpp"
+#include "inputs.hpp"
+#include "progress_bar.hpp"
+#include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct design_command {
+  std::filesystem::path prior, constraint, start, output;
+  design_options design;
+  double field_of_view = 25.0, step = 5.0;
+  bool print_json = false;
+};
+
+void run(design_command command) {
+  progress_bar bar;
+  const auto prior = gonio::io::read_prior(command.prior);
+  command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
+  command.design.near_field.step = gonio::radians(command.step);
+  if (!command.constraint.empty())
+    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
+  if (!command.start.empty()) command.design.start = gonio::io::read_directions(command.start);
+  const designed found = design(prior, command.design, bar.listener());
+  gonio::io::write_directions(command.output, found.directions);
+  bar.wipe();
+
+  const auto figures = quality_of(prior, command.design, found);
+  if (command.print_json) {
+    std::cout << json{{"measurements", found.directions.size()},
+                      {"criterion", command.design.criterion},
+                      {"value", found.value},
+                      {"expected_error", figures.expected_error},
+                      {"unknown_share", figures.unknown_share}}
+                     .dump(2)
+              << '\n';
+    return;
+  }
+  std::cout << found.directions.size() << (found.directions.size() == 1 ? " measurement, " : " measurements, ")
+            << command.design.criterion << ' ' << fixed(found.value, 4) << ": expected error "
+            << fixed(figures.expected_error, 4) << " a cell, " << fixed(100.0 * figures.unknown_share, 1)
+            << " % of how the prior's materials differ from their mean\n";
+}
+
+}  // namespace
+
+void add_design(CLI::App& app) {
+  auto* command = app.add_subcommand("design", "Find what to measure");
+  const auto options = std::make_shared<design_command>();
+  design_options& design = options->design;
+  add_prior_option(*command, options->prior);
+  command->add_option("-n,--count", design.count, "Number of measurements")->capture_default_str();
+  command
+      ->add_option(
+          "--geometry", design.geometry,
+          "point: a goniometer's samples; sphere: pictures of a sphere; near-field: pictures of a flat sample by "
+          "a close camera; fixed-camera, fixed-light: such pictures with one camera, or one light")
+      ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--criterion", design.criterion,
+          "expected-error: Xu et al. 2016; condition: Nielsen et al. 2015; a-optimal, d-optimal: of the weights' "
+          "covariance")
+      ->check(CLI::IsMember({"expected-error", "condition", "a-optimal", "d-optimal"}))
+      ->capture_default_str();
+  command
+      ->add_option("--search", design.search,
+                   "exchange: the best of all, one after another, then replaced by better ones; greedy: without the "
+                   "replacing; descent: from random ones, for large priors. Other criteria than the expected error "
+                   "descend")
+      ->check(CLI::IsMember({"exchange", "greedy", "descent"}))
+      ->capture_default_str();
+  command->add_option("--eta", design.eta, "Tikhonov's penalty of the reconstruction")->capture_default_str();
+  command->add_option("--noise", design.noise, "Deviation of every measurement's logarithm")->capture_default_str();
+  command->add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      ->capture_default_str();
+  command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
+  command->add_option("--constraint", options->constraint,
+                      "What the apparatus cannot do (a text file, docs/formats.md)");
+  command->add_option("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  command->add_option("--seed", design.seed, "Seed of what is random")->capture_default_str();
+  command->add_flag("--json", options->print_json, "Print the result as JSON");
+  add_threads_option(*command, design.threads);
+  command->add_option("-o,--output", options->output, "Directions to write; of pictures, those of the centre (.csv)")
+      ->required();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,183 @@
+/// gonio evaluate directions: where to measure; published sets and ours on materials that neither has seen.
+
+#include "design_search.hpp"
+#include "evaluate.hpp"
+#include "progress_bar.hpp"
+#include "resumable_results.hpp"
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/design/compressed_rows.hpp>
+#include <gonio/design/design_criterion.hpp>
+#include <gonio/design/published_directions.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+struct directions_options {
+  std::filesystem::path networks, state;
+  std::vector<std::string> sets{"published", "industry",  "random",        "condition",
+                                "a-optimal", "d-optimal", "expected-error"};
+  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::string geometry = "point";
+  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0;
+  std::uint64_t seed = 0;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// What all sets are judged with: 90 materials learned, ten tested.
+struct laboratory {
+  gonio::material_set truths;
+  gonio::log_relative_pca prior;
+  gonio::appearance_judge judge;
+};
+
+laboratory open_laboratory(const directions_options& options, const gonio::progress& listener) {
+  const auto networks = gonio::io::read_networks(options.networks);
+  const gonio::valid_cells cells;
+  const auto& names = gonio::nielsen_test_materials();
+  auto training = gonio::tabulate_networks(networks_except(networks, names), cells, options.threads, listener);
+  const auto metric = gonio::log_relative::to_median_of(training, options.threads);
+  return {gonio::tabulate_networks(networks_in(networks, names), cells, options.threads),
+          gonio::learn_pca(std::move(training), metric, 300, options.threads, listener),
+          gonio::appearance_judge(cells, 36, options.threads)};
+}
+
+design_options search_for(const directions_options& options, const std::string& criterion, std::size_t count) {
+  design_options search;
+  search.count = count;
+  search.geometry = options.geometry;
+  search.criterion = criterion;
+  search.eta = options.eta;
+  search.noise = options.noise;
+  search.near_field.field_of_view = gonio::radians(options.field_of_view);
+  search.near_field.step = gonio::radians(options.step);
+  search.seed = options.seed;
+  search.threads = options.threads;
+  return search;
+}
+
+/// A set of point samples that is not searched for.
+designed point_samples(std::vector<gonio::half_difference> directions) { return {directions, directions, 0.0}; }
+
+/// Nothing where there is no such set.
+std::optional<designed> find_set(const laboratory& lab, const directions_options& options, const std::string& set,
+                                 std::size_t count, const gonio::progress& listener) {
+  const bool points = options.geometry == "point";
+  if (set == "published") {
+    if (!points || std::ranges::find(gonio::nielsen_direction_counts, count) == gonio::nielsen_direction_counts.end())
+      return {};
+    return point_samples(gonio::nielsen_directions(count));
+  }
+  if (set == "industry") {
+    if (!points || count != 5) return {};
+    return point_samples(gonio::westlund_meyer_directions());
+  }
+  if (set == "random") {
+    if (!points) return {};
+    std::vector<gonio::half_difference> directions;
+    for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
+      directions.push_back(lab.truths.cells.angles(cell));
+    return point_samples(std::move(directions));
+  }
+  return design(lab.prior, search_for(options, set, count), listener);
+}
+
+json judged(const laboratory& lab, const directions_options& options, const designed& found) {
+  const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
+  std::vector<std::size_t> cells;
+  const gonio::grid& grid = lab.truths.cells.grid();
+  for (const gonio::half_difference& angles : found.samples)
+    cells.push_back(lab.truths.cells.representative(grid.linear(grid.nearest(angles))));
+  const auto results =
+      gonio::reconstruct_from_cells(lab.prior, options.eta, cells, lab.truths, lab.prior.metric(), lab.judge,
+                                    options.threads, {.noise = options.noise}, options.seed);
+  json directions = json::array();
+  for (const auto& [theta_h, theta_d, phi_d] : found.directions)
+    directions.push_back({gonio::degrees(theta_h), gonio::degrees(theta_d), gonio::degrees(phi_d)});
+  const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
+  return {{"expected_error", quality.expected_error},
+          {"condition", std::isfinite(condition) ? json(condition) : json()},
+          {"samples", found.samples.size()},
+          {"errors", mean_errors(results)},
+          {"directions", directions}};
+}
+
+void print_row(const std::string& set, std::size_t count, const json& result) {
+  const json& errors = result["errors"];
+  std::cout << "| " << count << " | " << set << " | " << fixed(result["expected_error"], 4) << " | ";
+  std::cout << (result["condition"].is_number() ? fixed(result["condition"], 2) : "infinite");
+  std::cout << " | " << fixed(errors["mapped_rms"], 3) << " | " << fixed(errors["delta_e_env"], 2) << " | "
+            << fixed(errors["delta_e_lights"], 2) << " | " << fixed(errors["peak_ratio"], 2) << " |\n";
+}
+
+void run(const directions_options& options) {
+  progress_bar bar;
+  const auto listener = bar.listener();
+  resumable_results results(options.state);
+  std::optional<laboratory> lab;  // opened when there is something to do
+  json all = json::array();
+  for (const std::size_t count : options.counts)
+    for (const std::string& set : options.sets) {
+      const json key{options.geometry,
+                     options.geometry == "point" || options.geometry == "sphere" ? 0.0 : options.field_of_view,
+                     count,
+                     set,
+                     options.eta,
+                     options.noise,
+                     options.step,
+                     options.seed};
+      const json* result = results.find(key);
+      if (!result) {
+        if (!lab) lab.emplace(open_laboratory(options, listener));
+        const auto found = find_set(*lab, options, set, count, listener);
+        if (!found) continue;
+        gonio::report(listener, "judging " + std::to_string(count) + " of " + set, 0.0);
+        results.add(key, judged(*lab, options, *found));
+        result = results.find(key);
+      }
+      all.push_back({{"set", set}, {"count", count}, {"result", *result}});
+    }
+  bar.wipe();
+
+  if (options.print_json) {
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::cout << "| n | chosen by | E | condition | test: rms | Delta E env | Delta E lights | peak |\n"
+            << "|---|---|---|---|---|---|---|---|\n";
+  for (const json& row : all) print_row(row["set"], row["count"], row["result"]);
+}
+
+}  // namespace
+
+void add_directions(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand(
+      "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
+  const auto options = std::make_shared<directions_options>();
+  add_networks_option(*command, options->networks);
+  command->add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
+      ->check(
+          CLI::IsMember({"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error"}))
+      ->capture_default_str();
+  command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
+  command->add_option("--geometry", options->geometry, "As `gonio design` has them")
+      ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      ->capture_default_str();
+  command->add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      ->capture_default_str();
+  command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
+  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
+  command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
+  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command->add_flag("--json", options->print_json, "Print everything, with the directions, as JSON");
+  add_threads_option(*command, options->threads);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,145 @@
+/// `gonio plan`: directions as the poses of a goniometer, and a drawing of them.
+
+#include "command.hpp"
+#include "inputs.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/render/image.hpp>
+
+#include <array>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct plan_options {
+  std::filesystem::path directions, picture;
+  bool print_json = false;
+};
+
+/// Light and viewer at polar angles and azimuths in degrees, the light at azimuth 0.
+struct pose {
+  double theta_i = 0.0, theta_o = 0.0, phi_o = 0.0;
+  gonio::direction wi, wo;
+};
+
+double polar_degrees(const gonio::direction& w) { return gonio::degrees(std::atan2(std::hypot(w.x(), w.y()), w.z())); }
+
+/// The material is isotropic: the sample is turned so that the light is in the half plane of positive x.
+pose to_pose(const gonio::half_difference& angles) {
+  const gonio::direction_pair pair = gonio::to_directions(angles);
+  pose at{polar_degrees(pair.wi), polar_degrees(pair.wo)};
+  const double azimuth_i = at.theta_i > 1e-9 ? std::atan2(pair.wi.y(), pair.wi.x()) : 0.0;
+  const double azimuth_o = at.theta_o > 1e-9 ? std::atan2(pair.wo.y(), pair.wo.x()) - azimuth_i : 0.0;
+  const double turned = std::remainder(azimuth_o, 2.0 * std::numbers::pi);
+  at.phi_o = gonio::degrees(turned);
+  at.wi = gonio::spherical_direction(gonio::radians(at.theta_i), 0.0);
+  at.wo = gonio::spherical_direction(gonio::radians(at.theta_o), turned);
+  return at;
+}
+
+void print_poses(const std::vector<pose>& poses) {
+  std::cout << "Angles in degrees; the sample is turned so that the light's azimuth is 0.\n\n"
+            << "| | theta_i | theta_o | phi_o | wi | wo |\n|---|---|---|---|---|---|\n";
+  const auto vector = [](const gonio::direction& w) {
+    return fixed(w.x(), 4) + ' ' + fixed(w.y(), 4) + ' ' + fixed(w.z(), 4);
+  };
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const pose& at = poses[i];
+    std::cout << "| " << i + 1 << " | " << fixed(at.theta_i, 2) << " | " << fixed(at.theta_o, 2) << " | "
+              << fixed(at.phi_o, 2) << " | " << vector(at.wi) << " | " << vector(at.wo) << " |\n";
+  }
+}
+
+void print_json(const std::vector<pose>& poses) {
+  json all = json::array();
+  for (const pose& at : poses)
+    all.push_back({{"theta_i", at.theta_i},
+                   {"theta_o", at.theta_o},
+                   {"phi_o", at.phi_o},
+                   {"wi", {at.wi.x(), at.wi.y(), at.wi.z()}},
+                   {"wo", {at.wo.x(), at.wo.y(), at.wo.z()}}});
+  std::cout << all.dump(2) << '\n';
+}
+
+// ---- the drawing: the hemisphere from above ----------------------------------------------------
+
+constexpr int half_size = 240, margin = 20;
+
+/// Colours that differ, one for each pose in turn.
+gonio::rgb colour_of(std::size_t number) {
+  constexpr std::array<std::array<double, 3>, 6> colours{
+      {{0.7, 0.02, 0.02}, {0.02, 0.1, 0.7}, {0.02, 0.4, 0.05}, {0.5, 0.05, 0.5}, {0.7, 0.25, 0.0}, {0.0, 0.35, 0.4}}};
+  const auto& [r, g, b] = colours[number % colours.size()];
+  return {r, g, b};
+}
+
+/// Paints the pixels whose distance from `at` is in a range.
+void paint_ring(gonio::image& picture, const Eigen::Vector2d& at, double inner, double outer,
+                const gonio::rgb& colour) {
+  const auto first = [&](double middle) { return std::max(0, static_cast<int>(middle - outer - 1.0)); };
+  const auto last = [&](double middle, std::size_t size) {
+    return std::min(static_cast<int>(size) - 1, static_cast<int>(middle + outer + 1.0));
+  };
+  for (int row = first(at.y()); row <= last(at.y(), picture.shape(0)); ++row)
+    for (int column = first(at.x()); column <= last(at.x(), picture.shape(1)); ++column) {
+      const double distance = (Eigen::Vector2d(column + 0.5, row + 0.5) - at).norm();
+      if (distance >= inner && distance <= outer)
+        gonio::set_pixel(picture, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour);
+    }
+}
+
+/// Where a direction is drawn: the polar angle is the distance from the middle.
+Eigen::Vector2d place_of(const gonio::direction& w) {
+  const double radius = half_size * polar_degrees(w) / 90.0, azimuth = std::atan2(w.y(), w.x());
+  return {half_size + margin + radius * std::cos(azimuth), half_size + margin - radius * std::sin(azimuth)};
+}
+
+/// Each pose a line from its light (a disc) to its viewer (a ring); circles every 30 degrees.
+gonio::image drawing_of(const std::vector<pose>& poses) {
+  const auto size = static_cast<std::size_t>(2 * (half_size + margin));
+  gonio::image picture = gonio::uniform_image(size, size, gonio::rgb::Ones());
+  const Eigen::Vector2d middle(half_size + margin, half_size + margin);
+  for (const int theta : {30, 60, 90})
+    paint_ring(picture, middle, half_size * theta / 90.0 - 0.6, half_size * theta / 90.0 + 0.6,
+               gonio::rgb::Constant(theta == 90 ? 0.2 : 0.6));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Vector2d light = place_of(poses[i].wi), viewer = place_of(poses[i].wo);
+    const int steps = 1 + static_cast<int>((viewer - light).norm());
+    for (int step = 0; step <= steps; ++step)
+      paint_ring(picture, light + (viewer - light) * (static_cast<double>(step) / steps), 0.0, 0.8, colour_of(i));
+    paint_ring(picture, light, 0.0, 5.0, colour_of(i));
+    paint_ring(picture, viewer, 0.0, 4.0, gonio::rgb::Ones());
+    paint_ring(picture, viewer, 3.5, 5.5, colour_of(i));
+  }
+  return picture;
+}
+
+void run(const plan_options& options) {
+  std::vector<pose> poses;
+  for (const gonio::half_difference& angles : gonio::io::read_directions(options.directions))
+    poses.push_back(to_pose(angles));
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, drawing_of(poses));
+  if (options.print_json)
+    print_json(poses);
+  else
+    print_poses(poses);
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app) {
+  auto* command = app.add_subcommand("plan", "Print directions as poses of a goniometer, and draw them");
+  const auto options = std::make_shared<plan_options>();
+  command->add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)")
+      ->required();
+  command->add_option("--image", options->picture,
+                      "Drawing of the hemisphere from above: discs are lights, rings are viewers (.png)");
+  command->add_flag("--json", options->print_json, "Print the poses as JSON");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

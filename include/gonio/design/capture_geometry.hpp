@@ -1,0 +1,68 @@
+#pragma once
+/// Which measurements one setting of an apparatus brings: a point sample one, a picture thousands. `capture_geometry`
+/// is the concept, `point_geometry` its simplest model; the others stand in `sphere_geometry.hpp` and
+/// `near_field_geometry.hpp`.
+
+#include <gonio/design/capture_constraint.hpp>
+#include <gonio/table/valid_cells.hpp>
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A step on a grid of candidates: how many along each of its axes.
+using grid_step = std::array<int, 3>;
+
+/// Candidates for a measurement, numbered from 0 to size() - 1.
+///
+/// - `allows(candidate)`: can it be measured at all? The others hold of those that can.
+/// - `directions(candidate)`: the directions of all of its samples; at least one.
+/// - `stepped(candidate, step)`: the candidate that a step on the grid leads to, if there is one and it is allowed.
+///   Steps there and back lead back, where both exist.
+template <class Geometry>
+concept capture_geometry = requires(const Geometry& geometry, std::size_t candidate, const grid_step& step) {
+  { geometry.size() } -> std::convertible_to<std::size_t>;
+  { geometry.allows(candidate) } -> std::convertible_to<bool>;
+  { geometry.directions(candidate) } -> std::convertible_to<std::vector<half_difference>>;
+  { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<std::size_t>>;
+};
+
+/// Each valid cell of a grid is a sample by itself. phi_d goes round.
+class point_geometry {
+ public:
+  explicit point_geometry(valid_cells cells, capture_constraint constraint = {})
+      : cells_(std::move(cells)), constraint_(std::move(constraint)) {}
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::size_t size() const noexcept { return cells_.size(); }
+  [[nodiscard]] bool allows(std::size_t cell) const {
+    return constraint_.is_none() || constraint_(to_directions(cells_.angles(cell)));
+  }
+  [[nodiscard]] std::vector<half_difference> directions(std::size_t cell) const { return {cells_.angles(cell)}; }
+
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
+    const grid& grid = cells_.grid();
+    const grid_extents& extents = grid.extents();
+    const cell_index at = grid.cell(cells_.linear(from));
+    const int theta_h = at.theta_h + step[0], theta_d = at.theta_d + step[1];
+    if (theta_h < 0 || theta_h >= extents.theta_h || theta_d < 0 || theta_d >= extents.theta_d) return {};
+    const int phi_d = ((at.phi_d + step[2]) % extents.phi_d + extents.phi_d) % extents.phi_d;
+    const std::size_t linear = grid.linear({theta_h, theta_d, phi_d});
+    if (!cells_.contains(linear)) return {};
+    const std::size_t cell = cells_.representative(linear);
+    if (!allows(cell)) return {};
+    return cell;
+  }
+
+ private:
+  valid_cells cells_;
+  capture_constraint constraint_;
+};
+static_assert(capture_geometry<point_geometry>);
+
+}  // namespace gonio

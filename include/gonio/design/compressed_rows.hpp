@@ -1,0 +1,74 @@
+#pragma once
+/// The thousands of closely related samples of a picture as the few measurements that they amount to.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/core/direction.hpp>
+
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Rows of a basis at some measurements, n x k, and what noise that is 1 in every sample does to each.
+struct component_rows {
+  Eigen::MatrixXd components;
+  Eigen::VectorXd noise;
+};
+
+/// The rows of the cells next to some directions, which are above the horizon. A cell that is met c times is one row
+/// times sqrt(c): the same normal equations. O(n k).
+template <basis Basis>
+[[nodiscard]] component_rows rows_at(const Basis& basis, std::span<const half_difference> directions) {
+  std::vector<std::size_t> cells;
+  cells.reserve(directions.size());
+  const grid& grid = basis.cells().grid();
+  for (const half_difference& angles : directions)
+    cells.push_back(basis.cells().representative(grid.linear(grid.nearest(angles))));
+  std::ranges::sort(cells);
+
+  std::vector<std::pair<std::size_t, double>> counts;
+  for (const std::size_t cell : cells) {
+    if (counts.empty() || counts.back().first != cell) counts.emplace_back(cell, 0.0);
+    counts.back().second += 1.0;
+  }
+  const auto n = std::ssize(counts), k = static_cast<std::ptrdiff_t>(basis.size());
+  component_rows rows{Eigen::MatrixXd(n, k), Eigen::VectorXd(n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& [cell, count] = counts[static_cast<std::size_t>(i)];
+    const std::span<const float> row = basis.row(cell);
+    const double root = std::sqrt(count);
+    rows.components.row(i) =
+        root * Eigen::Map<const Eigen::RowVectorXf>(row.data(), static_cast<Eigen::Index>(row.size())).cast<double>();
+    rows.noise[i] = root;
+  }
+  return rows;
+}
+
+/// The same measurements in fewer rows Z and noise u: of all with Z'Z = R'R and Z'u = R'O but for what is smaller than
+/// `negligible`, the shortest.
+///
+/// With R'R = V L V' these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution that is penalised by eta leaves eta / (eta
+/// + L) of a direction V unknown, which is hardly less than all where L is far below eta. O(n k min(n, k)).
+[[nodiscard]] inline component_rows compressed(const component_rows& rows, double negligible) {
+  const Eigen::MatrixXd& r = rows.components;
+  const bool tall = r.rows() > r.cols();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(tall ? Eigen::MatrixXd(r.transpose() * r)
+                                                                  : Eigen::MatrixXd(r * r.transpose()));
+  const Eigen::VectorXd& values = eigen.eigenvalues();  // smallest first
+  const auto dropped = std::ranges::count_if(values, [&](double value) { return !(value > negligible); });
+  const Eigen::Index kept = values.size() - dropped;
+  const auto vectors = eigen.eigenvectors().rightCols(kept);
+  const Eigen::VectorXd roots = values.tail(kept).cwiseSqrt();
+  if (tall)
+    return {roots.asDiagonal() * vectors.transpose(),
+            roots.cwiseInverse().asDiagonal() * (vectors.transpose() * (r.transpose() * rows.noise))};
+  return {vectors.transpose() * r, vectors.transpose() * rows.noise};
+}
+
+}  // namespace gonio

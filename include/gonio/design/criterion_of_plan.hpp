@@ -1,0 +1,45 @@
+#pragma once
+/// Any criterion as a function of the candidates that are measured, for the searches of `search.hpp`.
+
+#include <gonio/design/capture_geometry.hpp>
+#include <gonio/design/compressed_rows.hpp>
+#include <gonio/design/design_criterion.hpp>
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Reads the rows of all samples anew whenever it is asked. For the expected error `cell_candidates` and
+/// `image_candidates` are much faster.
+///
+/// ```cpp
+/// const gonio::point_geometry points(prior.cells());
+/// const gonio::criterion_of_plan condition{prior, points, gonio::condition_number{}};
+/// const auto five = gonio::grow_and_descend(points, condition, 5);
+/// ```
+template <basis Basis, capture_geometry Geometry, design_criterion Criterion>
+class criterion_of_plan {
+ public:
+  criterion_of_plan(Basis basis, Geometry geometry, Criterion criterion)
+      : basis_(std::move(basis)), geometry_(std::move(geometry)), criterion_(std::move(criterion)) {}
+
+  [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
+
+  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+    std::vector<half_difference> directions;
+    for (const std::size_t candidate : candidates) {
+      const std::vector<half_difference> more = geometry_.directions(candidate);
+      directions.insert(directions.end(), more.begin(), more.end());
+    }
+    return criterion_(rows_at(basis_, directions).components);
+  }
+
+ private:
+  Basis basis_;
+  Geometry geometry_;
+  Criterion criterion_;
+};
+
+}  // namespace gonio

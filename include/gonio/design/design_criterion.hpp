@@ -1,0 +1,127 @@
+#pragma once
+/// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016) is
+/// one such criterion; here are the condition number (Nielsen et al. 2015) and two of Bayesian experimental design.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/core/error.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace gonio {
+
+/// A number for the components' values at measurements, n x k: the smaller, the better. It must not depend on the order
+/// of the rows.
+template <class Criterion>
+concept design_criterion = requires(const Criterion& criterion, const Eigen::MatrixXd& components) {
+  { criterion(components) } -> std::convertible_to<double>;
+};
+
+/// The ratio of the largest to the smallest of min(n, k) singular values (Nielsen et al. 2015, Eq. 8). For one
+/// measurement, of which it would always be 1, the inverse of the row's length (section 4, after Ipsen and Wentworth
+/// 2014). From the eigenvalues of the smaller Gram matrix: up to 1e7, beyond which it may say infinity. O(n k min(n,
+/// k)).
+struct condition_number {
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
+    if (components.rows() == 1) return 1.0 / components.norm();
+    const Eigen::MatrixXd gram = components.rows() <= components.cols()
+                                     ? Eigen::MatrixXd(components * components.transpose())
+                                     : Eigen::MatrixXd(components.transpose() * components);
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+    const double smallest = values[0], largest = values[values.size() - 1];
+    if (!(smallest > 1e-14 * largest)) return std::numeric_limits<double>::infinity();
+    return std::sqrt(largest / smallest);
+  }
+};
+static_assert(design_criterion<condition_number>);
+
+namespace detail {
+
+/// The Cholesky factors of I + R R' / eta.
+[[nodiscard]] inline Eigen::LLT<Eigen::MatrixXd> certainty(const Eigen::MatrixXd& components, double eta) {
+  Eigen::MatrixXd gram = components * components.transpose() / eta;
+  gram.diagonal().array() += 1.0;
+  return gram.llt();
+}
+
+inline void require_penalty(double eta) {
+  if (!(eta > 0.0 && std::isfinite(eta))) throw error("eta must be positive, not " + std::to_string(eta));
+}
+
+}  // namespace detail
+
+/// Tikhonov's penalty is the prior c ~ N(0, s^2 / eta I) of weights that are measured with noise of variance s^2; after
+/// measuring R their covariance is s^2 (R'R + eta I)^-1. D-optimality minimises the volume of its ellipsoid: here its
+/// logarithm, over that of the prior (Chaloner and Verdinelli 1995, "Bayesian Experimental Design: A Review"). O(n^2
+/// k).
+class d_optimality {
+ public:
+  /// Throws gonio::error unless eta is positive.
+  explicit d_optimality(double eta = 40.0) : eta_(eta) { detail::require_penalty(eta); }
+
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
+    return -detail::certainty(components, eta_).matrixLLT().diagonal().array().log().sum();
+  }
+
+ private:
+  double eta_;
+};
+static_assert(design_criterion<d_optimality>);
+
+/// A-optimality minimises the expected square of the error: the trace of the same covariance, here of the
+/// reconstruction Q c over all cells, so that weights count as much as cells that depend on them; as a share of what it
+/// is with nothing measured. O(n^2 k).
+class a_optimality {
+ public:
+  /// `energies`: |Q e_j|^2 of each component j, which for scaled principal components is the singular value squared.
+  /// Throws gonio::error unless eta is positive and the energies are finite, not negative, and not all zero.
+  explicit a_optimality(Eigen::VectorXd energies, double eta = 40.0) : energies_(std::move(energies)), eta_(eta) {
+    detail::require_penalty(eta);
+    if (!energies_.allFinite() || !(energies_.array() >= 0.0).all() || !(energies_.sum() > 0.0))
+      throw error("the components' energies must be finite, not negative, and not all zero");
+  }
+
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
+    // (R'R + eta I)^-1 = (I - R' K^-1 R / eta) / eta with K = I + R R' / eta = L L'.
+    const Eigen::MatrixXd known = detail::certainty(components, eta_).matrixL().solve(components);
+    return 1.0 - (known.array().square().matrix() * energies_).sum() / (eta_ * energies_.sum());
+  }
+
+ private:
+  Eigen::VectorXd energies_;
+  double eta_;
+};
+static_assert(design_criterion<a_optimality>);
+
+/// A criterion as a function of the cells at which is measured, for the searches of `search.hpp`.
+template <basis Basis, design_criterion Criterion>
+class criterion_at_cells {
+ public:
+  explicit criterion_at_cells(Basis basis, Criterion criterion = Criterion())
+      : basis_(std::move(basis)), criterion_(std::move(criterion)) {}
+
+  [[nodiscard]] double operator()(std::span<const std::size_t> cells) const {
+    Eigen::MatrixXd rows(std::ssize(cells), static_cast<Eigen::Index>(basis_.size()));
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      const std::span<const float> row = basis_.row(cells[static_cast<std::size_t>(i)]);
+      rows.row(i) = Eigen::Map<const Eigen::RowVectorXf>(row.data(), rows.cols()).template cast<double>();
+    }
+    return criterion_(rows);
+  }
+
+ private:
+  Basis basis_;
+  Criterion criterion_;
+};
+
+}  // namespace gonio

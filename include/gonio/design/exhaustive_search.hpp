@@ -1,0 +1,67 @@
+#pragma once
+/// Searches that try every candidate as the next measurement, which Xu et al. 2016 could not afford: greedy growth, and
+/// exchange until no replacement of one measurement by any other is an improvement (Fedorov's exchange, 1972).
+
+#include <gonio/design/search.hpp>
+
+namespace gonio {
+
+/// An objective that also tells, all at once, what a set is worth with each of all candidates beside it; infinity for
+/// those that are not allowed.
+template <class Objective>
+concept sweeping_objective = plan_objective<Objective> &&
+    requires(const Objective& objective, std::span<const std::size_t> candidates) {
+  { objective.geometry() } -> capture_geometry;
+  { objective.errors_with_each(candidates) } -> std::same_as<std::vector<float>>;
+};
+
+namespace detail {
+
+/// The candidate that is worth most beside those of a plan, none of them again.
+template <sweeping_objective Objective>
+[[nodiscard]] std::size_t best_addition(const Objective& objective, std::span<const std::size_t> plan) {
+  std::vector<float> errors = objective.errors_with_each(plan);
+  for (const std::size_t candidate : plan) errors[candidate] = std::numeric_limits<float>::infinity();
+  return static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
+}
+
+}  // namespace detail
+
+/// Adds the best of all candidates until there are n. Throws gonio::error unless n is from 1 to the number of
+/// candidates.
+template <sweeping_objective Objective>
+[[nodiscard]] capture_plan grow_greedily(const Objective& objective, std::size_t n, capture_plan plan = {},
+                                         const progress& listener = {}) {
+  detail::require_choice(n, objective.geometry());
+  while (plan.candidates.size() < n) {
+    plan.candidates.push_back(detail::best_addition(objective, plan.candidates));
+    report(listener, "measurements", static_cast<double>(plan.candidates.size()) / static_cast<double>(n));
+  }
+  plan.value = objective(plan.candidates);
+  return plan;
+}
+
+/// Replaces one candidate after another by the best of all, until no replacement improves: n sweeps over all candidates
+/// a round. Values are compared in double; improvements below a millionth, which float does not see, are none.
+template <sweeping_objective Objective>
+[[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
+  plan.value = objective(plan.candidates);
+  std::size_t without_improvement = 0, position = 0;
+  while (without_improvement < plan.candidates.size()) {
+    capture_plan other = plan;
+    other.candidates[position] = detail::best_addition(objective, detail::all_but(plan.candidates, position));
+    other.value = objective(other.candidates);
+    if (other.value < plan.value * (1.0 - 1e-6)) {
+      plan = std::move(other);
+      without_improvement = 1;  // this one is the best in its place now
+    } else {
+      ++without_improvement;
+    }
+    position = (position + 1) % plan.candidates.size();
+    report(listener, "exchange",
+           static_cast<double>(without_improvement) / static_cast<double>(plan.candidates.size()));
+  }
+  return plan;
+}
+
+}  // namespace gonio

@@ -1,0 +1,185 @@
+#pragma once
+/// What a set of measurements leaves unknown: the expected error of Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016,
+/// "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition", Eq. 12-15.
+
+#include <gonio/basis/pca.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <cmath>
+#include <utility>
+
+namespace gonio {
+
+/// How the expected error weighs what may go wrong.
+struct expected_error_options {
+  /// Tikhonov's penalty of the reconstruction (Eq. 4).
+  double eta = 40.0;
+  /// beta of Eq. 15: the deviation of every measurement in the mapped domain.
+  double noise = 0.0;
+};
+
+/// E(S) of Eq. 15: the mean over the materials that a basis was learned from of the norm, over all cells, of what
+/// the reconstruction from the measurements S misses, plus beta times the norm of what noise adds.
+///
+/// As printed, its norms run over a million cells. But y_i = Q c_i with the materials' coefficients c_i, and |Q x|^2 =
+/// x'M x with the k x k matrix M = Q'Q, which is Sigma^2. With Y = S Q C' and W = S Q M C', n x m for n measurements
+/// and m observations, K = Y Y' + eta I and B = K^-1 Y (the columns of C are orthonormal, and Y Y' = S Q Q' S'):
+///
+///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
+///
+/// Cells that the components are not known for take no part. Where k is less than all components, what the materials
+/// have beyond them is left out: it is the same for all S, but for what it does as noise.
+class expected_error {
+ public:
+  /// What is needed of measurements: Y and W, n x m each, one row for each measurement, and what noise does to them.
+  struct rows {
+    Eigen::MatrixXd materials;  ///< Y
+    Eigen::MatrixXd weighted;   ///< W
+    Eigen::VectorXd noise;      ///< S O of Eq. 13, n values: 1 for a sample by itself
+  };
+
+  /// Errors over the cells that the components were learned on, all of which count alike.
+  template <error_metric Metric>
+  explicit expected_error(const pca<Metric>& basis, const expected_error_options& options = {})
+      : expected_error(basis, options, basis.singular_values().array().square().matrix().asDiagonal()) {}
+
+  /// Errors in the norm x'M x of the components' weights; M is k x k, symmetric and positive semidefinite. With M = Q'D
+  /// Q and a diagonal D, cells count as much as D says. Throws gonio::error for a negative eta or noise or a wrong
+  /// size.
+  template <error_metric Metric>
+  expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
+      : options_(options), coefficients_(basis.coefficients().template cast<double>()) {
+    if (!(options.eta > 0.0 && std::isfinite(options.eta)))
+      throw error("eta must be positive, not " + std::to_string(options.eta));
+    if (!(options.noise >= 0.0 && std::isfinite(options.noise)))
+      throw error("the noise must be finite and not negative, not " + std::to_string(options.noise));
+    const auto k = static_cast<Eigen::Index>(basis.size());
+    if (norm.rows() != k || norm.cols() != k)
+      throw error("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
+    weighted_ = coefficients_ * norm;
+    energies_ = coefficients_.cwiseProduct(weighted_).rowwise().sum();
+  }
+
+  [[nodiscard]] const expected_error_options& options() const noexcept { return options_; }
+  /// C and C M: m x k. A measurement whose row of components is q has the rows C q and C M q of Y and W.
+  [[nodiscard]] const Eigen::MatrixXd& coefficients() const noexcept { return coefficients_; }
+  [[nodiscard]] const Eigen::MatrixXd& weighted_coefficients() const noexcept { return weighted_; }
+  /// c_i'M c_i: the squared error of each observation if nothing is measured.
+  [[nodiscard]] const Eigen::VectorXd& energies() const noexcept { return energies_; }
+
+  /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
+  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const {
+    return {components * coefficients_.transpose(), components * weighted_.transpose(), std::move(noise)};
+  }
+  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const {
+    return prepare(components, Eigen::VectorXd::Ones(components.rows()));
+  }
+
+  /// E(S). O(n^2 m) for n measurements and m observations.
+  [[nodiscard]] double operator()(const rows& measured) const { return state(measured).error(options_.noise); }
+
+  /// E(S) from the components' values at the measurements, n x k.
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const { return (*this)(prepare(components)); }
+
+  /// What is left unknown when some measurements are made, and how to add to them.
+  struct remainder {
+    Eigen::MatrixXd inverse;         ///< K^-1, n x n
+    Eigen::ArrayXd squared_errors;   ///< of each observation
+    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what noise adds to the weights
+    double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
+
+    [[nodiscard]] double error(double noise) const {
+      return squared_errors.max(0.0).sqrt().mean() + noise * std::sqrt(std::max(noise_energy, 0.0));
+    }
+  };
+
+  [[nodiscard]] remainder state(const rows& measured) const {
+    const Eigen::MatrixXd &y = measured.materials, &w = measured.weighted;
+    const Eigen::Index n = y.rows();
+    remainder left;
+    left.squared_errors = energies_.array();
+    left.noise_response = Eigen::VectorXd::Zero(coefficients_.rows());
+    if (n == 0) return left;
+    Eigen::MatrixXd k = y * y.transpose();
+    k.diagonal().array() += options_.eta;
+    left.inverse = k.llt().solve(Eigen::MatrixXd::Identity(n, n));
+    const Eigen::MatrixXd b = left.inverse * y, between = w * y.transpose();
+    left.squared_errors += ((between * b - 2.0 * w).cwiseProduct(b)).colwise().sum().transpose().array();
+    const Eigen::VectorXd noise = left.inverse * measured.noise;
+    left.noise_response = y.transpose() * noise;
+    left.noise_energy = noise.dot(between * noise);
+    return left;
+  }
+
+ private:
+  expected_error_options options_;
+  Eigen::MatrixXd coefficients_, weighted_;
+  Eigen::VectorXd energies_;
+};
+
+/// Measurements to which another one is added. A = I - (SQ)' K^-1 (SQ), what they leave unknown, then changes by a
+/// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared
+/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate.
+template <class Scalar>
+class extended_error {
+ public:
+  /// One row for each candidate, m columns.
+  using matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
+
+  extended_error(const expected_error& criterion, const expected_error::rows& measured)
+      : eta_(static_cast<Scalar>(criterion.options().eta)), noise_(static_cast<Scalar>(criterion.options().noise)) {
+    const expected_error::remainder left = criterion.state(measured);
+    materials_ = measured.materials.cast<Scalar>();
+    weighted_ = measured.weighted.cast<Scalar>();
+    inverse_ = left.inverse.cast<Scalar>();
+    squared_errors_ = left.squared_errors.cast<Scalar>().transpose();
+    noise_response_ = left.noise_response.cast<Scalar>();
+    noise_energy_ = static_cast<Scalar>(left.noise_energy);
+  }
+
+  /// E with each of some candidates, whose rows of Y and W are given.
+  [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w) const {
+    // Take away what the measurements know: from q, then from M q.
+    matrix t = y, once = w;
+    if (materials_.rows() > 0) {
+      const matrix known = (y * materials_.transpose()) * inverse_;
+      t.noalias() -= known * materials_;
+      once.noalias() -= known * weighted_;
+    }
+    matrix twice = once;
+    if (materials_.rows() > 0) {
+      const matrix known = (once * materials_.transpose()) * inverse_;
+      twice.noalias() -= known * materials_;
+    }
+    const column d = eta_ + y.cwiseProduct(t).rowwise().sum().array();
+    const column r = t.cwiseProduct(once).rowwise().sum().array();
+    column found(y.rows());
+    for (Eigen::Index i = 0; i < y.rows(); ++i) {
+      const auto step = t.row(i).array() / d[i];
+      found[i] =
+          (squared_errors_ + step * (r[i] * step - Scalar(2) * twice.row(i).array())).max(Scalar(0)).sqrt().mean();
+    }
+    if (noise_ > Scalar(0)) found += noise_ * noise(y, once, d, r);
+    return found;
+  }
+
+ private:
+  /// |Q (SQ)+_eta 1| with each candidate: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
+  [[nodiscard]] column noise(const Eigen::Ref<const matrix>& y, const matrix& once, const column& d,
+                             const column& r) const {
+    const column growth = (Scalar(1) - (y * noise_response_).array()) / d;
+    const column along = (once * noise_response_).array();
+    return (noise_energy_ + growth * (Scalar(2) * along + growth * r)).max(Scalar(0)).sqrt();
+  }
+
+  Scalar eta_, noise_;
+  matrix materials_, weighted_, inverse_;
+  Eigen::Array<Scalar, 1, Eigen::Dynamic> squared_errors_;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_;
+  Scalar noise_energy_ = Scalar(0);
+};
+
+}  // namespace gonio

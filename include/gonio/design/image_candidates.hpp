@@ -1,0 +1,150 @@
+#pragma once
+/// What pictures are worth: E(S) of Xu et al. 2016 where a candidate brings many samples (section 5.2).
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/progress.hpp>
+#include <gonio/design/capture_geometry.hpp>
+#include <gonio/design/compressed_rows.hpp>
+#include <gonio/design/expected_error.hpp>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// Measurements of both, one after the other.
+[[nodiscard]] inline expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m) {
+  Eigen::Index n = 0;
+  for (const auto* part : parts) n += part->noise.size();
+  expected_error::rows all{Eigen::MatrixXd(n, m), Eigen::MatrixXd(n, m), Eigen::VectorXd(n)};
+  Eigen::Index begin = 0;
+  for (const auto* part : parts) {
+    const Eigen::Index count = part->noise.size();
+    all.materials.middleRows(begin, count) = part->materials;
+    all.weighted.middleRows(begin, count) = part->weighted;
+    all.noise.segment(begin, count) = part->noise;
+    begin += count;
+  }
+  return all;
+}
+
+}  // namespace detail
+
+/// E of pictures, whose samples are read whenever they are asked for: for searches that look at few candidates of many.
+/// Samples whose information is below a thousandth of eta are left out (`compressed`), which changes E by less.
+template <error_metric Metric, capture_geometry Geometry>
+class image_objective {
+ public:
+  /// The basis must be the one of the criterion.
+  image_objective(pca<Metric> basis, expected_error criterion, Geometry geometry)
+      : basis_(std::move(basis)), criterion_(std::move(criterion)), geometry_(std::move(geometry)) {}
+
+  [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
+  [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
+
+  /// Y and W of one picture, compressed. O(s k min(s, k)) for s samples.
+  [[nodiscard]] expected_error::rows rows_of(std::size_t candidate) const {
+    const std::vector<half_difference> directions = geometry_.directions(candidate);
+    const component_rows few = compressed(rows_at(basis_, directions), 1e-3 * criterion_.options().eta);
+    return criterion_.prepare(few.components, few.noise);
+  }
+
+  /// E of some pictures.
+  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+    return criterion_(rows_of_all(candidates));
+  }
+
+  /// E of some pictures and one more, as a function of that one.
+  [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
+    return [this, others = rows_of_all(candidates)](std::size_t candidate) {
+      const expected_error::rows one = rows_of(candidate);
+      const std::array<const expected_error::rows*, 2> both{&others, &one};
+      return criterion_(detail::joined(both, others.materials.cols()));
+    };
+  }
+
+ private:
+  [[nodiscard]] expected_error::rows rows_of_all(std::span<const std::size_t> candidates) const {
+    std::vector<expected_error::rows> each;
+    for (const std::size_t candidate : candidates) each.push_back(rows_of(candidate));
+    std::vector<const expected_error::rows*> parts;
+    for (const auto& rows : each) parts.push_back(&rows);
+    return detail::joined(parts, criterion_.coefficients().rows());
+  }
+
+  pca<Metric> basis_;
+  expected_error criterion_;
+  Geometry geometry_;
+};
+
+/// E of pictures, all of which are read beforehand, so that all can be tried as the next one. 16 m bytes for each of
+/// the rows that a picture amounts to (5 to 40), at eta / 1000.
+template <error_metric Metric, capture_geometry Geometry>
+class image_candidates {
+ public:
+  /// O(s k min(s, k)) for each candidate of s samples.
+  explicit image_candidates(image_objective<Metric, Geometry> objective, thread_count threads = {},
+                            const progress& listener = {})
+      : objective_(std::move(objective)), rows_(objective_.geometry().size()), threads_(threads) {
+    constexpr std::size_t batch = 64;
+    for (std::size_t begin = 0; begin < rows_.size(); begin += batch) {
+      const std::size_t count = std::min(batch, rows_.size() - begin);
+      for_each_block(
+          count, 1,
+          [&](block range) {
+            const std::size_t candidate = begin + range.begin;
+            if (objective_.geometry().allows(candidate)) rows_[candidate] = objective_.rows_of(candidate);
+          },
+          threads_);
+      report(listener, "pictures", static_cast<double>(begin + count) / static_cast<double>(rows_.size()));
+    }
+  }
+
+  [[nodiscard]] const Geometry& geometry() const noexcept { return objective_.geometry(); }
+
+  /// E of some pictures.
+  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+    return objective_.criterion()(rows_of_all(candidates));
+  }
+
+  /// E of some pictures and one more, as a function of that one.
+  [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
+    return [this, others = rows_of_all(candidates)](std::size_t candidate) {
+      const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
+      return objective_.criterion()(detail::joined(both, others.materials.cols()));
+    };
+  }
+
+  /// E of some pictures and, in turn, each candidate beside them; infinity for those that are not allowed.
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
+    std::vector<float> errors(rows_.size(), std::numeric_limits<float>::infinity());
+    const auto with = beside(candidates);
+    for_each_block(
+        rows_.size(), 16,
+        [&](block range) {
+          for (std::size_t candidate = range.begin; candidate < range.end; ++candidate)
+            if (geometry().allows(candidate)) errors[candidate] = static_cast<float>(with(candidate));
+        },
+        threads_);
+    return errors;
+  }
+
+ private:
+  [[nodiscard]] expected_error::rows rows_of_all(std::span<const std::size_t> candidates) const {
+    std::vector<const expected_error::rows*> parts;
+    for (const std::size_t candidate : candidates) parts.push_back(&rows_[candidate]);
+    return detail::joined(parts, objective_.criterion().coefficients().rows());
+  }
+
+  image_objective<Metric, Geometry> objective_;
+  std::vector<expected_error::rows> rows_;
+  thread_count threads_;
+};
+
+}  // namespace gonio

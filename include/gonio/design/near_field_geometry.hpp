@@ -1,0 +1,141 @@
+#pragma once
+/// Pictures of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
+/// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 5.2 and Fig. 4.
+
+#include <gonio/core/pinhole_camera.hpp>
+#include <gonio/design/capture_geometry.hpp>
+
+#include <numbers>
+#include <optional>
+#include <string>
+
+namespace gonio {
+
+/// The apparatus.
+struct near_field_options {
+  /// alpha = 2 atan(r / R) in radians, for a disc of radius r and a camera at distance R from its centre.
+  double field_of_view = radians(25.0);
+  /// Samples along the diameter of the disc as seen from above; the picture's pixels, or blocks of them.
+  std::size_t pixels = 24;
+  /// Distance of neighbouring candidates in radians: of the polar angles, and of the azimuth between light and camera.
+  double step = radians(5.0);
+  /// Lights and cameras beyond this polar angle are no candidates.
+  double largest_polar_angle = radians(85.0);
+  /// The camera's, or the light's, polar angle if it cannot be chosen.
+  std::optional<double> fixed_camera = {}, fixed_light = {};
+  capture_constraint constraint = {};
+};
+
+/// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. An azimuth and
+/// its negative give mirror images of one another: they are from 0 to pi.
+class near_field_geometry {
+ public:
+  /// Throws gonio::error unless the field of view is from 0 to 90 degrees, the step and the largest angle positive, and
+  /// there is at least one candidate.
+  explicit near_field_geometry(const near_field_options& options = {}) : options_(options) {
+    const auto refuse = [](const std::string& what) { throw error("near-field pictures: " + what); };
+    if (!(options.field_of_view > 0.0 && options.field_of_view < std::numbers::pi / 2.0))
+      refuse("the field of view must be from 0 to 90 degrees, not " + std::to_string(degrees(options.field_of_view)));
+    if (options.pixels == 0) refuse("there must be pixels");
+    if (!(options.step > 0.0)) refuse("the step between candidates must be positive");
+    if (!(options.largest_polar_angle > 0.0 && options.largest_polar_angle < std::numbers::pi / 2.0))
+      refuse("the largest polar angle must be between 0 and 90 degrees, not " +
+             std::to_string(degrees(options.largest_polar_angle)));
+    for (const auto& fixed : {options.fixed_camera, options.fixed_light})
+      if (fixed && !(*fixed >= 0.0 && *fixed < std::numbers::pi / 2.0))
+        refuse("a fixed direction must be above the horizon, not at " + std::to_string(degrees(*fixed)) + " degrees");
+    const auto steps = [&](double range) { return 1 + static_cast<int>(std::floor(range / options.step + 1e-9)); };
+    extents_ = {options.fixed_light ? 1 : steps(options.largest_polar_angle),
+                options.fixed_camera ? 1 : steps(options.largest_polar_angle), steps(std::numbers::pi)};
+    bool any = false;
+    for (std::size_t candidate = 0; candidate < size() && !any; ++candidate) any = allows(candidate);
+    if (!any) refuse("the constraint leaves no candidate");
+  }
+
+  [[nodiscard]] const near_field_options& options() const noexcept { return options_; }
+  [[nodiscard]] std::size_t size() const noexcept {
+    return static_cast<std::size_t>(extents_[0]) * static_cast<std::size_t>(extents_[1]) *
+           static_cast<std::size_t>(extents_[2]);
+  }
+
+  /// Azimuths are all the same where light or camera is at the zenith: the first stands for them.
+  [[nodiscard]] bool allows(std::size_t candidate) const {
+    const grid_step at = place(candidate);
+    const direction_pair pose = centre(candidate);
+    const bool at_zenith = polar(options_.fixed_light, at[0]) == 0.0 || polar(options_.fixed_camera, at[1]) == 0.0;
+    return !(at_zenith && at[2] > 0) && options_.constraint(pose);
+  }
+
+  /// Light and camera as seen from the centre of the sample; the camera in the half plane of positive x.
+  [[nodiscard]] direction_pair centre(std::size_t candidate) const {
+    const grid_step at = place(candidate);
+    return {spherical_direction(polar(options_.fixed_light, at[0]), options_.step * at[2]),
+            spherical_direction(polar(options_.fixed_camera, at[1]), 0.0)};
+  }
+
+  /// The candidate whose light and camera are next to those of a pair.
+  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
+    const auto step_of = [&](double angle, int extent) {
+      return std::clamp(static_cast<int>(std::lround(angle / options_.step)), 0, extent - 1);
+    };
+    const auto theta = [](const direction& w) { return std::atan2(std::hypot(w.x(), w.y()), w.z()); };
+    const double azimuth = std::atan2(std::abs(pair.wo.x() * pair.wi.y() - pair.wo.y() * pair.wi.x()),
+                                      pair.wo.x() * pair.wi.x() + pair.wo.y() * pair.wi.y());
+    grid_step at{step_of(theta(pair.wi), extents_[0]), step_of(theta(pair.wo), extents_[1]),
+                 step_of(azimuth, extents_[2])};
+    if (!allows(number(at))) at[2] = 0;
+    return number(at);
+  }
+
+  /// One direction for each pixel whose ray meets the disc, and which the light and the camera are above.
+  [[nodiscard]] std::vector<half_difference> directions(std::size_t candidate) const {
+    const direction_pair pose = centre(candidate);
+    const double radius = std::tan(options_.field_of_view / 2.0);
+    // The disc is inside a ball of its radius, which spans asin(radius) to all sides at distance 1.
+    const auto camera = pinhole_camera::look_at(camera_intrinsics::square(options_.pixels, 2.0 * std::asin(radius)),
+                                                pose.wo, Eigen::Vector3d::Zero(), upward(pose.wo));
+    std::vector<half_difference> seen;
+    for (std::size_t row = 0; row < options_.pixels; ++row)
+      for (std::size_t column = 0; column < options_.pixels; ++column) {
+        const ray line = camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+        const auto point = line.at_ground();
+        if (point && point->norm() <= radius) seen.push_back(to_half_difference(pose.wi, -line.towards));
+      }
+    if (seen.empty()) seen.push_back(to_half_difference(pose.wi, pose.wo));
+    return seen;
+  }
+
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
+    grid_step at = place(from);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      at[axis] += step[axis];
+      if (at[axis] < 0 || at[axis] >= extents_[axis]) return {};
+    }
+    if (!allows(number(at))) return {};
+    return number(at);
+  }
+
+ private:
+  [[nodiscard]] static direction upward(const direction& w) noexcept {
+    return std::abs(w.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
+  }
+
+  [[nodiscard]] double polar(const std::optional<double>& fixed, int steps) const noexcept {
+    return fixed ? *fixed : options_.step * steps;
+  }
+
+  [[nodiscard]] grid_step place(std::size_t candidate) const noexcept {
+    const auto n = static_cast<int>(candidate);
+    return {n / (extents_[1] * extents_[2]), n / extents_[2] % extents_[1], n % extents_[2]};
+  }
+
+  [[nodiscard]] std::size_t number(const grid_step& at) const noexcept {
+    return static_cast<std::size_t>((at[0] * extents_[1] + at[1]) * extents_[2] + at[2]);
+  }
+
+  near_field_options options_;
+  grid_step extents_{};
+};
+static_assert(capture_geometry<near_field_geometry>);
+
+}  // namespace gonio

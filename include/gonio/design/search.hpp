@@ -1,0 +1,192 @@
+#pragma once
+/// Searches for what to measure, for any geometry of candidates and any objective that tells what a set of them is
+/// worth. Random swaps: Matusik, Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi
+/// 2015, section 4; from the best of many candidates: Xu et al. 2016, section 5.1.
+
+#include <gonio/core/error.hpp>
+#include <gonio/core/progress.hpp>
+#include <gonio/design/capture_geometry.hpp>
+
+#include <algorithm>
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// What a set of candidates is worth to measure: smaller is better. Their order must not matter.
+///
+/// An objective may offer `beside(candidates)`, a function of one more candidate that is cheaper than the whole:
+/// searches that move one at a time then use it.
+template <class Objective>
+concept plan_objective = requires(const Objective& objective, std::span<const std::size_t> candidates) {
+  { objective(candidates) } -> std::convertible_to<double>;
+};
+
+/// Different candidates to measure, and what they are worth.
+struct capture_plan {
+  std::vector<std::size_t> candidates;
+  double value = std::numeric_limits<double>::infinity();
+};
+
+namespace detail {
+
+/// Is there as much to choose from?
+template <capture_geometry Geometry>
+void require_choice(std::size_t n, const Geometry& geometry) {
+  std::size_t allowed = 0;
+  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+    if (geometry.allows(candidate)) ++allowed;
+  if (n == 0 || n > allowed)
+    throw error("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
+}
+
+[[nodiscard]] inline bool holds(const std::vector<std::size_t>& candidates, std::size_t candidate) {
+  return std::ranges::find(candidates, candidate) != candidates.end();
+}
+
+/// A random candidate that the plan does not have yet.
+template <capture_geometry Geometry, class Generator>
+[[nodiscard]] std::size_t another_candidate(const std::vector<std::size_t>& plan, const Geometry& geometry,
+                                            Generator& generator) {
+  std::uniform_int_distribution<std::size_t> any(0, geometry.size() - 1);
+  std::size_t candidate = any(generator);
+  while (!geometry.allows(candidate) || holds(plan, candidate)) candidate = any(generator);
+  return candidate;
+}
+
+/// The candidates of a plan without the one at a position.
+[[nodiscard]] inline std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position) {
+  candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
+  return candidates;
+}
+
+/// The value of a plan as a function of what is at one position; infinity for what the plan has already.
+template <plan_objective Objective>
+[[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<std::size_t>& candidates,
+                                        std::size_t position) {
+  const std::vector<std::size_t> others = all_but(candidates, position);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if constexpr (requires { objective.beside(std::span<const std::size_t>(others)); }) {
+    return [=, with = objective.beside(std::span<const std::size_t>(others))](std::size_t candidate) -> double {
+      return holds(others, candidate) ? infinity : with(candidate);
+    };
+  } else {
+    return [=, &objective](std::size_t candidate) -> double {
+      if (holds(others, candidate)) return infinity;
+      std::vector<std::size_t> all = others;
+      all.push_back(candidate);
+      return objective(std::span<const std::size_t>(all));
+    };
+  }
+}
+
+/// Relative improvements below this are rounding.
+inline constexpr double smallest_improvement = 1e-12;
+
+/// Moves one candidate of a plan to the best of its six neighbours at a distance, if that is an improvement.
+template <capture_geometry Geometry, plan_objective Objective>
+[[nodiscard]] bool move_one(const Geometry& geometry, const Objective& objective, capture_plan& plan,
+                            std::size_t position, int distance) {
+  const auto value_with = value_of_replacement(objective, plan.candidates, position);
+  const std::size_t from = plan.candidates[position];
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const int sign : {1, -1}) {
+      grid_step step{};
+      step[axis] = sign * distance;
+      const std::optional<std::size_t> to = geometry.stepped(from, step);
+      if (!to) continue;
+      const double value = value_with(*to);
+      if (!(value < plan.value * (1.0 - smallest_improvement))) continue;
+      plan.value = value;
+      plan.candidates[position] = *to;
+    }
+  return plan.candidates[position] != from;
+}
+
+}  // namespace detail
+
+/// Lets each candidate of a plan slide along the grid as long as it improves: steps of 3, then of 1, each in the best
+/// of six directions, the candidates in random order. The result is no worse than any plan with one candidate moved by
+/// one step.
+template <capture_geometry Geometry, plan_objective Objective>
+[[nodiscard]] capture_plan descend(const Geometry& geometry, const Objective& objective, capture_plan plan,
+                                   std::uint64_t seed = 0) {
+  std::mt19937_64 generator(seed);
+  plan.value = objective(std::span<const std::size_t>(plan.candidates));
+  std::vector<std::size_t> order(plan.candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (const int distance : {3, 1}) {
+    bool improved = true;
+    while (improved) {
+      improved = false;
+      std::ranges::shuffle(order, generator);
+      for (const std::size_t position : order)
+        while (detail::move_one(geometry, objective, plan, position, distance)) improved = true;
+    }
+  }
+  plan.value = objective(std::span<const std::size_t>(plan.candidates));  // without the rounding of many steps
+  return plan;
+}
+
+/// Adds one candidate after another, the best of `tries` random ones each time, and descends after each. With one try
+/// it is Nielsen et al.'s search, with 500 Xu et al.'s. Throws gonio::error unless n is from 1 to the number of
+/// candidates.
+template <capture_geometry Geometry, plan_objective Objective>
+[[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, std::size_t n,
+                                            std::size_t tries = 500, std::uint64_t seed = 0,
+                                            const progress& listener = {}) {
+  detail::require_choice(n, geometry);
+  std::mt19937_64 generator(seed);
+  capture_plan plan;
+  while (plan.candidates.size() < n) {
+    const std::size_t added = plan.candidates.size();
+    plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
+    const auto value_with = detail::value_of_replacement(objective, plan.candidates, added);
+    double best = value_with(plan.candidates[added]);
+    const std::vector<std::size_t> others = detail::all_but(plan.candidates, added);
+    for (std::size_t i = 1; i < tries; ++i) {
+      const std::size_t candidate = detail::another_candidate(others, geometry, generator);
+      const double value = value_with(candidate);
+      if (!(value < best)) continue;
+      best = value;
+      plan.candidates[added] = candidate;
+    }
+    plan = descend(geometry, objective, std::move(plan), generator());
+    report(listener, "measurements", static_cast<double>(plan.candidates.size()) / static_cast<double>(n));
+  }
+  return plan;
+}
+
+/// n random candidates, one of which is replaced by a random other one where that is an improvement, as many times as
+/// `swaps` says: Matusik et al.'s search, the baseline. Throws gonio::error unless n is from 1 to the number of
+/// candidates.
+template <capture_geometry Geometry, plan_objective Objective>
+[[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, std::size_t n,
+                                          std::size_t swaps, std::uint64_t seed = 0) {
+  detail::require_choice(n, geometry);
+  std::mt19937_64 generator(seed);
+  capture_plan plan;
+  while (plan.candidates.size() < n)
+    plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
+  plan.value = objective(std::span<const std::size_t>(plan.candidates));
+  std::uniform_int_distribution<std::size_t> any_position(0, n - 1);
+  for (std::size_t swap = 0; swap < swaps; ++swap) {
+    const std::size_t position = any_position(generator);
+    const std::vector<std::size_t> others = detail::all_but(plan.candidates, position);
+    const std::size_t candidate = detail::another_candidate(others, geometry, generator);
+    const double value = detail::value_of_replacement(objective, plan.candidates, position)(candidate);
+    if (!(value < plan.value * (1.0 - detail::smallest_improvement))) continue;
+    plan.candidates[position] = candidate;
+    plan.value = value;
+  }
+  return plan;
+}
+
+}  // namespace gonio

@@ -1,0 +1,52 @@
+#pragma once
+/// Pictures of a sphere of the material (Marschner et al. 2000; Nielsen et al. 2015, section 6): with light and camera
+/// far away all of its points have the same theta_d, half the angle between the two, and every (theta_h, phi_d) at
+/// which both are above the horizon is seen.
+
+#include <gonio/design/capture_geometry.hpp>
+
+#include <numeric>
+
+namespace gonio {
+
+/// One candidate for each theta_d of a grid: its samples are all valid cells of that slice, each once.
+class sphere_geometry {
+ public:
+  explicit sphere_geometry(valid_cells cells) : cells_(std::move(cells)) {}
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(cells_.grid().extents().theta_d); }
+  [[nodiscard]] bool allows(std::size_t slice) const { return !cells_of(slice).empty(); }
+
+  [[nodiscard]] std::vector<half_difference> directions(std::size_t slice) const {
+    std::vector<half_difference> seen;
+    for (const std::size_t cell : cells_of(slice)) seen.push_back(cells_.angles(cell));
+    return seen;
+  }
+
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
+    if (step[0] != 0 || step[2] != 0) return {};
+    const auto slice = static_cast<std::ptrdiff_t>(from) + step[1];
+    if (slice < 0 || slice >= std::ssize(*this)) return {};
+    const auto to = static_cast<std::size_t>(slice);
+    if (!allows(to)) return {};
+    return to;
+  }
+
+  /// The valid cells of a slice.
+  [[nodiscard]] std::vector<std::size_t> cells_of(std::size_t slice) const {
+    std::vector<std::size_t> found;
+    const auto layers = static_cast<std::size_t>(cells_.grid().extents().theta_h);
+    for (std::size_t theta_h = 0; theta_h < layers; ++theta_h) {
+      const std::size_t row = theta_h * size() + slice;
+      for (std::size_t cell = cells_.row_begin(row); cell < cells_.row_begin(row + 1); ++cell) found.push_back(cell);
+    }
+    return found;
+  }
+
+ private:
+  valid_cells cells_;
+};
+static_assert(capture_geometry<sphere_geometry>);
+
+}  // namespace gonio

@@ -1,0 +1,60 @@
+#include <gonio/design/capture_constraint.hpp>
+
+#include <doctest/doctest.h>
+
+using gonio::capture_constraint;
+using gonio::direction_pair;
+using gonio::radians;
+using gonio::spherical_direction;
+
+namespace {
+
+/// Light and viewer at polar angles in degrees, so many degrees of azimuth apart.
+direction_pair light_and_viewer(double light, double viewer, double azimuth = 0.0) {
+  return {spherical_direction(radians(light), radians(azimuth)), spherical_direction(radians(viewer), 0.0)};
+}
+
+}  // namespace
+
+TEST_CASE("without a constraint everything is allowed") {
+  const capture_constraint none;
+  CHECK(none.is_none());
+  CHECK(none(light_and_viewer(89.9, 0)));
+  CHECK(none(light_and_viewer(30, 30)));
+}
+
+TEST_CASE("lights and viewers stay in their ranges") {
+  capture_constraint constraint;
+  constraint.light = {radians(10), radians(60)};
+  constraint.viewer.largest = radians(70);
+  CHECK_FALSE(constraint.is_none());
+  CHECK(constraint(light_and_viewer(30, 69)));
+  CHECK_FALSE(constraint(light_and_viewer(9, 69)));
+  CHECK_FALSE(constraint(light_and_viewer(61, 69)));
+  CHECK_FALSE(constraint(light_and_viewer(30, 71)));
+}
+
+TEST_CASE("light and viewer keep their distance, on whichever side they are") {
+  capture_constraint constraint;
+  constraint.smallest_separation = radians(15);
+  CHECK_FALSE(constraint(light_and_viewer(40, 30)));
+  CHECK(constraint(light_and_viewer(46, 30)));
+  CHECK(constraint(light_and_viewer(10, 10, 180)));
+  CHECK_FALSE(constraint(light_and_viewer(7, 7, 180)));
+  CHECK_FALSE(constraint(light_and_viewer(0, 0)));
+}
+
+TEST_CASE("lights on an arc stand at multiples of a step") {
+  capture_constraint constraint;
+  constraint.light_step = radians(7.5);
+  for (const double light : {0.0, 7.5, 22.4, 45.4}) CHECK(constraint(light_and_viewer(light, 20)));
+  for (const double light : {3.0, 8.1, 44.0}) CHECK_FALSE(constraint(light_and_viewer(light, 20)));
+}
+
+TEST_CASE("a zone is forbidden where both are in it") {
+  capture_constraint constraint;
+  constraint.forbidden = {{{radians(60), radians(90)}, {radians(60), radians(90)}}};
+  CHECK_FALSE(constraint(light_and_viewer(70, 65, 180)));
+  CHECK(constraint(light_and_viewer(70, 50, 180)));
+  CHECK(constraint(light_and_viewer(50, 65, 180)));
+}

@@ -1,0 +1,51 @@
+#include "../made_up_materials.hpp"
+#include <gonio/design/capture_geometry.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+/// The smallest geometry there can be: numbers in a row, all in one direction.
+struct line_of_candidates {
+  [[nodiscard]] std::size_t size() const { return 3; }
+  [[nodiscard]] bool allows(std::size_t) const { return true; }
+  [[nodiscard]] std::vector<gonio::half_difference> directions(std::size_t) const { return {{0.1, 0.2, 0.3}}; }
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const gonio::grid_step& step) const {
+    const int to = static_cast<int>(from) + step[0];
+    if (to < 0 || to > 2 || step[1] != 0 || step[2] != 0) return {};
+    return static_cast<std::size_t>(to);
+  }
+};
+static_assert(gonio::capture_geometry<line_of_candidates>);
+
+}  // namespace
+
+TEST_CASE("steps stay on valid cells, and phi_d goes round") {
+  const gonio::point_geometry points(small_cells());
+  for (std::size_t from = 0; from < points.size(); from += 7) {
+    const auto there = points.stepped(from, {0, 0, 2});
+    if (!there) continue;
+    CHECK(points.stepped(*there, {0, 0, -2}) == from);
+    CHECK(points.stepped(from, {0, 0, 9}) == from);
+  }
+  CHECK_FALSE(points.stepped(0, {-1, 0, 0}).has_value());
+  CHECK_FALSE(points.stepped(points.size() - 1, {1, 0, 0}).has_value());
+}
+
+TEST_CASE("a point sample is in the direction of its cell; steps do not lead to what the constraint excludes") {
+  gonio::capture_constraint constraint;
+  constraint.light.largest = gonio::radians(45);
+  const gonio::point_geometry points(small_cells(), constraint);
+  std::size_t allowed = 0;
+  for (std::size_t cell = 0; cell < points.size(); ++cell) {
+    const auto angles = points.directions(cell);
+    REQUIRE(angles.size() == 1);
+    CHECK(angles[0].theta_d == small_cells().angles(cell).theta_d);
+    CHECK(points.allows(cell) == (std::acos(gonio::to_directions(angles[0]).wi.z()) <= gonio::radians(45)));
+    if (points.allows(cell)) ++allowed;
+    for (const gonio::grid_step& step : {gonio::grid_step{1, 0, 0}, {0, -1, 0}, {0, 0, 1}})
+      if (const auto to = points.stepped(cell, step)) CHECK(points.allows(*to));
+  }
+  CHECK(allowed > 0);
+  CHECK(allowed < points.size());
+}

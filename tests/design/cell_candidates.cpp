@@ -1,0 +1,34 @@
+#include "made_up_candidates.hpp"
+#include <gonio/design/cell_candidates.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+TEST_CASE("all additions at once are what each is by itself") {
+  for (const double noise : {0.0, 0.4}) {
+    const auto candidates = made_up_candidates({.eta = 0.5, .noise = noise});
+    REQUIRE(candidates.size() == small_cells().size());
+    CHECK(rc::check("random designs", [&] {
+      const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
+      const auto n = *rc::gen::inRange<std::size_t>(0, 8);
+      const auto cells = *rc::gen::container<std::vector<std::size_t>>(n, any);
+      const std::vector<float> errors = candidates.errors_with_each(cells);
+      RC_ASSERT(errors.size() == candidates.size());
+      auto longer = cells;
+      longer.push_back(0);
+      for (std::size_t cell = 0; cell < candidates.size(); cell += 13) {
+        longer.back() = cell;
+        const double alone = candidates(longer);
+        RC_ASSERT(std::abs(double{errors[cell]} - alone) < 1e-4 * alone);
+      }
+    }));
+  }
+}
+
+TEST_CASE("the same bytes for any number of threads") {
+  const std::vector<std::size_t> cells{4, 90, 301};
+  const auto one = made_up_candidates({.eta = 2.0, .noise = 0.1}, {1}),
+             three = made_up_candidates({.eta = 2.0, .noise = 0.1}, {3});
+  CHECK(one.errors_with_each(cells) == three.errors_with_each(cells));
+  CHECK(one(cells) == three(cells));
+}

@@ -1,0 +1,93 @@
+#include "made_up_candidates.hpp"
+#include <gonio/design/exhaustive_search.hpp>
+#include <gonio/design/image_candidates.hpp>
+#include <gonio/design/near_field_geometry.hpp>
+#include <gonio/design/sphere_geometry.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using gonio::expected_error;
+using gonio::near_field_geometry;
+using gonio::sphere_geometry;
+
+constexpr gonio::expected_error_options with_noise{.eta = 0.5, .noise = 0.3};
+
+/// E of all samples of some pictures, one row each.
+template <class Geometry>
+double of_all_samples(const Geometry& geometry, const std::vector<std::size_t>& pictures) {
+  std::vector<Eigen::RowVectorXd> rows;
+  for (const std::size_t picture : pictures)
+    for (const auto& angles : geometry.directions(picture)) {
+      const auto& grid = small_cells().grid();
+      const std::size_t cell = small_cells().representative(grid.linear(grid.nearest(angles)));
+      rows.push_back(candidate_basis().components().row(static_cast<Eigen::Index>(cell)).cast<double>());
+    }
+  Eigen::MatrixXd all(std::ssize(rows), static_cast<Eigen::Index>(candidate_basis().size()));
+  for (std::size_t i = 0; i < rows.size(); ++i) all.row(static_cast<Eigen::Index>(i)) = rows[i];
+  return expected_error(candidate_basis(), with_noise)(all);
+}
+
+near_field_geometry coarse_near_field() {
+  return near_field_geometry({.pixels = 8, .step = gonio::radians(20), .largest_polar_angle = gonio::radians(80)});
+}
+
+template <class Geometry>
+auto objective_of(const Geometry& geometry) {
+  return gonio::image_objective(candidate_basis(), expected_error(candidate_basis(), with_noise), geometry);
+}
+
+}  // namespace
+
+TEST_CASE("compressed pictures are worth what all of their samples are") {
+  const sphere_geometry spheres(small_cells());
+  for (const std::vector<std::size_t>& pictures : {std::vector<std::size_t>{0}, {3}, {1, 5}, {0, 2, 6}})
+    CHECK(objective_of(spheres)(pictures) == doctest::Approx(of_all_samples(spheres, pictures)).epsilon(2e-3));
+  const auto near_field = coarse_near_field();
+  for (const std::vector<std::size_t>& pictures : {std::vector<std::size_t>{45}, {30, 170}})
+    CHECK(objective_of(near_field)(pictures) == doctest::Approx(of_all_samples(near_field, pictures)).epsilon(2e-3));
+}
+
+TEST_CASE("prepared pictures, pictures beside others and sweeps agree") {
+  const auto objective = objective_of(coarse_near_field());
+  const gonio::image_candidates prepared(objective);
+  const std::vector<std::size_t> two{30, 170};
+  CHECK(prepared(two) == doctest::Approx(objective(two)).epsilon(1e-12));
+  const auto errors = prepared.errors_with_each(two);
+  const auto with = objective.beside(two);
+  for (std::size_t candidate = 0; candidate < errors.size(); candidate += 7) {
+    if (!objective.geometry().allows(candidate)) {
+      CHECK(std::isinf(errors[candidate]));
+      continue;
+    }
+    CHECK(double{errors[candidate]} == doctest::Approx(with(candidate)).epsilon(1e-6));
+    CHECK(with(candidate) == doctest::Approx(objective(std::vector<std::size_t>{30, 170, candidate})).epsilon(1e-12));
+  }
+  CHECK(errors == gonio::image_candidates(objective, {1}).errors_with_each(two));
+}
+
+TEST_CASE("two pictures: exchange comes to the best pair of all") {
+  const gonio::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
+  double best = 1e9;
+  for (std::size_t a = 0; a < 7; ++a)
+    for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<std::size_t>{a, b}));
+  double found = 1e9;
+  for (std::size_t first = 0; first < 7; ++first)
+    found = std::min(found, gonio::exchange(spheres, {{first, (first + 3) % 7}}).value);
+  CHECK(found == doctest::Approx(best).epsilon(1e-6));
+  const auto slid = gonio::descend(spheres.geometry(), spheres, gonio::grow_greedily(spheres, 2));
+  CHECK(slid.value >= best * (1.0 - 1e-9));
+}
+
+TEST_CASE("a picture is worth more than its centre") {
+  const auto near_field = coarse_near_field();
+  const expected_error criterion(candidate_basis(), {.eta = 0.5});
+  const gonio::image_objective objective(candidate_basis(), criterion, near_field);
+  for (const std::size_t picture : {std::size_t{45}, std::size_t{88}}) {
+    const std::vector<gonio::half_difference> centre{
+        gonio::to_half_difference(near_field.centre(picture).wi, near_field.centre(picture).wo)};
+    CHECK(objective(std::vector<std::size_t>{picture}) <
+          criterion(gonio::rows_at(candidate_basis(), centre).components));
+  }
+}

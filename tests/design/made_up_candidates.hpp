@@ -1,0 +1,15 @@
+#pragma once
+/// Candidates on a grid of few cells, for the tests of this folder.
+
+#include "../made_up_materials.hpp"
+#include <gonio/design/cell_candidates.hpp>
+
+inline const gonio::log_relative_pca& candidate_basis() {
+  static const gonio::log_relative_pca basis = learn(made_up_materials(small_cells(), 12), 100);
+  return basis;
+}
+
+inline gonio::cell_candidates made_up_candidates(const gonio::expected_error_options& options = {.eta = 0.5},
+                                                 gonio::thread_count threads = {}) {
+  return {candidate_basis(), gonio::expected_error(candidate_basis(), options), {}, threads};
+}

@@ -1,0 +1,94 @@
+#include "../made_up_materials.hpp"
+#include <gonio/design/search.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <set>
+
+using gonio::capture_plan;
+
+namespace {
+
+/// How far, in cells, each of three places is from the nearest cell of a design.
+double distance_from_places(std::span<const std::size_t> cells) {
+  const auto& grid = small_cells().grid();
+  double sum = 0.0;
+  for (const gonio::cell_index& place : {gonio::cell_index{1, 1, 0}, {4, 3, 5}, {6, 1, 2}}) {
+    double nearest = 1e9;
+    for (const std::size_t cell : cells) {
+      const gonio::cell_index at = grid.cell(small_cells().linear(cell));
+      const int round = std::abs(at.phi_d - place.phi_d), phi = std::min(round, grid.extents().phi_d - round);
+      nearest = std::min(nearest, std::abs(at.theta_h - place.theta_h) + std::abs(at.theta_d - place.theta_d) +
+                                      static_cast<double>(phi));
+    }
+    sum += nearest;
+  }
+  return sum;
+}
+
+const gonio::point_geometry& small_points() {
+  static const gonio::point_geometry points(small_cells());
+  return points;
+}
+
+/// Is a plan as good as any with one of its cells moved by one?
+bool no_step_improves(const capture_plan& plan) {
+  capture_plan copy = plan;
+  for (std::size_t position = 0; position < plan.candidates.size(); ++position)
+    if (gonio::detail::move_one(small_points(), distance_from_places, copy, position, 1)) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("descent ends where no step improves") {
+  CHECK(rc::check([] {
+    const auto any = rc::gen::inRange<std::size_t>(0, small_cells().size());
+    const auto n = *rc::gen::inRange<std::size_t>(1, 5);
+    const auto cells = *rc::gen::unique<std::vector<std::size_t>>(n, any);
+    const capture_plan found = gonio::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
+    RC_ASSERT(found.value <= distance_from_places(cells));
+    RC_ASSERT(found.value == distance_from_places(found.candidates));
+    RC_ASSERT(no_step_improves(found));
+    RC_ASSERT(std::set<std::size_t>(found.candidates.begin(), found.candidates.end()).size() == n);
+  }));
+}
+
+TEST_CASE("growing finds all three places from many tries, and the same for a seed") {
+  const auto grown = [](std::size_t n, std::size_t tries, std::uint64_t seed) {
+    return gonio::grow_and_descend(small_points(), distance_from_places, n, tries, seed);
+  };
+  CHECK(grown(3, 200, 1).value == 0.0);
+  CHECK(grown(3, 5, 2).candidates == grown(3, 5, 2).candidates);
+  CHECK(grown(1, 1, 4).candidates.size() == 1);
+  CHECK(no_step_improves(grown(2, 1, 5)));
+  CHECK_THROWS_WITH_AS(static_cast<void>(grown(0, 5, 1)), doctest::Contains("cannot choose 0"), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(grown(small_cells().size() + 1, 5, 1)), gonio::error);
+}
+
+TEST_CASE("random swaps never make it worse, and all cells are a choice, too") {
+  double before = 1e9;
+  for (const std::size_t swaps : {0u, 10u, 100u, 5000u}) {
+    const capture_plan found = gonio::swap_at_random(small_points(), distance_from_places, 3, swaps, 7);
+    CHECK(found.value <= before);
+    CHECK(found.value == distance_from_places(found.candidates));
+    before = found.value;
+  }
+  CHECK(before <= 3.0);
+  CHECK(gonio::swap_at_random(small_points(), distance_from_places, small_cells().size(), 10, 1).value == 0.0);
+  CHECK_THROWS_AS(static_cast<void>(gonio::swap_at_random(small_points(), distance_from_places, 0, 1)), gonio::error);
+}
+
+TEST_CASE("no search chooses what the constraint excludes") {
+  gonio::capture_constraint constraint;
+  constraint.viewer.largest = gonio::radians(50);
+  const gonio::point_geometry points(small_cells(), constraint);
+  const auto all_allowed = [&](const capture_plan& plan) {
+    return std::ranges::all_of(plan.candidates, [&](std::size_t cell) { return points.allows(cell); });
+  };
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    CHECK(all_allowed(gonio::grow_and_descend(points, distance_from_places, 3, 20, seed)));
+    CHECK(all_allowed(gonio::swap_at_random(points, distance_from_places, 3, 100, seed)));
+  }
+}

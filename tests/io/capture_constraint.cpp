@@ -1,0 +1,38 @@
+#include <gonio/io/capture_constraint.hpp>
+
+#include <doctest/doctest.h>
+
+using gonio::degrees;
+using gonio::io::parse_capture_constraint;
+
+TEST_CASE("every rule is read") {
+  const auto constraint = parse_capture_constraint(
+      "# an arc\nlight 0 75\nviewer 5 80.5\n\n separation 15 # of the arms\nlight_step 7.5 0.25\r\nforbid 60 90 70 "
+      "90\nforbid 0 5 0 5\n",
+      "arc.txt");
+  CHECK(degrees(constraint.light.largest) == doctest::Approx(75));
+  CHECK(degrees(constraint.viewer.smallest) == doctest::Approx(5));
+  CHECK(degrees(constraint.viewer.largest) == doctest::Approx(80.5));
+  CHECK(degrees(constraint.smallest_separation) == doctest::Approx(15));
+  CHECK(degrees(constraint.light_step) == doctest::Approx(7.5));
+  CHECK(degrees(constraint.light_tolerance) == doctest::Approx(0.25));
+  REQUIRE(constraint.forbidden.size() == 2);
+  CHECK(degrees(constraint.forbidden[0].viewer.smallest) == doctest::Approx(70));
+  CHECK(parse_capture_constraint("", "nothing").is_none());
+}
+
+TEST_CASE("what is no rule is refused with its file and line") {
+  const auto refused = [](const char* text, const char* why) {
+    CHECK_THROWS_WITH_AS(static_cast<void>(parse_capture_constraint(text, "arc.txt")), doctest::Contains(why),
+                         gonio::error);
+  };
+  refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
+  refused("light 0\n", "'light' takes 2 numbers, not 1");
+  refused("light 80 20\n", "the smaller one first");
+  refused("viewer 0 120\n", "from 0 to 90");
+  refused("separation wide\n", "'wide' is not a number");
+  refused("separation nan\n", "not finite");
+  refused("light_step 0\n", "must be positive");
+  refused("light_step 1 2 3\n", "1 or 2 numbers, not 3");
+  refused("forbid 0 90\n", "takes 4 numbers");
+}
