@@ -8,6 +8,7 @@ TEST_CASE("all additions at once are what each is by itself") {
   for (const double noise : {0.0, 0.4}) {
     const auto candidates = made_up_candidates({.eta = 0.5, .noise = noise});
     REQUIRE(candidates.size() == small_cells().size());
+    const double nothing = candidates({});
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
       const auto n = *rc::gen::inRange<std::size_t>(0, 8);
@@ -19,7 +20,10 @@ TEST_CASE("all additions at once are what each is by itself") {
       for (std::size_t cell = 0; cell < candidates.size(); cell += 13) {
         longer.back() = cell;
         const double alone = candidates(longer);
-        RC_ASSERT(std::abs(double{errors[cell]} - alone) < 1e-4 * alone);
+        // Where little is left unknown, its square is a small difference of floats as large as that of nothing
+        // measured.
+        const double cancellation = 4e-6 * nothing * nothing / alone;
+        RC_ASSERT(std::abs(double{errors[cell]} - alone) < std::max(1e-4 * alone, cancellation));
       }
     }));
   }
