@@ -6,9 +6,9 @@
 
 TEST_CASE("all additions at once are what each is by itself") {
   for (const double noise : {0.0, 0.4}) {
-    const auto candidates = made_up_candidates({.eta = 0.5, .noise = noise});
+    // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
+    const auto candidates = made_up_candidates({.eta = 4.0, .noise = noise});
     REQUIRE(candidates.size() == small_cells().size());
-    const double nothing = candidates({});
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
       const auto n = *rc::gen::inRange<std::size_t>(0, 8);
@@ -20,10 +20,7 @@ TEST_CASE("all additions at once are what each is by itself") {
       for (std::size_t cell = 0; cell < candidates.size(); cell += 13) {
         longer.back() = cell;
         const double alone = candidates(longer);
-        // Where little is left unknown, its square is a small difference of floats as large as that of nothing
-        // measured.
-        const double cancellation = 4e-6 * nothing * nothing / alone;
-        RC_ASSERT(std::abs(double{errors[cell]} - alone) < std::max(1e-4 * alone, cancellation));
+        RC_ASSERT(std::abs(double{errors[cell]} - alone) < 1e-4 * alone);
       }
     }));
   }
