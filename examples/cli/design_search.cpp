@@ -5,6 +5,7 @@
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/sphere_geometry.hpp>
+#include <gonio/evaluate/perceived_norm.hpp>
 
 namespace cli {
 
@@ -16,8 +17,15 @@ using prior_t = gonio::log_relative_pca;
 /// Xu et al. 2016, section 5.1.
 constexpr std::size_t random_candidates = 500;
 
-gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
+gonio::expected_error expected_error_of(const prior_t& prior, const design_options& options) {
   return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise});
+}
+
+/// The one that a search is to make small.
+gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
+  if (options.criterion != "perceived") return expected_error_of(prior, options);
+  return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise},
+                               gonio::perceived_norm(prior, options.threads));
 }
 
 template <class Geometry>
@@ -119,7 +127,7 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
 }
 
 design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options, const designed& found) {
-  const gonio::expected_error criterion = criterion_of(prior, options);
+  const gonio::expected_error criterion = expected_error_of(prior, options);
   const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
   const double nothing = criterion.energies().cwiseSqrt().mean();

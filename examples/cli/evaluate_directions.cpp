@@ -19,8 +19,8 @@ namespace {
 
 struct directions_options {
   std::filesystem::path networks, state;
-  std::vector<std::string> sets{"published", "industry",  "random",        "condition",
-                                "a-optimal", "d-optimal", "expected-error"};
+  std::vector<std::string> sets{"published", "industry",  "random",         "condition",
+                                "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
   std::string geometry = "point";
   double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0;
@@ -165,8 +165,8 @@ void add_directions(CLI::App& evaluate) {
   const auto options = std::make_shared<directions_options>();
   add_networks_option(*command, options->networks);
   command->add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
-      ->check(
-          CLI::IsMember({"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error"}))
+      ->check(CLI::IsMember(
+          {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       ->capture_default_str();
   command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
   command->add_option("--geometry", options->geometry, "As `gonio design` has them")

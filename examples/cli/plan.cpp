@@ -30,7 +30,9 @@ double polar_degrees(const gonio::direction& w) { return gonio::degrees(gonio::p
 
 /// The material is isotropic: the sample is turned so that the light is in the half plane of positive x.
 pose to_pose(const gonio::direction_pair& pair) {
-  pose at{polar_degrees(pair.wi), polar_degrees(pair.wo)};
+  pose at;
+  at.theta_i = polar_degrees(pair.wi);
+  at.theta_o = polar_degrees(pair.wo);
   const double azimuth_i = at.theta_i > 1e-9 ? gonio::azimuth(pair.wi) : 0.0;
   const double turn = at.theta_o > 1e-9 ? gonio::azimuth(pair.wo) - azimuth_i : 0.0;
   const double turned = gonio::azimuth(gonio::spherical_direction(std::numbers::pi / 2.0, turn));
