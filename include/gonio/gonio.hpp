@@ -56,6 +56,7 @@
 #include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
+#include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/metric/error_metric.hpp>
@@ -102,6 +103,7 @@
 #include <gonio/solve/working_set.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/grid.hpp>
+#include <gonio/table/image.hpp>
 #include <gonio/table/location.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
