@@ -10,6 +10,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>
+#include <gonio/capture/near_field_image.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>
@@ -52,6 +53,7 @@
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
