@@ -101,8 +101,8 @@ inline void add_pixel(const image& picture, const near_field_setup& setup, std::
   const auto point = line.at_ground();
   if (!point || (setup.disc && !setup.disc->contains(*point))) return;
   const rgb value = pixel(picture, row, column);
-  // Pictures of several exposures may hold infinity where all of them were saturated.
-  const bool saturated = setup.saturation && (value >= *setup.saturation).any();
+  // In float, as the picture is. Several exposures in one may hold infinity where all of them were saturated.
+  const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
     throw error("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
                 ") is not finite, and it sees the sample");
@@ -130,9 +130,9 @@ inline void require_size(const image& picture, const camera_intrinsics& intrinsi
 /// the block. Throws gonio::error as `require_usable` does, if the picture's size is not the camera's, naming a pixel
 /// of the region that is not finite, or if nothing of the sample is seen.
 /// ```cpp
-/// const auto samples = gonio::near_field_samples(
-///     picture, {.camera = camera, .light = {gonio::spherical_direction(theta_i, 0.0)}, .disc =
-///     gonio::sample_disc{0.2}});
+/// const gonio::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
+/// const auto samples =
+///     gonio::near_field_samples(picture, {.camera = camera, .light = lamp, .disc = gonio::sample_disc{0.2}});
 /// ```
 [[nodiscard]] inline sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
   require_usable(setup);

@@ -1,20 +1,14 @@
 #pragma once
-/// Text files that say how a picture of a flat sample was taken: one line for each entry, in any order. The sample is
-/// in the plane z = 0; lengths are in any one unit, angles in degrees.
+/// Text files that say how a picture of a flat sample was taken: a line for each entry, angles in degrees, lengths in
+/// any one unit, the sample in the plane z = 0. docs/formats.md has all the entries.
 ///
 /// ```
-/// size 640 480                # of the picture: columns, rows
-/// focal_length 1210.5 1210.5  # in pixels; one number for both
-/// principal_point 320 240     # column, row of the optical axis; by default the middle
-/// position 0.5 0 0.3          # of the camera
-/// target 0 0 0                # where it looks; or `rotation` with nine numbers, row by row, from world to camera
-/// up 0 0 1                    # where the picture's upper edge is; this by default
-/// light_angles 50 180         # theta, phi of the distant light; or `light x y z`, a direction of any length
-/// irradiance 3.1 3.0 2.8      # of a surface that faces the light; one number for all channels, 1 by default
-/// region 0.1 0 0              # radius, and centre x y, of the disc that counts; the centre is 0 0 by default
-/// window 100 80 400 300       # or the rectangle of pixels that counts: first column and row, columns, rows
-/// saturation 0.98             # pixels with a channel this bright are skipped
-/// block 4                     # pixels a side of the blocks that are averaged; 1 by default
+/// size 640 480           # of the picture: columns, rows
+/// focal_length 1210.5    # in pixels
+/// position 0.5 0 0.3     # of the camera, which looks at the target
+/// target 0 0 0
+/// light_angles 50 180    # theta, phi of the distant light
+/// region 0.1             # radius of the disc that counts
 /// ```
 
 #include <gonio/capture/near_field_image.hpp>
