@@ -68,7 +68,7 @@ void print_json(const std::vector<pose>& poses) {
 
 // ---- the drawing: the hemisphere from above ----------------------------------------------------
 
-constexpr int half_size = 240, margin = 20;
+constexpr int hemisphere_radius = 240, hemisphere_margin = 20;
 
 /// Colours that differ, one for each pose in turn.
 gonio::rgb colour_of(std::size_t number) {
@@ -95,17 +95,18 @@ void paint_ring(gonio::image& picture, const Eigen::Vector2d& at, double inner, 
 
 /// Where a direction is drawn: the polar angle is the distance from the middle.
 Eigen::Vector2d place_of(const gonio::direction& w) {
-  const double radius = half_size * polar_degrees(w) / 90.0, azimuth = gonio::azimuth(w);
-  return {half_size + margin + radius * std::cos(azimuth), half_size + margin - radius * std::sin(azimuth)};
+  const double radius = hemisphere_radius * polar_degrees(w) / 90.0, azimuth = gonio::azimuth(w);
+  return {hemisphere_radius + hemisphere_margin + radius * std::cos(azimuth),
+          hemisphere_radius + hemisphere_margin - radius * std::sin(azimuth)};
 }
 
 /// Each pose a line from its light (a disc) to its viewer (a ring); circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
-  const auto size = static_cast<std::size_t>(2 * (half_size + margin));
+  const auto size = static_cast<std::size_t>(2 * (hemisphere_radius + hemisphere_margin));
   gonio::image picture = gonio::uniform_image(size, size, gonio::rgb::Ones());
-  const Eigen::Vector2d middle(half_size + margin, half_size + margin);
+  const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
   for (const int theta : {30, 60, 90})
-    paint_ring(picture, middle, half_size * theta / 90.0 - 0.6, half_size * theta / 90.0 + 0.6,
+    paint_ring(picture, middle, hemisphere_radius * theta / 90.0 - 0.6, hemisphere_radius * theta / 90.0 + 0.6,
                gonio::rgb::Constant(theta == 90 ? 0.2 : 0.6));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector2d light = place_of(poses[i].wi), viewer = place_of(poses[i].wo);

@@ -22,10 +22,26 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 }  // namespace
 
 TEST_CASE("help is no error") {
-  for (const char* command : {"", "learn ", "expand ", "sample ", "samples ", "reconstruct ", "compare ", "render ",
-                              "info ", "evaluate ", "evaluate nielsen-test-materials ", "evaluate measured-materials ",
-                              "evaluate linear-combination ", "evaluate noell-table1 ", "evaluate noell-table2 ",
-                              "evaluate noell-measured ", "evaluate noell-corrections "}) {
+  for (const char* command : {"",
+                              "learn ",
+                              "expand ",
+                              "design ",
+                              "plan ",
+                              "sample ",
+                              "near-field ",
+                              "reconstruct ",
+                              "compare ",
+                              "render ",
+                              "info ",
+                              "evaluate ",
+                              "evaluate nielsen-test-materials ",
+                              "evaluate measured-materials ",
+                              "evaluate linear-combination ",
+                              "evaluate noell-table1 ",
+                              "evaluate noell-table2 ",
+                              "evaluate noell-measured ",
+                              "evaluate noell-corrections ",
+                              "evaluate directions "}) {
     const auto result = gonio_tool(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);

@@ -45,7 +45,7 @@ class two_shots {
 
 TEST_CASE("pictures become samples of the paint, and these a table") {
   const two_shots shots;
-  const auto one = gonio_tool("samples " + shots.shot("first") + "-o " + shots.at("one.csv"));
+  const auto one = gonio_tool("near-field " + shots.shot("first") + "-o " + shots.at("one.csv"));
   REQUIRE_MESSAGE(one.exit_code == 0, one.output);
   const auto samples = gonio::io::read_samples(shots.at("one.csv"));
   CHECK(samples.size() > 300);
@@ -57,7 +57,8 @@ TEST_CASE("pictures become samples of the paint, and these a table") {
     REQUIRE((s.value - truth).abs().maxCoeff() <= truth.maxCoeff() / 256.0);
   }
 
-  const auto both = gonio_tool("samples " + shots.shot("first") + shots.shot("second") + "-o " + shots.at("two.csv"));
+  const auto both =
+      gonio_tool("near-field " + shots.shot("first") + shots.shot("second") + "-o " + shots.at("two.csv"));
   REQUIRE_MESSAGE(both.exit_code == 0, both.output);
   const auto more = gonio::io::read_samples(shots.at("two.csv"));
   CHECK(more.size() > samples.size() + 150);
@@ -72,7 +73,7 @@ TEST_CASE("pictures become samples of the paint, and these a table") {
 TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
   const two_shots shots;
   const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {
-    const auto result = gonio_tool("samples " + arguments + " -o " + shots.at("out.csv"));
+    const auto result = gonio_tool("near-field " + arguments + " -o " + shots.at("out.csv"));
     CAPTURE(arguments);
     CAPTURE(result.output);
     CHECK(result.exit_code == 2);

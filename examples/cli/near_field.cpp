@@ -1,4 +1,4 @@
-/// gonio samples: pictures of a flat sample, taken from close by, as measurements.
+/// gonio near-field: pictures of a flat sample, taken from close by, as measurements.
 
 #include "command.hpp"
 #include <gonio/io/image.hpp>
@@ -46,8 +46,8 @@ void write_samples_of_pictures(const samples_options& options) {
 
 }  // namespace
 
-void add_samples(CLI::App& app) {
-  auto* command = app.add_subcommand("samples", "Turn pictures of a flat sample into samples for gonio reconstruct");
+void add_near_field(CLI::App& app) {
+  auto* command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<samples_options>();
   command
       ->add_option("pictures", options->pictures,

@@ -1,0 +1,143 @@
+/// What to measure: `gonio design` and `gonio plan` with a prior of few made-up materials.
+
+#include "../io/scratch.hpp"
+#include "../made_up_materials.hpp"
+#include "tool.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// A folder with a prior, in which designs are made.
+class drawing_board {
+ public:
+  drawing_board() { gonio::io::write_prior(folder_ / "p.prior", learn(made_up_materials(small_cells(), 12), 10)); }
+
+  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
+  void put(const char* name, const std::string& text) const { scratch::put(folder_ / name, text); }
+  [[nodiscard]] std::size_t files() const { return folder_.entries(); }
+
+  [[nodiscard]] tool_result design(const std::string& arguments, const char* output) const {
+    return gonio_tool("design --prior " + at("p.prior") + " " + arguments + " -o " + at(output));
+  }
+
+  /// The share of what materials differ by that a design leaves unknown.
+  [[nodiscard]] double unknown_after(const std::string& arguments, const char* output = "d.csv") const {
+    const auto result = design(arguments + " --json", output);
+    REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
+    return nlohmann::json::parse(result.output)["unknown_share"];
+  }
+
+  [[nodiscard]] std::vector<gonio::direction_pair> poses(const char* name) const {
+    return gonio::io::read_direction_pairs(at(name));
+  }
+
+  /// Exit code 2, one line with the words that help, and nothing written.
+  void refuses(const std::string& arguments, std::initializer_list<const char*> words) const {
+    CAPTURE(arguments);
+    const auto result = design(arguments, "refused.csv");
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(std::ranges::count(result.output, '\n') == 1);
+    for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(at("refused.csv")));
+  }
+
+ private:
+  scratch::folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("more measurements leave less unknown, in every geometry and by every search") {
+  const drawing_board board;
+  for (const char* how :
+       {"", "--search greedy", "--search descent", "--geometry sphere", "--geometry near-field --step 20",
+        "--geometry fixed-camera --step 30 --fov 35", "--geometry fixed-light --step 30", "--criterion perceived"}) {
+    CAPTURE(how);
+    const double one = board.unknown_after(std::string(how) + " -n 1 --eta 0.1"),
+                 three = board.unknown_after(std::string(how) + " -n 3 --eta 0.1", "three.csv");
+    CHECK(three < one);
+    CHECK(three > 0.0);
+    CHECK(board.poses("three.csv").size() == 3);
+  }
+  for (const char* criterion : {"condition", "a-optimal", "d-optimal"}) {
+    CHECK(board.unknown_after(std::string("-n 3 --eta 0.1 --criterion ") + criterion) < 1.0);
+    CHECK(board.poses("d.csv").size() == 3);
+  }
+}
+
+TEST_CASE("the exhaustive search is at least as good as the descent, and the same seed gives the same file") {
+  const drawing_board board;
+  CHECK(board.unknown_after("-n 4 --eta 0.1") <= board.unknown_after("-n 4 --eta 0.1 --search greedy") * 1.000001);
+  static_cast<void>(board.unknown_after("-n 4 --eta 0.1 --search descent --seed 3", "a.csv"));
+  static_cast<void>(board.unknown_after("-n 4 --eta 0.1 --search descent --seed 3 --threads 3", "b.csv"));
+  CHECK(scratch::get(board.at("a.csv")) == scratch::get(board.at("b.csv")));
+}
+
+TEST_CASE("a design may go on from what is measured anyway") {
+  const drawing_board board;
+  static_cast<void>(board.unknown_after("-n 2", "two.csv"));
+  const double four = board.unknown_after("-n 4 --start " + board.at("two.csv"), "four.csv");
+  CHECK(four < board.unknown_after("-n 2", "two.csv"));
+  const auto two = board.poses("two.csv"), all = board.poses("four.csv");
+  REQUIRE(all.size() == 4);
+  for (std::size_t i = 0; i < 2; ++i) CHECK(all[i].wi.isApprox(two[i].wi, 1e-9));
+}
+
+TEST_CASE("what the apparatus cannot do is not asked of it") {
+  const drawing_board board;
+  board.put("arc.txt", "light 0 40\nviewer 10 80\nseparation 30\n");
+  for (const char* geometry : {"point", "near-field --step 10"}) {
+    static_cast<void>(board.unknown_after("-n 3 --constraint " + board.at("arc.txt") + " --geometry " + geometry));
+    for (const auto& [wi, wo] : board.poses("d.csv")) {
+      CHECK(gonio::degrees(gonio::polar_angle(wi)) < 40.001);
+      CHECK(gonio::degrees(gonio::polar_angle(wo)) > 9.999);
+      CHECK(gonio::degrees(std::acos(wi.dot(wo))) > 29.999);
+    }
+  }
+}
+
+TEST_CASE("designs that cannot be made") {
+  const drawing_board board;
+  board.refuses("-n 0", {"0 of"});
+  board.refuses("-n 9 --geometry sphere", {"9 of 7"});
+  board.refuses("-n 2 --eta 0", {"eta"});
+  board.refuses("-n 2 --noise -1", {"noise"});
+  board.refuses("-n 2 --geometry near-field --fov 0", {"field of view"});
+  board.refuses("-n 2 --geometry near-field --fov 95", {"field of view", "95"});
+  board.refuses("-n 2 --geometry cube", {"cube"});
+  board.refuses("-n 2 --criterion beauty", {"beauty"});
+  board.put("low.csv", "theta_i,phi_i,theta_o,phi_o\n40,0,95,0\n");
+  board.refuses("-n 2 --start " + board.at("low.csv"), {"low.csv", "line 2", "horizon"});
+  board.put("none.txt", "light 0 10\nviewer 0 10\nseparation 60\n");
+  board.refuses("-n 1 --constraint " + board.at("none.txt"), {"1 of 0"});
+  board.refuses("-n 1 --geometry near-field --constraint " + board.at("none.txt"), {"no candidate"});
+  board.put("odd.txt", "lamp 3\n");
+  board.refuses("-n 1 --constraint " + board.at("odd.txt"), {"odd.txt", "line 1", "lamp"});
+}
+
+TEST_CASE("a plan says where light and viewer go, and draws them") {
+  const drawing_board board;
+  board.put("d.csv", "theta_i,phi_i,theta_o,phi_o\n40,10,30,190\n0,0,50,90\n");
+  const auto printed = gonio_tool("plan " + board.at("d.csv") + " --image " + board.at("d.png"));
+  REQUIRE(printed.exit_code == 0);
+  CHECK(printed.output.find("| 1 | 40.00 | 30.00 | 180.00 | 0.6428 0.0000 0.7660 | -0.5000 0.0000 0.8660 |") !=
+        std::string::npos);
+  CHECK(std::filesystem::file_size(board.at("d.png")) > 1000);
+
+  const auto json = gonio_tool("plan " + board.at("d.csv") + " --json");
+  const auto poses = nlohmann::json::parse(json.output);
+  REQUIRE(poses.size() == 2);
+  CHECK(poses[1]["theta_i"] == 0.0);
+  CHECK(poses[1]["phi_o"].get<double>() == doctest::Approx(90));
+  CHECK(gonio_tool("plan /no/such.csv").exit_code == 2);
+}
