@@ -4,6 +4,7 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/correction.hpp>
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/highlight_contrast.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
@@ -36,6 +37,7 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/correction_check.hpp>
