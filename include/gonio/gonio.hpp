@@ -11,6 +11,8 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>
+#include <gonio/capture/colour_clusters.hpp>
+#include <gonio/capture/k_means.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>
