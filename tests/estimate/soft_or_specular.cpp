@@ -28,9 +28,9 @@ struct always {
 static_assert(gonio::estimator<soft_or_specular<always, always>>);
 
 using ridge = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
-using combination = gonio::decomposition<gonio::measured<gonio::log>, gonio::nnls>;
-static_assert(gonio::estimator<soft_or_specular<ridge, combination>>);
-static_assert(gonio::estimator<soft_or_specular<soft_or_specular<always, ridge>, combination>>);
+using linear_combination = gonio::decomposition<gonio::measured<gonio::log>, gonio::nnls>;
+static_assert(gonio::estimator<soft_or_specular<ridge, linear_combination>>);
+static_assert(gonio::estimator<soft_or_specular<soft_or_specular<always, ridge>, linear_combination>>);
 
 constexpr gonio::highlight_regions few_cells_regions{0.15, 0.5};
 
@@ -72,7 +72,7 @@ TEST_CASE("switch: below the threshold soft, from it on specular") {
 TEST_CASE("property: the fit is that of the estimator chosen, whatever their types") {
   const auto halves = gonio::split_by_contrast(shiny_and_not(), switch_reference(), {}, few_cells_regions);
   const ridge soft{gonio::learn_pca(halves.soft, switch_reference(), 8), gonio::tikhonov{0.1}};
-  const combination specular{gonio::measured{halves.specular, gonio::log{}}, gonio::nnls{}};
+  const linear_combination specular{gonio::measured{halves.specular, gonio::log{}}, gonio::nnls{}};
   const soft_or_specular estimator{soft, specular, switch_reference(), halves.threshold, few_cells_regions};
   rc::check("the one or the other", [&] {
     const auto truth = shiny_and_not().table(*rc::gen::inRange<std::size_t>(0, 14));

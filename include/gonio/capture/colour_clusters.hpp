@@ -37,9 +37,9 @@ struct colour_clusters {
 /// How the number of clusters is chosen: the one of 2 to `most` whose silhouette is largest, if that is
 /// `least_silhouette` or more, otherwise one.
 ///
-/// A silhouette does not tell whether one cluster is better than two. The default lies above what one material has that is
-/// parted anyhow, be it noisy (0.4), or darkened irregularly (0.56) or evenly (0.64), and below what two materials have
-/// whose colours are eight standard deviations of their noise apart: tests/capture/colour_clusters.cpp.
+/// A silhouette does not tell whether one cluster is better than two. The default lies above what one material has that
+/// is parted anyhow, be it noisy (0.4), or darkened irregularly (0.56) or evenly (0.64), and below what two materials
+/// have whose colours are eight standard deviations of their noise apart: tests/capture/colour_clusters.cpp.
 struct cluster_count_choice {
   Eigen::Index most = 6;
   double least_silhouette = 0.7;
