@@ -10,6 +10,7 @@ void add_expand(CLI::App& app);
 void add_design(CLI::App& app);
 void add_plan(CLI::App& app);
 void add_sample(CLI::App& app);
+void add_samples(CLI::App& app);
 void add_reconstruct(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_render(CLI::App& app);

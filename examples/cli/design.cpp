@@ -28,14 +28,14 @@ void run(design_command command) {
   command.design.near_field.step = gonio::radians(command.step);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
-  if (!command.start.empty()) command.design.start = gonio::io::read_directions(command.start);
+  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
   const designed found = design(prior, command.design, bar.listener());
-  gonio::io::write_directions(command.output, found.directions);
+  gonio::io::write_direction_pairs(command.output, found.poses);
   bar.wipe();
 
   const auto figures = quality_of(prior, command.design, found);
   if (command.print_json) {
-    std::cout << json{{"measurements", found.directions.size()},
+    std::cout << json{{"measurements", found.poses.size()},
                       {"criterion", command.design.criterion},
                       {"value", found.value},
                       {"expected_error", figures.expected_error},
@@ -44,10 +44,10 @@ void run(design_command command) {
               << '\n';
     return;
   }
-  std::cout << found.directions.size() << (found.directions.size() == 1 ? " measurement, " : " measurements, ")
-            << command.design.criterion << ' ' << fixed(found.value, 4) << ": expected error "
-            << fixed(figures.expected_error, 4) << " a cell, " << fixed(100.0 * figures.unknown_share, 1)
-            << " % of how the prior's materials differ from their mean\n";
+  std::cout << found.poses.size() << (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ")
+            << fixed(100.0 * figures.unknown_share, 1)
+            << " % of how the prior's materials differ from their mean: an expected error of "
+            << fixed(figures.expected_error, 3) << " in a cell's logarithm\n";
 }
 
 }  // namespace
@@ -68,9 +68,9 @@ void add_design(CLI::App& app) {
   command
       ->add_option(
           "--criterion", design.criterion,
-          "expected-error: Xu et al. 2016; condition: Nielsen et al. 2015; a-optimal, d-optimal: of the weights' "
-          "covariance")
-      ->check(CLI::IsMember({"expected-error", "condition", "a-optimal", "d-optimal"}))
+          "expected-error: Xu et al. 2016; perceived: the same as seen on spheres; condition: Nielsen et al. 2015; "
+          "a-optimal, d-optimal: of the weights' covariance")
+      ->check(CLI::IsMember({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
       ->capture_default_str();
   command
       ->add_option("--search", design.search,

@@ -5,6 +5,7 @@
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/sphere_geometry.hpp>
+#include <gonio/evaluate/perceived_norm.hpp>
 
 namespace cli {
 
@@ -16,42 +17,21 @@ using prior_t = gonio::log_relative_pca;
 /// Xu et al. 2016, section 5.1.
 constexpr std::size_t random_candidates = 500;
 
-gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
+gonio::expected_error expected_error_of(const prior_t& prior, const design_options& options) {
   return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise});
 }
 
-gonio::half_difference centre(const gonio::point_geometry& points, std::size_t candidate) {
-  return points.cells().angles(candidate);
-}
-gonio::half_difference centre(const gonio::sphere_geometry& spheres, std::size_t slice) {
-  return {0.0, spheres.directions(slice).front().theta_d, 0.0};
-}
-gonio::half_difference centre(const gonio::near_field_geometry& near_field, std::size_t candidate) {
-  const gonio::direction_pair pose = near_field.centre(candidate);
-  return gonio::to_half_difference(pose.wi, pose.wo);
-}
-
-/// The candidate next to a direction.
-std::size_t next_to(const gonio::point_geometry& points, const gonio::half_difference& angles) {
-  const gonio::grid& grid = points.cells().grid();
-  return points.cells().representative(grid.linear(grid.nearest(angles)));
-}
-std::size_t next_to(const gonio::sphere_geometry& spheres, const gonio::half_difference& angles) {
-  return static_cast<std::size_t>(spheres.cells().grid().nearest(angles).theta_d);
-}
-std::size_t next_to(const gonio::near_field_geometry& near_field, const gonio::half_difference& angles) {
-  return near_field.nearest(gonio::to_directions(angles));
+/// The one that a search is to make small.
+gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
+  if (options.criterion != "perceived") return expected_error_of(prior, options);
+  return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise},
+                               gonio::perceived_norm(prior, options.threads));
 }
 
 template <class Geometry>
 capture_plan start_of(const Geometry& geometry, const design_options& options) {
   capture_plan plan;
-  for (const gonio::half_difference& angles : options.start) {
-    const gonio::cosine_pair cosine = gonio::cosines(angles);
-    if (!(cosine.i > 0.0 && cosine.o > 0.0))
-      throw gonio::error("start " + std::to_string(plan.candidates.size() + 1) + " is below the horizon");
-    plan.candidates.push_back(next_to(geometry, angles));
-  }
+  for (const gonio::direction_pair& pair : options.start) plan.candidates.push_back(geometry.nearest(pair));
   return plan;
 }
 
@@ -78,7 +58,7 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
   designed found;
   found.value = plan.value;
   for (const std::size_t candidate : plan.candidates) {
-    found.directions.push_back(centre(geometry, candidate));
+    found.poses.push_back(geometry.centre(candidate));
     const auto samples = geometry.directions(candidate);
     found.samples.insert(found.samples.end(), samples.begin(), samples.end());
   }
@@ -147,7 +127,7 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
 }
 
 design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options, const designed& found) {
-  const gonio::expected_error criterion = criterion_of(prior, options);
+  const gonio::expected_error criterion = expected_error_of(prior, options);
   const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
   const double nothing = criterion.energies().cwiseSqrt().mean();

@@ -16,20 +16,20 @@ struct design_options {
   std::size_t count = 20;
   std::string geometry = "point", criterion = "expected-error", search = "exchange";
   double eta = 40.0, noise = 0.0;
-  gonio::near_field_options near_field;  ///< its constraint holds for points, too
-  std::vector<gonio::half_difference> start;
+  gonio::near_field_options near_field;      ///< its constraint holds for points, too
+  std::vector<gonio::direction_pair> start;  ///< above the horizon
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };
 
 /// What to measure.
 struct designed {
-  std::vector<gonio::half_difference> directions;  ///< of each measurement; of a picture, its centre
-  std::vector<gonio::half_difference> samples;     ///< of all measurements, one for each pixel
-  double value = 0.0;                              ///< of the criterion
+  std::vector<gonio::direction_pair> poses;     ///< light and viewer of each measurement; of a picture, its centre
+  std::vector<gonio::half_difference> samples;  ///< of all measurements, one for each pixel
+  double value = 0.0;                           ///< of the criterion
 };
 
-/// Throws gonio::error where there is not as much to choose from, or a start is below the horizon.
+/// Throws gonio::error where there is not as much to choose from.
 [[nodiscard]] designed design(const gonio::log_relative_pca& prior, const design_options& options,
                               const gonio::progress& listener = {});
 

@@ -19,8 +19,8 @@ namespace {
 
 struct directions_options {
   std::filesystem::path networks, state;
-  std::vector<std::string> sets{"published", "industry",  "random",        "condition",
-                                "a-optimal", "d-optimal", "expected-error"};
+  std::vector<std::string> sets{"published", "industry",  "random",         "condition",
+                                "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
   std::string geometry = "point";
   double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0;
@@ -62,7 +62,11 @@ design_options search_for(const directions_options& options, const std::string& 
 }
 
 /// A set of point samples that is not searched for.
-designed point_samples(std::vector<gonio::half_difference> directions) { return {directions, directions, 0.0}; }
+designed point_samples(const std::vector<gonio::half_difference>& directions) {
+  designed set{{}, directions, 0.0};
+  for (const gonio::half_difference& angles : directions) set.poses.push_back(gonio::to_directions(angles));
+  return set;
+}
 
 /// Nothing where there is no such set.
 std::optional<designed> find_set(const laboratory& lab, const directions_options& options, const std::string& set,
@@ -82,7 +86,7 @@ std::optional<designed> find_set(const laboratory& lab, const directions_options
     std::vector<gonio::half_difference> directions;
     for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
       directions.push_back(lab.truths.cells.angles(cell));
-    return point_samples(std::move(directions));
+    return point_samples(directions);
   }
   return design(lab.prior, search_for(options, set, count), listener);
 }
@@ -96,15 +100,15 @@ json judged(const laboratory& lab, const directions_options& options, const desi
   const auto results =
       gonio::reconstruct_from_cells(lab.prior, options.eta, cells, lab.truths, lab.prior.metric(), lab.judge,
                                     options.threads, {.noise = options.noise}, options.seed);
-  json directions = json::array();
-  for (const auto& [theta_h, theta_d, phi_d] : found.directions)
-    directions.push_back({gonio::degrees(theta_h), gonio::degrees(theta_d), gonio::degrees(phi_d)});
+  json poses = json::array();
+  for (const auto& [wi, wo] : found.poses)
+    poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
   const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
   return {{"expected_error", quality.expected_error},
           {"condition", std::isfinite(condition) ? json(condition) : json()},
           {"samples", found.samples.size()},
           {"errors", mean_errors(results)},
-          {"directions", directions}};
+          {"poses", poses}};
 }
 
 void print_row(const std::string& set, std::size_t count, const json& result) {
@@ -161,8 +165,8 @@ void add_directions(CLI::App& evaluate) {
   const auto options = std::make_shared<directions_options>();
   add_networks_option(*command, options->networks);
   command->add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
-      ->check(
-          CLI::IsMember({"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error"}))
+      ->check(CLI::IsMember(
+          {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       ->capture_default_str();
   command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
   command->add_option("--geometry", options->geometry, "As `gonio design` has them")
@@ -175,7 +179,7 @@ void add_directions(CLI::App& evaluate) {
   command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
   command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
-  command->add_flag("--json", options->print_json, "Print everything, with the directions, as JSON");
+  command->add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
   add_threads_option(*command, options->threads);
   command->callback([options] { run(*options); });
 }

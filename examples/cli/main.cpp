@@ -28,6 +28,7 @@ int main(int argc, char** argv) {
   cli::add_design(app);
   cli::add_plan(app);
   cli::add_sample(app);
+  cli::add_samples(app);
   cli::add_reconstruct(app);
   cli::add_compare(app);
   cli::add_render(app);

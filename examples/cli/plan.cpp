@@ -26,15 +26,16 @@ struct pose {
   gonio::direction wi, wo;
 };
 
-double polar_degrees(const gonio::direction& w) { return gonio::degrees(std::atan2(std::hypot(w.x(), w.y()), w.z())); }
+double polar_degrees(const gonio::direction& w) { return gonio::degrees(gonio::polar_angle(w)); }
 
 /// The material is isotropic: the sample is turned so that the light is in the half plane of positive x.
-pose to_pose(const gonio::half_difference& angles) {
-  const gonio::direction_pair pair = gonio::to_directions(angles);
-  pose at{polar_degrees(pair.wi), polar_degrees(pair.wo)};
-  const double azimuth_i = at.theta_i > 1e-9 ? std::atan2(pair.wi.y(), pair.wi.x()) : 0.0;
-  const double azimuth_o = at.theta_o > 1e-9 ? std::atan2(pair.wo.y(), pair.wo.x()) - azimuth_i : 0.0;
-  const double turned = std::remainder(azimuth_o, 2.0 * std::numbers::pi);
+pose to_pose(const gonio::direction_pair& pair) {
+  pose at;
+  at.theta_i = polar_degrees(pair.wi);
+  at.theta_o = polar_degrees(pair.wo);
+  const double azimuth_i = at.theta_i > 1e-9 ? gonio::azimuth(pair.wi) : 0.0;
+  const double turn = at.theta_o > 1e-9 ? gonio::azimuth(pair.wo) - azimuth_i : 0.0;
+  const double turned = gonio::azimuth(gonio::spherical_direction(std::numbers::pi / 2.0, turn));
   at.phi_o = gonio::degrees(turned);
   at.wi = gonio::spherical_direction(gonio::radians(at.theta_i), 0.0);
   at.wo = gonio::spherical_direction(gonio::radians(at.theta_o), turned);
@@ -94,7 +95,7 @@ void paint_ring(gonio::image& picture, const Eigen::Vector2d& at, double inner, 
 
 /// Where a direction is drawn: the polar angle is the distance from the middle.
 Eigen::Vector2d place_of(const gonio::direction& w) {
-  const double radius = half_size * polar_degrees(w) / 90.0, azimuth = std::atan2(w.y(), w.x());
+  const double radius = half_size * polar_degrees(w) / 90.0, azimuth = gonio::azimuth(w);
   return {half_size + margin + radius * std::cos(azimuth), half_size + margin - radius * std::sin(azimuth)};
 }
 
@@ -120,8 +121,8 @@ gonio::image drawing_of(const std::vector<pose>& poses) {
 
 void run(const plan_options& options) {
   std::vector<pose> poses;
-  for (const gonio::half_difference& angles : gonio::io::read_directions(options.directions))
-    poses.push_back(to_pose(angles));
+  for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(options.directions))
+    poses.push_back(to_pose(pair));
   if (!options.picture.empty()) gonio::io::write_png(options.picture, drawing_of(poses));
   if (options.print_json)
     print_json(poses);

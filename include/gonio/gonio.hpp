@@ -13,6 +13,7 @@
 #include <gonio/basis/rbf.hpp>
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/capture/k_means.hpp>
+#include <gonio/capture/near_field_image.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>
@@ -56,10 +57,12 @@
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
+#include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/metric/error_metric.hpp>
@@ -106,6 +109,7 @@
 #include <gonio/solve/working_set.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/grid.hpp>
+#include <gonio/table/image.hpp>
 #include <gonio/table/location.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>

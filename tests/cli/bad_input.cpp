@@ -22,8 +22,8 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 }  // namespace
 
 TEST_CASE("help is no error") {
-  for (const char* command : {"", "learn ", "expand ", "sample ", "reconstruct ", "compare ", "render ", "info ",
-                              "evaluate ", "evaluate nielsen-test-materials ", "evaluate measured-materials ",
+  for (const char* command : {"", "learn ", "expand ", "sample ", "samples ", "reconstruct ", "compare ", "render ",
+                              "info ", "evaluate ", "evaluate nielsen-test-materials ", "evaluate measured-materials ",
                               "evaluate linear-combination ", "evaluate noell-table1 ", "evaluate noell-table2 ",
                               "evaluate noell-measured ", "evaluate noell-corrections "}) {
     const auto result = gonio_tool(std::string(command) + "--help");

@@ -9,6 +9,8 @@ namespace {
 struct line_of_candidates {
   [[nodiscard]] std::size_t size() const { return 3; }
   [[nodiscard]] bool allows(std::size_t) const { return true; }
+  [[nodiscard]] gonio::direction_pair centre(std::size_t) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
+  [[nodiscard]] std::size_t nearest(const gonio::direction_pair&) const { return 0; }
   [[nodiscard]] std::vector<gonio::half_difference> directions(std::size_t) const { return {{0.1, 0.2, 0.3}}; }
   [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const gonio::grid_step& step) const {
     const int to = static_cast<int>(from) + step[0];
@@ -41,8 +43,14 @@ TEST_CASE("a point sample is in the direction of its cell; steps do not lead to 
     const auto angles = points.directions(cell);
     REQUIRE(angles.size() == 1);
     CHECK(angles[0].theta_d == small_cells().angles(cell).theta_d);
-    CHECK(points.allows(cell) == (std::acos(gonio::to_directions(angles[0]).wi.z()) <= gonio::radians(45)));
-    if (points.allows(cell)) ++allowed;
+    // Light and viewer may change places: one of them must be where the light can be.
+    const gonio::cosine_pair cosine = gonio::cosines(angles[0]);
+    CHECK(points.allows(cell) == (std::max(cosine.i, cosine.o) >= std::cos(gonio::radians(45))));
+    const gonio::direction_pair centre = points.centre(cell);
+    CHECK(points.nearest(centre) == cell);
+    if (!points.allows(cell)) continue;
+    CHECK(constraint(centre));
+    ++allowed;
     for (const gonio::grid_step& step : {gonio::grid_step{1, 0, 0}, {0, -1, 0}, {0, 0, 1}})
       if (const auto to = points.stepped(cell, step)) CHECK(points.allows(*to));
   }

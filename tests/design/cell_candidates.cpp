@@ -6,7 +6,8 @@
 
 TEST_CASE("all additions at once are what each is by itself") {
   for (const double noise : {0.0, 0.4}) {
-    const auto candidates = made_up_candidates({.eta = 0.5, .noise = noise});
+    // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
+    const auto candidates = made_up_candidates({.eta = 4.0, .noise = noise});
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());

@@ -1,5 +1,5 @@
 #include "made_up_candidates.hpp"
-#include <gonio/design/design_criterion.hpp>
+#include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/search.hpp>
 
 #include <Eigen/LU>
@@ -66,9 +66,9 @@ TEST_CASE("more measurements are never worse, and their order does not matter") 
   CHECK(condition_number{}(turned) == doctest::Approx(condition_number{}(rows)).epsilon(1e-9));
 }
 
-TEST_CASE("searches over cells by any criterion") {
+TEST_CASE("any criterion guides a search") {
   const gonio::point_geometry points(small_cells());
-  const gonio::criterion_at_cells condition(candidate_basis(), condition_number{});
+  const gonio::criterion_of_plan condition{candidate_basis(), points, condition_number{}};
   const auto found = gonio::grow_and_descend(points, condition, 3, 50, 1);
   CHECK(found.value >= 1.0);
   CHECK(found.value <= gonio::swap_at_random(points, condition, 3, 50, 1).value);

@@ -12,6 +12,7 @@ TEST_CASE("the slices of theta_d hold all valid cells, each once") {
     const auto cells = spheres.cells_of(slice);
     const auto directions = spheres.directions(slice);
     REQUIRE(directions.size() == cells.size());
+    CHECK(spheres.nearest(spheres.centre(slice)) == slice);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       ++seen[cells[i]];
       CHECK(directions[i].theta_d == doctest::Approx(gonio::radians((static_cast<double>(slice) + 0.5) * 90 / 7)));

@@ -92,6 +92,30 @@ TEST_CASE("directions are read alone") {
   scratch::check_refuses_non_files([](const auto& path) { return read_directions(path); });
 }
 
+TEST_CASE("pairs of directions tell light and viewer apart, and come back as they were written") {
+  const scratch::folder here;
+  scratch::put(here / "a", "theta_i,phi_i,theta_o,phi_o\n40,0,-30,0\n");
+  const auto read = gonio::io::read_direction_pairs(here / "a");
+  REQUIRE(read.size() == 1);
+  CHECK(read[0].wi.isApprox(gonio::spherical_direction(radians(40), 0.0)));
+  CHECK(read[0].wo.isApprox(gonio::spherical_direction(radians(30), std::numbers::pi)));
+
+  gonio::io::write_direction_pairs(here / "b", read);
+  CHECK(scratch::get(here / "b") == "theta_i,phi_i,theta_o,phi_o\n40,0,30,180\n");
+  const auto again = gonio::io::read_direction_pairs(here / "b");
+  REQUIRE(again.size() == 1);
+  CHECK(again[0].wo.isApprox(read[0].wo));
+
+  // phi_d beyond pi: light and viewer change places.
+  scratch::put(here / "c", "theta_h,theta_d,phi_d\n20,10,30\n20,10,210\n");
+  const auto folded = gonio::io::read_direction_pairs(here / "c");
+  REQUIRE(folded.size() == 2);
+  CHECK(folded[0].wi.isApprox(folded[1].wo));
+  CHECK(folded[0].wo.isApprox(folded[1].wi));
+  scratch::put(here / "d", "theta_i,phi_i,theta_o,phi_o\n40,0,30,0\n40,0,90,0\n");
+  check_refused([&] { return gonio::io::read_direction_pairs(here / "d"); }, {"line 3", "theta_o", "horizon"});
+}
+
 TEST_CASE("bad headers are refused") {
   check_text_refused("", {"is empty", "expected a header line"});
   check_text_refused("\n# only a comment\n\n", {"is empty", "expected a header line"});

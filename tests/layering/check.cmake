@@ -17,7 +17,7 @@ set(edges
   "render     -> table"
   "evaluate   -> estimate render design"
   "shape      -> basis"
-  "io         -> design model render"
+  "io         -> design capture model render"
   "io/image.hpp -> io" # apart, because it needs stb
   "render.hpp -> render"
   "gonio.hpp  -> estimate design model capture render evaluate shape io")

@@ -18,22 +18,6 @@ bool is(const image& picture, std::size_t row, std::size_t column, const rgb& co
 
 }  // namespace
 
-TEST_CASE("a picture of one colour, and one changed pixel") {
-  image picture = gonio::uniform_image(2, 3, grey);
-  REQUIRE(picture.shape(0) == 2);
-  REQUIRE(picture.shape(1) == 3);
-  REQUIRE(picture.shape(2) == 3);
-  gonio::set_pixel(picture, 1, 2, red);
-  for (std::size_t row = 0; row < 2; ++row)
-    for (std::size_t column = 0; column < 3; ++column)
-      CHECK(is(picture, row, column, row == 1 && column == 2 ? red : grey));
-  // The same places through xtensor's own indices.
-  CHECK(picture(1, 2, 0) == 1.0f);
-  CHECK(picture(1, 2, 1) == 0.0f);
-  CHECK(picture(0, 2, 1) == 0.5f);
-  CHECK(picture(1, 1, 2) == 0.75f);
-}
-
 TEST_CASE("pictures side by side have one margin between them and one around") {
   const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
   const image row = gonio::side_by_side(pictures, 2, grey);

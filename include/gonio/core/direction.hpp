@@ -47,6 +47,17 @@ struct cosine_pair {
   return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), std::cos(theta)};
 }
 
+/// Angle of a direction from the normal, from 0 to pi; accurate near the normal, too.
+[[nodiscard]] inline double polar_angle(const direction& w) noexcept {
+  return std::atan2(std::hypot(w.x(), w.y()), w.z());
+}
+
+/// Azimuth of a direction in (-pi, pi]. Where rounding decides between the two ends it is pi.
+[[nodiscard]] inline double azimuth(const direction& w) noexcept {
+  const double phi = std::atan2(w.y(), w.x());
+  return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
+}
+
 /// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
 [[nodiscard]] inline double fold_phi_d(double phi) noexcept {
   const double folded = phi - std::numbers::pi * std::floor(phi / std::numbers::pi);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 namespace gonio {
@@ -52,9 +53,13 @@ struct capture_constraint {
     });
   }
 
- private:
-  [[nodiscard]] static double polar_angle(const direction& w) noexcept {
-    return std::atan2(std::hypot(w.x(), w.y()), w.z());
+  /// Light and viewer with these angles between them where they can be: as the angles have them, or by reciprocity in
+  /// each other's place; nothing if neither can be.
+  [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const {
+    const direction_pair pair = to_directions(angles), exchanged{pair.wo, pair.wi};
+    if (is_none() || (*this)(pair)) return pair;
+    if ((*this)(exchanged)) return exchanged;
+    return {};
   }
 };
 

@@ -21,18 +21,24 @@ using grid_step = std::array<int, 3>;
 /// Candidates for a measurement, numbered from 0 to size() - 1.
 ///
 /// - `allows(candidate)`: can it be measured at all? The others hold of those that can.
+/// - `centre(candidate)`: where light and viewer are; of a picture, as seen from the middle of what it shows.
+/// - `nearest(pair)`: the candidate whose centre is next to a pair of directions above the horizon.
 /// - `directions(candidate)`: the directions of all of its samples; at least one.
 /// - `stepped(candidate, step)`: the candidate that a step on the grid leads to, if there is one and it is allowed.
 ///   Steps there and back lead back, where both exist.
 template <class Geometry>
-concept capture_geometry = requires(const Geometry& geometry, std::size_t candidate, const grid_step& step) {
+concept capture_geometry = requires(const Geometry& geometry, std::size_t candidate, const grid_step& step,
+                                    const direction_pair& pair) {
   { geometry.size() } -> std::convertible_to<std::size_t>;
   { geometry.allows(candidate) } -> std::convertible_to<bool>;
+  { geometry.centre(candidate) } -> std::convertible_to<direction_pair>;
+  { geometry.nearest(pair) } -> std::convertible_to<std::size_t>;
   { geometry.directions(candidate) } -> std::convertible_to<std::vector<half_difference>>;
   { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<std::size_t>>;
 };
 
-/// Each valid cell of a grid is a sample by itself. phi_d goes round.
+/// Each valid cell of a grid is a sample by itself; where only one of light and viewer can be in a place, the other one
+/// is. phi_d goes round.
 class point_geometry {
  public:
   explicit point_geometry(valid_cells cells, capture_constraint constraint = {})
@@ -41,7 +47,15 @@ class point_geometry {
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::size_t size() const noexcept { return cells_.size(); }
   [[nodiscard]] bool allows(std::size_t cell) const {
-    return constraint_.is_none() || constraint_(to_directions(cells_.angles(cell)));
+    return constraint_.is_none() || constraint_.pose_of(cells_.angles(cell)).has_value();
+  }
+  [[nodiscard]] direction_pair centre(std::size_t cell) const {
+    const half_difference angles = cells_.angles(cell);
+    return constraint_.pose_of(angles).value_or(to_directions(angles));
+  }
+  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
+    const grid& grid = cells_.grid();
+    return cells_.representative(grid.linear(grid.nearest(to_half_difference(pair.wi, pair.wo))));
   }
   [[nodiscard]] std::vector<half_difference> directions(std::size_t cell) const { return {cells_.angles(cell)}; }
 

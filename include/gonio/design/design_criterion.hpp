@@ -2,7 +2,6 @@
 /// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016) is
 /// one such criterion; here are the condition number (Nielsen et al. 2015) and two of Bayesian experimental design.
 
-#include <gonio/basis/basis.hpp>
 #include <gonio/core/error.hpp>
 
 #include <Eigen/Cholesky>
@@ -13,7 +12,6 @@
 #include <cmath>
 #include <concepts>
 #include <limits>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -102,26 +100,5 @@ class a_optimality {
   double eta_;
 };
 static_assert(design_criterion<a_optimality>);
-
-/// A criterion as a function of the cells at which is measured, for the searches of `search.hpp`.
-template <basis Basis, design_criterion Criterion>
-class criterion_at_cells {
- public:
-  explicit criterion_at_cells(Basis basis, Criterion criterion = Criterion())
-      : basis_(std::move(basis)), criterion_(std::move(criterion)) {}
-
-  [[nodiscard]] double operator()(std::span<const std::size_t> cells) const {
-    Eigen::MatrixXd rows(std::ssize(cells), static_cast<Eigen::Index>(basis_.size()));
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-      const std::span<const float> row = basis_.row(cells[static_cast<std::size_t>(i)]);
-      rows.row(i) = Eigen::Map<const Eigen::RowVectorXf>(row.data(), rows.cols()).template cast<double>();
-    }
-    return criterion_(rows);
-  }
-
- private:
-  Basis basis_;
-  Criterion criterion_;
-};
 
 }  // namespace gonio

@@ -78,10 +78,9 @@ class near_field_geometry {
     const auto step_of = [&](double angle, int extent) {
       return std::clamp(static_cast<int>(std::lround(angle / options_.step)), 0, extent - 1);
     };
-    const auto theta = [](const direction& w) { return std::atan2(std::hypot(w.x(), w.y()), w.z()); };
     const double azimuth = std::atan2(std::abs(pair.wo.x() * pair.wi.y() - pair.wo.y() * pair.wi.x()),
                                       pair.wo.x() * pair.wi.x() + pair.wo.y() * pair.wi.y());
-    grid_step at{step_of(theta(pair.wi), extents_[0]), step_of(theta(pair.wo), extents_[1]),
+    grid_step at{step_of(polar_angle(pair.wi), extents_[0]), step_of(polar_angle(pair.wo), extents_[1]),
                  step_of(azimuth, extents_[2])};
     if (!allows(number(at))) at[2] = 0;
     return number(at);

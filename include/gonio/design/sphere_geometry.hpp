@@ -18,6 +18,14 @@ class sphere_geometry {
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(cells_.grid().extents().theta_d); }
   [[nodiscard]] bool allows(std::size_t slice) const { return !cells_of(slice).empty(); }
 
+  /// As seen from where the sphere's normal is midway between light and camera.
+  [[nodiscard]] direction_pair centre(std::size_t slice) const {
+    return to_directions({0.0, cells_.angles(cells_of(slice).front()).theta_d, 0.0});
+  }
+  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
+    return static_cast<std::size_t>(cells_.grid().nearest(to_half_difference(pair.wi, pair.wo)).theta_d);
+  }
+
   [[nodiscard]] std::vector<half_difference> directions(std::size_t slice) const {
     std::vector<half_difference> seen;
     for (const std::size_t cell : cells_of(slice)) seen.push_back(cells_.angles(cell));

@@ -11,70 +11,39 @@
 /// ```
 
 #include <gonio/design/capture_constraint.hpp>
-#include <gonio/io/text.hpp>
+#include <gonio/io/rules.hpp>
 
 #include <filesystem>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace gonio::io {
 
 namespace detail {
 
-/// A rule: its name and its numbers.
-struct constraint_rule {
-  std::string_view name;
-  std::vector<double> numbers;
-};
-
-[[nodiscard]] inline constraint_rule parse_rule(std::string_view line, const text_place& place) {
-  line = trimmed(line.substr(0, line.find('#')));
-  constraint_rule rule;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    const std::string_view word = line.substr(0, end);
-    if (rule.name.empty())
-      rule.name = word;
-    else
-      rule.numbers.push_back(parse_number(word, place, [&] { return "number of '" + std::string(rule.name) + "'"; }));
-    line = trimmed(line.substr(end));
-  }
-  return rule;
-}
-
-inline void require_numbers(const constraint_rule& rule, std::size_t fewest, std::size_t most,
-                            const text_place& place) {
-  if (rule.numbers.size() >= fewest && rule.numbers.size() <= most) return;
-  place.refuse(quoted(rule.name) + " takes " + std::to_string(fewest) +
-               (most > fewest ? " or " + std::to_string(most) : std::string()) + " numbers, not " +
-               std::to_string(rule.numbers.size()));
-}
-
 /// A range of polar angles from two numbers in degrees.
-[[nodiscard]] inline polar_range parse_polar_range(const constraint_rule& rule, std::size_t first,
-                                                   const text_place& place) {
+[[nodiscard]] inline polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
   const double smallest = rule.numbers[first], largest = rule.numbers[first + 1];
   if (!(smallest >= 0.0 && smallest <= largest && largest <= 90.0))
     place.refuse("a range of polar angles is two numbers from 0 to 90, the smaller one first");
   return {radians(smallest), radians(largest)};
 }
 
-inline void apply_rule(const constraint_rule& rule, capture_constraint& constraint, const text_place& place) {
+inline void apply_rule(const text_rule& rule, capture_constraint& constraint, const text_place& place) {
   if (rule.name == "light" || rule.name == "viewer") {
-    require_numbers(rule, 2, 2, place);
+    require_numbers(rule, {2}, place);
     (rule.name == "light" ? constraint.light : constraint.viewer) = parse_polar_range(rule, 0, place);
   } else if (rule.name == "separation") {
-    require_numbers(rule, 1, 1, place);
+    require_numbers(rule, {1}, place);
     if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0)) place.refuse("a separation is from 0 to 180 degrees");
     constraint.smallest_separation = radians(rule.numbers[0]);
   } else if (rule.name == "light_step") {
-    require_numbers(rule, 1, 2, place);
+    require_numbers(rule, {1, 2}, place);
     if (!(rule.numbers[0] > 0.0)) place.refuse("a step between lights must be positive");
     constraint.light_step = radians(rule.numbers[0]);
     if (rule.numbers.size() == 2) constraint.light_tolerance = radians(rule.numbers[1]);
   } else if (rule.name == "forbid") {
-    require_numbers(rule, 4, 4, place);
+    require_numbers(rule, {4}, place);
     constraint.forbidden.push_back({parse_polar_range(rule, 0, place), parse_polar_range(rule, 2, place)});
   } else {
     place.refuse(quoted(rule.name) + " is no rule: expected light, viewer, separation, light_step or forbid");

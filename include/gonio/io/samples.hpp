@@ -131,29 +131,58 @@ class sample_header {
   return given / length;
 }
 
-[[nodiscard]] inline half_difference row_angles(const sample_row& row, const column_group& group,
-                                                const text_place& place) {
+/// A line of numbers, in its place.
+struct parsed_row {
+  const sample_row& numbers;
+  const column_group& group;  ///< how directions are given
+  const text_place& place;
+
+  [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
+};
+
+inline void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
+  if (cosine.i > 0.0 && cosine.o > 0.0) return;
+  std::string given;
+  for (std::size_t column = row.group.first; column < row.group.first + row.group.count; ++column)
+    given += (given.empty() ? "" : ", ") + std::string(sample_columns[column]) + " " + shortest(row.numbers[column]);
+  row.place.refuse("a direction is at or below the horizon (" + given + ")");
+}
+
+/// Of a row that gives half and difference angles.
+[[nodiscard]] inline half_difference given_angles(const parsed_row& row) {
+  return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
+          azimuth(row.numbers, 2, row.place)};
+}
+
+/// Light and viewer of a row that gives directions.
+[[nodiscard]] inline direction_pair given_directions(const parsed_row& row) {
+  const auto& [numbers, group, place] = row;
+  if (group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
+  const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
+  return {spherical_direction(theta_i, azimuth(numbers, 4, place)),
+          spherical_direction(theta_o, azimuth(numbers, 6, place))};
+}
+
+[[nodiscard]] inline half_difference row_angles(const parsed_row& row) {
   half_difference angles;
-  if (group.first == half_difference_group.first) {
-    angles = {polar_angle(row, 0, false, place), polar_angle(row, 1, false, place), fold_phi_d(azimuth(row, 2, place))};
-  } else if (group.first == angle_group.first) {
-    const double theta_i = polar_angle(row, 3, true, place), theta_o = polar_angle(row, 5, true, place);
-    angles = to_half_difference(spherical_direction(theta_i, azimuth(row, 4, place)),
-                                spherical_direction(theta_o, azimuth(row, 6, place)));
+  if (row.has_half_difference()) {
+    angles = given_angles(row);
+    angles.phi_d = fold_phi_d(angles.phi_d);
   } else {
-    angles = to_half_difference(unit_vector(row, 7, place), unit_vector(row, 10, place));
+    const direction_pair pair = given_directions(row);
+    angles = to_half_difference(pair.wi, pair.wo);
   }
-  const cosine_pair cosine = cosines(angles);
-  if (!(cosine.i > 0.0 && cosine.o > 0.0)) {
-    std::string given;
-    for (std::size_t column = group.first; column < group.first + group.count; ++column)
-      given += (given.empty() ? "" : ", ") + std::string(sample_columns[column]) + " " + shortest(row[column]);
-    place.refuse("a direction is at or below the horizon (" + given + ")");
-  }
+  require_above_horizon(cosines(angles), row);
   return angles;
 }
 
-/// Calls `use(angles, row)` for each line of numbers.
+[[nodiscard]] inline direction_pair row_directions(const parsed_row& row) {
+  const direction_pair pair = row.has_half_difference() ? to_directions(given_angles(row)) : given_directions(row);
+  require_above_horizon({pair.wi.z(), pair.wo.z()}, row);
+  return pair;
+}
+
+/// Calls `use(row)` for each line of numbers.
 template <class Use>
 void parse_rows(std::string_view text, const std::string& name, bool needs_colour, Use&& use) {
   text_place place{name, 0};
@@ -176,7 +205,7 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
           parse_number(fields[i], place, [&] { return "column " + std::string(sample_columns[header->columns()[i]]); });
     if (row[weight_column] < 0.0)
       place.refuse("column weight: " + shortest(row[weight_column]) + " is negative, expected at least 0");
-    use(row_angles(row, header->directions(), place), std::as_const(row));
+    use(parsed_row{row, header->directions(), place});
     ++rows;
   });
   if (!header) throw error(name + ": is empty, expected a header line that names the columns");
@@ -188,9 +217,12 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
 /// Samples from the text of a CSV file; `name` is what errors call it.
 [[nodiscard]] inline sample_set parse_samples(std::string_view text, const std::string& name) {
   sample_set samples;
-  detail::parse_rows(text, name, true, [&](const half_difference& angles, const detail::sample_row& row) {
+  detail::parse_rows(text, name, true, [&](const detail::parsed_row& row) {
     constexpr std::size_t colour = detail::colour_group.first;
-    samples.push_back({angles, {row[colour], row[colour + 1], row[colour + 2]}, row[detail::weight_column]});
+    const detail::sample_row& numbers = row.numbers;
+    samples.push_back({detail::row_angles(row),
+                       {numbers[colour], numbers[colour + 1], numbers[colour + 2]},
+                       numbers[detail::weight_column]});
   });
   return samples;
 }
@@ -206,16 +238,26 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
   const auto bytes = read_bytes(path);
   std::vector<half_difference> directions;
   detail::parse_rows(detail::as_text(bytes), path.string(), false,
-                     [&](const half_difference& angles, const detail::sample_row&) { directions.push_back(angles); });
+                     [&](const detail::parsed_row& row) { directions.push_back(detail::row_angles(row)); });
   return directions;
 }
 
-/// Writes directions alone, as `read_directions` reads them.
-inline void write_directions(const std::filesystem::path& path, std::span<const half_difference> directions) {
-  std::string text = "theta_h,theta_d,phi_d\n";
-  for (const half_difference& at : directions)
-    text += detail::shortest(degrees(at.theta_h)) + ',' + detail::shortest(degrees(at.theta_d)) + ',' +
-            detail::shortest(degrees(fold_phi_d(at.phi_d))) + '\n';
+/// Reads the same files as pairs, in which light and viewer are told apart.
+[[nodiscard]] inline std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  std::vector<direction_pair> pairs;
+  detail::parse_rows(detail::as_text(bytes), path.string(), false,
+                     [&](const detail::parsed_row& row) { pairs.push_back(detail::row_directions(row)); });
+  return pairs;
+}
+
+/// Writes pairs as `theta_i,phi_i,theta_o,phi_o`, rounded to 1e-9 degrees.
+inline void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs) {
+  const auto rounded = [](double angle) { return detail::shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
+  std::string text = "theta_i,phi_i,theta_o,phi_o\n";
+  for (const auto& [wi, wo] : pairs)
+    text += rounded(gonio::polar_angle(wi)) + ',' + rounded(gonio::azimuth(wi)) + ',' +
+            rounded(gonio::polar_angle(wo)) + ',' + rounded(gonio::azimuth(wo)) + '\n';
   write_atomically(path, std::as_bytes(std::span(text)));
 }
 

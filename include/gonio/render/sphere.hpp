@@ -150,6 +150,15 @@ class sphere_operator {
                            [](std::size_t sum, const std::vector<entry>& row) { return sum + row.size(); });
   }
 
+  /// Calls `visit(cell, weight)` for each cell that light reaches a point by: the point's colour is the sum of
+  /// reflectance times weight.
+  template <class Visit>
+  void for_each_entry(std::size_t point, Visit&& visit) const {
+    GONIO_ASSERT(point < rows_.size());
+    for (const auto& [cell, weight] : rows_[point])
+      visit(std::size_t{cell}, rgb(exposure_ * rgb(weight[0], weight[1], weight[2])));
+  }
+
   /// The colours of a sphere made of this table. Same bytes for any number of threads. Throws gonio::error if
   /// the table is over other cells.
   [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const {

@@ -1,0 +1,101 @@
+#pragma once
+/// What an error of a basis' weights looks like, for designs that serve the eye: a norm for `expected_error`.
+
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/render/sphere.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// d L* / d Y of a grey of luminance Y on a display, whose white is 1 and which shows nothing beyond it.
+[[nodiscard]] inline double lightness_slope(double luminance) noexcept {
+  constexpr double knee = 6.0 / 29.0;
+  if (luminance >= 1.0) return 0.0;
+  if (luminance <= knee * knee * knee) return 116.0 / (3.0 * knee * knee);
+  return 116.0 / (3.0 * std::cbrt(luminance * luminance));
+}
+
+/// How the lightness of one point of a sphere changes with the weights, for each observation of a basis: m x k.
+template <error_metric Metric>
+[[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const sphere_operator& sphere,
+                                                 std::size_t point) {
+  std::vector<std::size_t> cells;
+  std::vector<double> weights;
+  sphere.for_each_entry(point, [&](std::size_t cell, const rgb& weight) {
+    cells.push_back(cell);
+    weights.push_back(luminance(weight));
+  });
+  const auto entries = std::ssize(cells);
+  Eigen::MatrixXf rows(entries, static_cast<Eigen::Index>(basis.size()));
+  for (Eigen::Index e = 0; e < entries; ++e)
+    rows.row(e) = basis.components().row(static_cast<Eigen::Index>(cells[static_cast<std::size_t>(e)]));
+
+  // What each observation reflects in each of the directions, and how that changes with its mapped value.
+  constexpr double step = 0.05;
+  Eigen::MatrixXf mapped = rows * basis.coefficients().transpose();
+  Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.cols());
+  for (Eigen::Index i = 0; i < mapped.cols(); ++i)
+    for (Eigen::Index e = 0; e < entries; ++e) {
+      const std::size_t cell = cells[static_cast<std::size_t>(e)];
+      const double weight = weights[static_cast<std::size_t>(e)], y = basis.offset(cell) + double{mapped(e, i)};
+      const double lower = basis.metric().inverse(y - step, cell), upper = basis.metric().inverse(y + step, cell);
+      luminances[i] += weight * std::max((lower + upper) / 2.0, 0.0);
+      mapped(e, i) = static_cast<float>(weight * (upper - lower) / (2.0 * step));
+    }
+  const Eigen::VectorXf slopes = luminances.unaryExpr(&lightness_slope).cast<float>();
+  return slopes.asDiagonal() * (mapped.transpose() * rows);
+}
+
+}  // namespace detail
+
+/// M, k x k, such that x'Mx is the mean square, over the points of a sphere and the observations that the basis was
+/// learned from, of the CIELAB lightness by which the sphere changes when an observation's weights change by a small x.
+///
+/// For `expected_error(basis, options, M)`: cells count as much as they contribute to what is seen, errors that cancel
+/// within a point's light cancel here, and what is beyond white does not count. Each colour channel is taken for a
+/// grey. 4 k m operations for each entry of the sphere, 2 k^2 m for each point; the same bytes for any number of
+/// threads. Throws gonio::error if the sphere is over other cells.
+template <error_metric Metric>
+[[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const sphere_operator& sphere,
+                                             thread_count threads = {}) {
+  if (!(basis.cells() == sphere.cells())) throw error("a basis and a sphere over other cells cannot be combined");
+  constexpr std::size_t points_of_a_sum = 8;
+  const std::size_t points = sphere.points().size();
+  const auto k = static_cast<Eigen::Index>(basis.size());
+  std::vector<Eigen::MatrixXd> sums((points + points_of_a_sum - 1) / points_of_a_sum, Eigen::MatrixXd::Zero(k, k));
+  for_each_block(
+      sums.size(), 1,
+      [&](block range) {
+        const std::size_t end = std::min(range.end * points_of_a_sum, points);
+        for (std::size_t point = range.begin * points_of_a_sum; point < end; ++point) {
+          const Eigen::MatrixXd jacobian = detail::lightness_jacobian(basis, sphere, point).template cast<double>();
+          sums[point / points_of_a_sum].template selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+        }
+      },
+      threads);
+  Eigen::MatrixXd norm = Eigen::MatrixXd::Zero(k, k);
+  for (const Eigen::MatrixXd& sum : sums) norm += sum;
+  norm /= static_cast<double>(points) * static_cast<double>(basis.coefficients().rows());
+  return norm.template selfadjointView<Eigen::Lower>();
+}
+
+/// The same, the mean of two spheres: under two directional lights, and under the closed-form environment
+/// (render/lighting.hpp), at a resolution that takes seconds.
+template <error_metric Metric>
+[[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, thread_count threads = {}) {
+  constexpr int size = 20;
+  const sphere_operator lights(basis.cells(), two_lights(), size, threads),
+      environment(basis.cells(), environment_lighting(45, 24), size, threads);
+  return (perceived_norm(basis, lights, threads) + perceived_norm(basis, environment, threads)) / 2.0;
+}
+
+}  // namespace gonio

@@ -1,0 +1,37 @@
+#pragma once
+/// Pictures in memory.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/rgb.hpp>
+
+#include <xtensor/xtensor.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gonio {
+
+/// A picture of shape (rows, columns, 3), top row first: linear light in Rec. 709 primaries.
+using image = xt::xtensor<float, 3>;
+
+/// A picture of one colour.
+[[nodiscard]] inline image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero()) {
+  image picture({rows, columns, std::size_t{3}});
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture.data()[i] = static_cast<float>(colour[static_cast<Eigen::Index>(i % 3)]);
+  return picture;
+}
+
+[[nodiscard]] inline rgb pixel(const image& picture, std::size_t row, std::size_t column) noexcept {
+  GONIO_ASSERT(row < picture.shape(0) && column < picture.shape(1));
+  const float* value = picture.data() + 3 * (row * picture.shape(1) + column);
+  return {value[0], value[1], value[2]};
+}
+
+inline void set_pixel(image& picture, std::size_t row, std::size_t column, const rgb& colour) noexcept {
+  GONIO_ASSERT(row < picture.shape(0) && column < picture.shape(1));
+  float* value = picture.data() + 3 * (row * picture.shape(1) + column);
+  std::ranges::copy(colour.cast<float>(), value);
+}
+
+}  // namespace gonio

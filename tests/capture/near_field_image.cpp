@@ -1,0 +1,240 @@
+#include "lab/near_field_lab.hpp"
+#include <gonio/capture/near_field_image.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+using gonio::image;
+using gonio::near_field_samples;
+using gonio::near_field_setup;
+using gonio::radians;
+using gonio::rgb;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Light and camera at polar angles and an azimuth between them in degrees, the camera at distance 1 from the middle of
+/// a disc that spans 25 degrees, which it looks at with 60 x 80 pixels.
+near_field_setup setup_at(double light, double camera, double azimuth) {
+  const double radius = std::tan(radians(12.5));
+  const gonio::camera_intrinsics intrinsics{60, 80, 120.0, 125.0, 41.0, 29.0};
+  const Eigen::Vector3d position = gonio::spherical_direction(radians(camera), 0.3);
+  return {.camera = gonio::pinhole_camera::look_at(intrinsics, position, {0.0, 0.0, 0.0}, {-0.2, 0.1, 1.0}),
+          .light = {gonio::spherical_direction(radians(light), 0.3 + radians(azimuth)), {2.0, 1.0, 0.5}},
+          .disc = gonio::sample_disc{radius}};
+}
+
+/// The same in the middle of the range, for what does not depend on the directions.
+near_field_setup ordinary_setup() { return setup_at(50.0, 40.0, 180.0); }
+
+const gonio::formula_brdf paint = gonio::formula_material("red-paint");
+
+rgb truth_at(const gonio::half_difference& angles) {
+  const auto [wi, wo] = gonio::to_directions(angles);
+  return paint(wi, wo);
+}
+
+/// The largest relative deviation of a sample from the paint.
+double largest_error(const gonio::sample_set& samples) {
+  double largest = 0.0;
+  for (const gonio::sample& s : samples)
+    largest = std::max(largest, (s.value / truth_at(s.angles) - 1.0).abs().maxCoeff());
+  return largest;
+}
+
+double root_mean_square_error(const gonio::sample_set& samples) {
+  double sum = 0.0;
+  for (const gonio::sample& s : samples) sum += (s.value / truth_at(s.angles) - 1.0).square().sum();
+  return std::sqrt(sum / (3.0 * static_cast<double>(samples.size())));
+}
+
+}  // namespace
+
+TEST_CASE("without noise the paint's values come back, whatever the pose") {
+  CHECK(rc::check([] {
+    const auto setup = setup_at(*rc::gen::inRange(0, 86), *rc::gen::inRange(0, 76), *rc::gen::inRange(-180, 181));
+    const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
+    RC_ASSERT_FALSE(samples.empty());
+    RC_ASSERT(largest_error(samples) < 1e-6);  // pixels are float
+    RC_ASSERT(std::ranges::all_of(samples, [](const auto& s) { return s.weight == 1.0; }));
+  }));
+}
+
+TEST_CASE("samples are the disc's pixels in their order, with the light that was given") {
+  const auto setup = ordinary_setup();
+  const auto samples = near_field_samples(lab::photograph(paint, *setup.disc, setup), setup);
+  gonio::require_usable(samples);
+  std::size_t next = 0;
+  for (std::size_t row = 0; row < 60; ++row)
+    for (std::size_t column = 0; column < 80; ++column) {
+      const auto line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+      const auto point = line.at_ground();
+      if (!point || point->norm() > setup.disc->radius) continue;
+      REQUIRE(next < samples.size());
+      const auto& angles = samples[next++].angles;
+      const auto expected = gonio::to_half_difference(setup.light.towards, -line.towards);
+      REQUIRE(angles.theta_h == doctest::Approx(expected.theta_h));
+      REQUIRE(angles.theta_d == doctest::Approx(expected.theta_d));
+      REQUIRE(angles.phi_d == doctest::Approx(expected.phi_d));
+    }
+  CHECK(next == samples.size());
+  // As many as the ellipse of the disc covers: its radius is 120 x 125 tan(12.5) tan(12.5) cos(40) pi pixels.
+  CHECK(static_cast<double>(next) == doctest::Approx(1774.0).epsilon(0.06));
+}
+
+TEST_CASE("a grey Lambertian of albedo 0.5 under irradiance 2 has radiance 2 cos / (2 pi)") {
+  auto setup = setup_at(60.0, 0.0, 0.0);
+  setup.light.irradiance = rgb::Constant(2.0);
+  const image picture = gonio::uniform_image(60, 80, rgb::Constant(0.5 / std::numbers::pi));
+  for (const gonio::sample& s : near_field_samples(picture, setup))
+    for (const double channel : s.value) REQUIRE(channel == doctest::Approx(0.5 / std::numbers::pi));
+}
+
+TEST_CASE("the region is the disc, the window, or both") {
+  auto setup = ordinary_setup();
+  const image picture = lab::photograph(paint, {.radius = 3.0}, setup);
+  const std::size_t disc = near_field_samples(picture, setup).size();
+  setup.window = gonio::pixel_window{30, 20, 7, 5};
+  CHECK(near_field_samples(picture, setup).size() == 35);
+  setup.disc = {};
+  CHECK(near_field_samples(picture, setup).size() == 35);
+  setup.window = {};
+  CHECK(near_field_samples(picture, setup).size() == 60 * 80);
+  setup.disc = gonio::sample_disc{.radius = std::tan(radians(12.5)), .centre = {0.02, 0.0}};
+  const std::size_t beside = near_field_samples(picture, setup).size();
+  CHECK(beside != disc);
+  CHECK(static_cast<double>(beside) == doctest::Approx(static_cast<double>(disc)).epsilon(0.05));
+}
+
+TEST_CASE("blocks average their pixels, and count by their share") {
+  auto setup = ordinary_setup();
+  const image picture = lab::photograph(paint, *setup.disc, setup);
+  const auto pixels = near_field_samples(picture, setup);
+  setup.block = 7;  // does not divide the picture
+  const auto blocks = near_field_samples(picture, setup);
+  CHECK(blocks.size() < pixels.size() / 30);
+  rgb sum_of_pixels = rgb::Zero(), sum_of_blocks = rgb::Zero();
+  double weights = 0.0;
+  for (const gonio::sample& s : pixels) sum_of_pixels += s.value;
+  for (const gonio::sample& s : blocks) {
+    CHECK(s.weight > 0.0);
+    CHECK(s.weight <= 1.0);
+    sum_of_blocks += 49.0 * s.weight * s.value;
+    weights += 49.0 * s.weight;
+  }
+  CHECK(weights == doctest::Approx(static_cast<double>(pixels.size())));
+  CHECK((sum_of_blocks / sum_of_pixels - 1.0).abs().maxCoeff() < 1e-6);
+  // The paint is curved inside a block of 3 degrees, most of all where its highlight is.
+  CHECK(root_mean_square_error(blocks) < 0.006);  // measured: 0.0041
+}
+
+TEST_CASE("noise is that of the pixels, less for blocks, and the seed's alone") {
+  auto setup = ordinary_setup();
+  const lab::near_field_defects noisy{.noise = 0.05};
+  const image picture = lab::photograph(paint, *setup.disc, setup, noisy, 7);
+  CHECK(root_mean_square_error(near_field_samples(picture, setup)) == doctest::Approx(0.05).epsilon(0.05));
+  CHECK(picture == lab::photograph(paint, *setup.disc, setup, noisy, 7));
+  CHECK(picture != lab::photograph(paint, *setup.disc, setup, noisy, 8));
+  setup.block = 3;
+  CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.02);  // measured: 0.0171
+}
+
+TEST_CASE("a slight misalignment of light and camera costs what the paint's slope says") {
+  const auto setup = ordinary_setup();
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    const lab::near_field_defects shifted{.misalignment = radians(1.0)};
+    // The rim of the disc may move out of what is believed to be the disc: the material is larger.
+    const image picture = lab::photograph(paint, {.radius = 0.4}, setup, shifted, seed);
+    CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.2);  // measured: up to 0.135
+    // A Lambertian knows the light's cosine alone: cos(theta + 1 degree) / cos(theta).
+    const gonio::lambertian grey{rgb::Constant(0.18)};
+    const double bound = std::tan(radians(50.0)) * radians(1.0) * 1.02;
+    for (const gonio::sample& s :
+         near_field_samples(lab::photograph(grey, {.radius = 0.4}, setup, shifted, seed), setup))
+      REQUIRE((s.value * std::numbers::pi / 0.18 - 1.0).abs().maxCoeff() < bound);
+  }
+}
+
+TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if they are saturated") {
+  auto setup = ordinary_setup();
+  image picture = lab::photograph(paint, *setup.disc, setup);
+  const std::size_t all = near_field_samples(picture, setup).size();
+  gonio::set_pixel(picture, 29, 41, {0.1, 0.9, 0.1});
+  gonio::set_pixel(picture, 29, 42, {0.1, 0.1, infinity});
+  setup.saturation = 0.9;  // which is more than what the picture holds, 0.9f
+  const auto is_saturated = [&](std::size_t row, std::size_t column) -> std::size_t {
+    return (gonio::pixel(picture, row, column) > 0.8999999).any() ? 1 : 0;
+  };
+  std::size_t saturated = 0;
+  for (std::size_t row = 0; row < 60; ++row)
+    for (std::size_t column = 0; column < 80; ++column) saturated += is_saturated(row, column);
+  CHECK(saturated >= 2);
+  CHECK(saturated < all / 10);
+  CHECK(near_field_samples(picture, setup).size() == all - saturated);
+  // Of a block of three by three whose middle is saturated nothing is left.
+  setup.window = gonio::pixel_window{40, 28, 3, 3};
+  CHECK(near_field_samples(picture, setup).size() < 9);
+  setup.block = 3;
+  CHECK_THROWS_AS(near_field_samples(picture, setup), gonio::error);
+  setup.block = 60;
+  setup.window = gonio::pixel_window{10, 0, 60, 60};
+  CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains("saturated"), gonio::error);
+}
+
+TEST_CASE("pixels that are not finite are refused by their place if they see the region; negative ones are kept") {
+  const auto setup = ordinary_setup();
+  const auto picture_with = [&](std::size_t row, std::size_t column, double value) {
+    image picture = lab::photograph(paint, *setup.disc, setup);
+    gonio::set_pixel(picture, row, column, {0.1, value, 0.1});
+    return picture;
+  };
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
+    CHECK_THROWS_WITH_AS(near_field_samples(picture_with(28, 40, bad), setup),
+                         doctest::Contains("pixel (row 28, column 40) is not finite"), gonio::error);
+    CHECK_NOTHROW(near_field_samples(picture_with(0, 0, bad), setup));
+  }
+  const auto samples = near_field_samples(picture_with(28, 40, -0.01), setup);
+  CHECK(std::ranges::count_if(samples, [](const auto& s) { return s.value.y() < 0.0; }) == 1);
+}
+
+TEST_CASE("what cannot be measured is refused") {
+  const auto refused = [](const std::function<void(near_field_setup&)>& change, const char* why) {
+    near_field_setup setup = ordinary_setup();
+    const image picture = lab::photograph(paint, *setup.disc, setup);
+    change(setup);
+    CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains(why), gonio::error);
+  };
+  const auto camera_from = [](const Eigen::Vector3d& position, const Eigen::Vector3d& target) {
+    return gonio::pinhole_camera::look_at(ordinary_setup().camera.intrinsics(), position, target, {0.0, 1.0, 0.1});
+  };
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, -1.0}, {0.0, 0.0, 0.0}); }, "camera is not above");
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 0.0}, {0.0, 0.0, 0.0}); }, "camera is not above");
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {0.0, 0.0, 3.0}); }, "sees nothing of the sample");
+  refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {9.0, 0.0, 0.0}); }, "sees nothing of the sample");
+  refused([](auto& s) { s.light.towards = {0.0, 1.0, 0.0}; }, "light is at or below the sample's horizon");
+  refused([](auto& s) { s.light.towards = {0.0, 0.0, 2.0}; }, "length 1");
+  refused([](auto& s) { s.light.towards.x() = infinity; }, "length 1");
+  refused([](auto& s) { s.light.irradiance = {1.0, 0.0, 1.0}; }, "irradiance");
+  refused([](auto& s) { s.light.irradiance = {1.0, infinity, 1.0}; }, "irradiance");
+  refused([](auto& s) { s.disc->radius = 0.0; }, "positive radius");
+  refused([](auto& s) { s.disc->centre.x() = infinity; }, "finite centre");
+  refused([](auto& s) { s.window = gonio::pixel_window{0, 0, 0, 5}; }, "window");
+  refused([](auto& s) { s.window = gonio::pixel_window{79, 0, 2, 5}; }, "80 x 60");
+  refused([](auto& s) { s.window = gonio::pixel_window{0, 60, 2, 1}; }, "80 x 60");
+  refused([](auto& s) { s.saturation = 0.0; }, "saturation must be positive");
+  refused([](auto& s) { s.saturation = 1e-9; }, "is saturated");
+  refused([](auto& s) { s.block = 0; }, "block");
+  const auto setup = ordinary_setup();
+  CHECK_THROWS_WITH_AS(near_field_samples(gonio::uniform_image(80, 60), setup),
+                       doctest::Contains("the picture has 60 x 80 pixels, its camera 80 x 60"), gonio::error);
+  CHECK_THROWS_WITH_AS(near_field_samples(image({60, 80, 4}, 0.0f), setup), doctest::Contains("4 channels"),
+                       gonio::error);
+}

@@ -1,0 +1,98 @@
+/// Pictures of a flat sample, by the simulated laboratory, become samples, and these a table.
+
+#include "../io/scratch.hpp"
+#include "lab/near_field_lab.hpp"
+#include "tool.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/near_field_setup.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace {
+
+const std::string camera =
+    "size 48 40\nfocal_length 95 100\nprincipal_point 25 20\nposition 0.7 0.1 0.6\ntarget 0 0 0\n";
+const std::string first = camera + "light_angles 50 190\nirradiance 3\nregion 0.2\n";
+const std::string second = camera + "light -0.5 1 0.8\nirradiance 3\nregion 0.2\nblock 2\n";
+
+/// Two pictures of red paint and their set-ups in a folder.
+class two_shots {
+ public:
+  two_shots() {
+    for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
+      scratch::put(at(name) + ".txt", text);
+      const auto setup = gonio::io::parse_near_field_setup(text, name);
+      gonio::io::write_hdr(at(name) + ".hdr", lab::photograph(paint, {.radius = 0.5}, setup));
+    }
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string shot(const std::string& name) const { return at(name) + ".hdr " + at(name) + ".txt "; }
+  [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+
+  const gonio::formula_brdf paint = gonio::formula_material("red-paint");
+
+ private:
+  scratch::folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("pictures become samples of the paint, and these a table") {
+  const two_shots shots;
+  const auto one = gonio_tool("samples " + shots.shot("first") + "-o " + shots.at("one.csv"));
+  REQUIRE_MESSAGE(one.exit_code == 0, one.output);
+  const auto samples = gonio::io::read_samples(shots.at("one.csv"));
+  CHECK(samples.size() > 300);
+  CHECK(one.output == shots.at("first.hdr") + ": " + std::to_string(samples.size()) + " samples\n");
+  for (const gonio::sample& s : samples) {
+    const auto [wi, wo] = gonio::to_directions(s.angles);
+    const gonio::rgb truth = shots.paint(wi, wo);
+    // The three channels share an exponent, and have eight bits.
+    REQUIRE((s.value - truth).abs().maxCoeff() <= truth.maxCoeff() / 256.0);
+  }
+
+  const auto both = gonio_tool("samples " + shots.shot("first") + shots.shot("second") + "-o " + shots.at("two.csv"));
+  REQUIRE_MESSAGE(both.exit_code == 0, both.output);
+  const auto more = gonio::io::read_samples(shots.at("two.csv"));
+  CHECK(more.size() > samples.size() + 150);
+  CHECK(more.size() < samples.size() + 300);
+  CHECK(std::ranges::any_of(more, [](const gonio::sample& s) { return s.weight < 1.0; }));
+
+  const auto table = gonio_tool("reconstruct " + shots.at("two.csv") + " -o " + shots.at("paint.binary"));
+  REQUIRE_MESSAGE(table.exit_code == 0, table.output);
+  CHECK(shots.has("paint.binary"));
+}
+
+TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
+  const two_shots shots;
+  const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {
+    const auto result = gonio_tool("samples " + arguments + " -o " + shots.at("out.csv"));
+    CAPTURE(arguments);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(std::ranges::count(result.output, '\n') == 1);
+    for (const std::string& word : words) CHECK(result.output.find(word) != std::string::npos);
+    CHECK_FALSE(shots.has("out.csv"));
+  };
+  const auto with_setup = [&](const std::string& text) {
+    scratch::put(shots.at("bad.txt"), text);
+    return shots.at("first.hdr") + " " + shots.at("bad.txt");
+  };
+  refused("", {"pictures"});
+  refused(shots.at("first.hdr"), {"pictures"});
+  refused(shots.shot("first") + shots.at("second.hdr"), {"pictures", "second.hdr is not followed by its set-up"});
+  refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
+  refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
+  refused(shots.at("first.txt") + " " + shots.at("first.txt"), {"first.txt", "Radiance HDR"});
+  refused(with_setup(first + "lamp 3\n"), {"bad.txt, line 9", "lamp"});
+  refused(with_setup(camera + "light 0 0 1\n"), {"bad.txt", "'region' or 'window' is missing"});
+  refused(with_setup("size 40 48" + first.substr(10)), {"first.hdr", "bad.txt", "48 x 40", "40 x 48"});
+  refused(with_setup(first + "saturation 1e-6\n"), {"first.hdr", "saturated"});
+  refused(with_setup(camera + "light 0 0 1\nregion 0.01 5 5\n"), {"first.hdr", "sees nothing of the sample"});
+}
