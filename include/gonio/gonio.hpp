@@ -4,12 +4,15 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/correction.hpp>
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/highlight_contrast.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>
+#include <gonio/capture/colour_clusters.hpp>
+#include <gonio/capture/k_means.hpp>
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
@@ -50,6 +53,7 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/correction_check.hpp>

@@ -150,6 +150,13 @@ TEST_CASE("bad requests of the experiments after Noell et al.") {
   refuses("evaluate noell-corrections --networks /no/such/file.npy", {"/no/such/file.npy"});
 }
 
+TEST_CASE("bad requests of the experiment with a soft and a specular prior") {
+  refuses("evaluate soft-specular", {"--networks"});
+  refuses("evaluate soft-specular --networks n.npy --counts 3", {"--counts", "3"});
+  refuses("evaluate soft-specular --networks n.npy --threshold much", {"--threshold", "much"});
+  refuses("evaluate soft-specular --networks /no/such/file.npy", {"/no/such/file.npy"});
+}
+
 TEST_CASE("bad tables and requests of tables") {
   const scratch::folder folder;
   const std::string table = (folder / "t.binary").string(), out = " -o " + (folder / "out.csv").string();

@@ -15,6 +15,19 @@ TEST_CASE("a material is found by name and its table is three adjacent columns")
   CHECK(gold.at(2).isApprox(gonio::rgb(15, 16, 17)));
 }
 
+TEST_CASE("some of the materials are copied in the order asked for") {
+  const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
+  gonio::material_set set{
+      cells, {"clay", "gold", "wood"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 9)};
+  for (Eigen::Index i = 0; i < set.values.size(); ++i) set.values.data()[i] = static_cast<float>(i);
+  const auto some = set.subset({2, 0});
+  CHECK(some.names == std::vector<std::string>{"wood", "clay"});
+  CHECK(some.values.leftCols(3) == set.values.rightCols(3));
+  CHECK(some.values.rightCols(3) == set.values.leftCols(3));
+  CHECK(set.subset({}).values.cols() == 0);
+  CHECK_THROWS_WITH_AS(static_cast<void>(set.subset({3})), "there is no material 3 among 3", gonio::error);
+}
+
 TEST_CASE("a cell is mapped value by value, and what is not finite before or after is refused by name") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
   const auto count = static_cast<Eigen::Index>(cells.size());

@@ -13,14 +13,13 @@
 
 namespace gonio {
 
-/// Measures each truth at cells of its table, reconstructs it by a prior with Tikhonov's penalty eta (Eq. 12), and
-/// compares over the truth's cells in the domain of `metric`. A material's defects come from `seed` plus its number.
-template <basis Basis, error_metric Metric>
+/// Measures each truth at cells of its table, reconstructs it by an estimator, and compares over the truth's cells in
+/// the domain of `metric`. A material's defects come from `seed` plus its number.
+template <estimator Estimator, error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
-    const Basis& prior, double eta, std::span<const std::size_t> cells, const material_set& truths,
-    const Metric& metric, const appearance_judge& judge, thread_count threads = {},
-    const measurement_defects& defects = {}, std::uint64_t seed = 0) {
-  const decomposition estimator{prior, tikhonov{eta}};
+    const Estimator& estimator, std::span<const std::size_t> cells, const material_set& truths, const Metric& metric,
+    const appearance_judge& judge, thread_count threads = {}, const measurement_defects& defects = {},
+    std::uint64_t seed = 0) {
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const brdf_table truth = truths.table(m);
@@ -28,6 +27,16 @@ template <basis Basis, error_metric Metric>
     results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
   }
   return results;
+}
+
+/// The same by a prior with Tikhonov's penalty eta (Eq. 12).
+template <basis Basis, error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_cells(
+    const Basis& prior, double eta, std::span<const std::size_t> cells, const material_set& truths,
+    const Metric& metric, const appearance_judge& judge, thread_count threads = {},
+    const measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  return reconstruct_from_cells(decomposition{prior, tikhonov{eta}}, cells, truths, metric, judge, threads, defects,
+                                seed);
 }
 
 /// The same without defects, at the cells nearest to `directions`.

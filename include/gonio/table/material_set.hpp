@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,20 @@ struct material_set {
     const auto column = static_cast<Eigen::Index>(3 * material);
     Eigen::Map<cell_matrix>(result.values().data(), values.rows(), 3) = values.middleCols(column, 3);
     return result;
+  }
+
+  /// A copy of some of the materials, by their positions. Throws gonio::error for a position that there is not.
+  [[nodiscard]] material_set subset(const std::vector<std::size_t>& positions) const {
+    material_set some{cells, {}, cell_matrix(values.rows(), 3 * std::ssize(positions))};
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const std::size_t from = positions[i];
+      if (from >= names.size())
+        throw error("there is no material " + std::to_string(from) + " among " + std::to_string(names.size()));
+      some.names.push_back(names[from]);
+      some.values.middleCols(static_cast<Eigen::Index>(3 * i), 3) =
+          values.middleCols(static_cast<Eigen::Index>(3 * from), 3);
+    }
+    return some;
   }
 };
 
