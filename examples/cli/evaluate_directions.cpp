@@ -1,9 +1,11 @@
 /// gonio evaluate directions: where to measure; published sets and ours on materials that neither has seen.
 
+#include "../lab/near_field_lab.hpp"
 #include "design_search.hpp"
 #include "evaluate.hpp"
 #include "progress_bar.hpp"
 #include "resumable_results.hpp"
+#include "solver_choice.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
@@ -23,7 +25,8 @@ struct directions_options {
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
   std::string geometry = "point";
-  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0;
+  std::string reconstruction_eta;
+  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0;
   std::uint64_t seed = 0;
   bool print_json = false;
   gonio::thread_count threads;
@@ -91,15 +94,47 @@ std::optional<designed> find_set(const laboratory& lab, const directions_options
   return design(lab.prior, search_for(options, set, count), listener);
 }
 
+bool takes_pictures(const directions_options& options) {
+  return options.geometry != "point" && options.geometry != "sphere";
+}
+
+/// All pictures of a material, each by the simulated laboratory with defects of its own.
+gonio::sample_set photographed(const gonio::brdf_table& material, const directions_options& options,
+                               const designed& found, std::uint64_t seed) {
+  const gonio::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
+  const gonio::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
+  gonio::sample_set all;
+  for (const auto& [wi, wo] : found.poses) {
+    const gonio::near_field_setup setup{
+        .camera = gonio::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels), .light = {wi}, .disc = disc};
+    const gonio::image picture = lab::photograph(
+        material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.misplacement)}, ++seed);
+    const gonio::sample_set samples = gonio::near_field_samples(picture, setup);
+    all.insert(all.end(), samples.begin(), samples.end());
+  }
+  return all;
+}
+
+/// What is measured of a material. Its defects come from its number.
+gonio::sample_set measured(const gonio::brdf_table& material, const directions_options& options, const designed& found,
+                           std::size_t number) {
+  const std::uint64_t seed = options.seed + 1000 * number;
+  if (takes_pictures(options)) return photographed(material, options, found, seed);
+  const gonio::measurement_defects defects{.noise = options.noise};
+  if (options.misplacement > 0.0)
+    return gonio::spoil(gonio::measure_misplaced(material, found.poses, gonio::radians(options.misplacement), seed),
+                        defects, seed, [](auto&) { return gonio::rgb(gonio::rgb::Zero()); });
+  return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
+}
+
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
   const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
-  std::vector<std::size_t> cells;
-  const gonio::grid& grid = lab.truths.cells.grid();
-  for (const gonio::half_difference& angles : found.samples)
-    cells.push_back(lab.truths.cells.representative(grid.linear(grid.nearest(angles))));
-  const auto results =
-      gonio::reconstruct_from_cells(lab.prior, options.eta, cells, lab.truths, lab.prior.metric(), lab.judge,
-                                    options.threads, {.noise = options.noise}, options.seed);
+  const std::string eta = options.reconstruction_eta.empty() ? std::to_string(options.eta) : options.reconstruction_eta;
+  const gonio::decomposition estimator{lab.prior, make_solver({"tikhonov", eta}, {})};
+  const auto results = gonio::reconstruct_each(
+      estimator,
+      [&](const gonio::brdf_table& truth, std::size_t number) { return measured(truth, options, found, number); },
+      lab.truths, lab.prior.metric(), lab.judge, options.threads);
   json poses = json::array();
   for (const auto& [wi, wo] : found.poses)
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
@@ -120,6 +155,8 @@ void print_row(const std::string& set, std::size_t count, const json& result) {
 }
 
 void run(const directions_options& options) {
+  if (options.geometry == "sphere" && options.misplacement > 0.0)
+    throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
   progress_bar bar;
   const auto listener = bar.listener();
   resumable_results results(options.state);
@@ -133,6 +170,8 @@ void run(const directions_options& options) {
                      set,
                      options.eta,
                      options.noise,
+                     options.misplacement,
+                     options.reconstruction_eta,
                      options.step,
                      options.seed};
       const json* result = results.find(key);
@@ -176,7 +215,13 @@ void add_directions(CLI::App& evaluate) {
       ->capture_default_str();
   command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
   command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
+  command->add_option("--reconstruction-eta", options->reconstruction_eta,
+                      "Penalty of the reconstruction where it is another than the design's: a number, gcv or loo");
   command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
+  command
+      ->add_option("--misplaced", options->misplacement,
+                   "Degrees by which light and viewer are off their places, towards random sides")
+      ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
   command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
   command->add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");

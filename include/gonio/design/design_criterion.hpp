@@ -52,7 +52,7 @@ namespace detail {
   return gram.llt();
 }
 
-inline void require_penalty(double eta) {
+inline void require_positive_eta(double eta) {
   if (!(eta > 0.0 && std::isfinite(eta))) throw error("eta must be positive, not " + std::to_string(eta));
 }
 
@@ -65,7 +65,7 @@ inline void require_penalty(double eta) {
 class d_optimality {
  public:
   /// Throws gonio::error unless eta is positive.
-  explicit d_optimality(double eta = 40.0) : eta_(eta) { detail::require_penalty(eta); }
+  explicit d_optimality(double eta = 40.0) : eta_(eta) { detail::require_positive_eta(eta); }
 
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
     return -detail::certainty(components, eta_).matrixLLT().diagonal().array().log().sum();
@@ -84,7 +84,7 @@ class a_optimality {
   /// `energies`: |Q e_j|^2 of each component j, which for scaled principal components is the singular value squared.
   /// Throws gonio::error unless eta is positive and the energies are finite, not negative, and not all zero.
   explicit a_optimality(Eigen::VectorXd energies, double eta = 40.0) : energies_(std::move(energies)), eta_(eta) {
-    detail::require_penalty(eta);
+    detail::require_positive_eta(eta);
     if (!energies_.allFinite() || !(energies_.array() >= 0.0).all() || !(energies_.sum() > 0.0))
       throw error("the components' energies must be finite, not negative, and not all zero");
   }

@@ -3,6 +3,7 @@
 /// "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition", Eq. 12-15.
 
 #include <gonio/basis/pca.hpp>
+#include <gonio/design/design_criterion.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -51,8 +52,7 @@ class expected_error {
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
       : options_(options), coefficients_(basis.coefficients().template cast<double>()) {
-    if (!(options.eta > 0.0 && std::isfinite(options.eta)))
-      throw error("eta must be positive, not " + std::to_string(options.eta));
+    detail::require_positive_eta(options.eta);
     if (!(options.noise >= 0.0 && std::isfinite(options.noise)))
       throw error("the noise must be finite and not negative, not " + std::to_string(options.noise));
     const auto k = static_cast<Eigen::Index>(basis.size());
@@ -118,6 +118,8 @@ class expected_error {
   Eigen::MatrixXd coefficients_, weighted_;
   Eigen::VectorXd energies_;
 };
+
+static_assert(design_criterion<expected_error>);
 
 /// Measurements to which another one is added. A = I - (SQ)' K^-1 (SQ), what they leave unknown, then changes by a
 /// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared

@@ -26,6 +26,15 @@ struct near_field_options {
   capture_constraint constraint = {};
 };
 
+/// The camera of such a picture: at distance 1 in the direction wo, its square picture just around the disc, whose
+/// radius is tan(field_of_view / 2).
+[[nodiscard]] inline pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels) {
+  // The disc is inside a ball of its radius, which spans its arcsine to all sides at distance 1.
+  const double half = std::asin(std::tan(field_of_view / 2.0));
+  const direction up = std::abs(wo.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
+  return pinhole_camera::look_at(camera_intrinsics::square(pixels, 2.0 * half), wo, Eigen::Vector3d::Zero(), up);
+}
+
 /// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. An azimuth and
 /// its negative give mirror images of one another: they are from 0 to pi.
 class near_field_geometry {
@@ -90,9 +99,7 @@ class near_field_geometry {
   [[nodiscard]] std::vector<half_difference> directions(std::size_t candidate) const {
     const direction_pair pose = centre(candidate);
     const double radius = std::tan(options_.field_of_view / 2.0);
-    // The disc is inside a ball of its radius, which spans asin(radius) to all sides at distance 1.
-    const auto camera = pinhole_camera::look_at(camera_intrinsics::square(options_.pixels, 2.0 * std::asin(radius)),
-                                                pose.wo, Eigen::Vector3d::Zero(), upward(pose.wo));
+    const pinhole_camera camera = near_field_camera(pose.wo, options_.field_of_view, options_.pixels);
     std::vector<half_difference> seen;
     for (std::size_t row = 0; row < options_.pixels; ++row)
       for (std::size_t column = 0; column < options_.pixels; ++column) {
@@ -115,10 +122,6 @@ class near_field_geometry {
   }
 
  private:
-  [[nodiscard]] static direction upward(const direction& w) noexcept {
-    return std::abs(w.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
-  }
-
   [[nodiscard]] double polar(const std::optional<double>& fixed, int steps) const noexcept {
     return fixed ? *fixed : options_.step * steps;
   }

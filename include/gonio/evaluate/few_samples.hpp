@@ -9,24 +9,37 @@
 #include <gonio/solve/tikhonov.hpp>
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace gonio {
 
-/// Measures each truth at cells of its table, reconstructs it by an estimator, and compares over the truth's cells in
-/// the domain of `metric`. A material's defects come from `seed` plus its number.
+/// Reconstructs each truth by an estimator from `measure(truth, its number)`, and compares over the truth's cells in
+/// the domain of `metric`.
+template <estimator Estimator, error_metric Metric, class Measure>
+requires std::is_invocable_r_v<sample_set, Measure&, const brdf_table&, std::size_t>
+[[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
+                                                            const material_set& truths, const Metric& metric,
+                                                            const appearance_judge& judge, thread_count threads = {}) {
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const brdf_table truth = truths.table(m);
+    const brdf_table estimate = estimator.fit(sample_set(measure(truth, m))).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
+  }
+  return results;
+}
+
+/// The same from the cells of its table. A material's defects come from `seed` plus its number.
 template <estimator Estimator, error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Estimator& estimator, std::span<const std::size_t> cells, const material_set& truths, const Metric& metric,
     const appearance_judge& judge, thread_count threads = {}, const measurement_defects& defects = {},
     std::uint64_t seed = 0) {
-  std::vector<material_result> results;
-  for (std::size_t m = 0; m < truths.names.size(); ++m) {
-    const brdf_table truth = truths.table(m);
-    const brdf_table estimate = estimator.fit(measure(truth, cells, defects, seed + m)).tabulate(truths.cells, threads);
-    results.push_back({truths.names[m], compare(estimate, truth, metric, judge, threads)});
-  }
-  return results;
+  return reconstruct_each(
+      estimator,
+      [&](const brdf_table& truth, std::size_t number) { return measure(truth, cells, defects, seed + number); },
+      truths, metric, judge, threads);
 }
 
 /// The same by a prior with Tikhonov's penalty eta (Eq. 12).

@@ -5,8 +5,11 @@
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <span>
@@ -21,6 +24,29 @@ struct measurement_defects {
   /// Standard deviation of Gaussian noise relative to the value, independent in each channel.
   double noise = 0.0;
 };
+
+/// A direction above the horizon turned by an angle in radians towards a random side; kept above the horizon.
+template <class Generator>
+[[nodiscard]] direction misplaced(const direction& w, double angle, Generator& generator) {
+  std::uniform_real_distribution<double> any_side(0.0, 2.0 * std::numbers::pi);
+  const direction across = std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX();
+  const direction side = Eigen::AngleAxisd(any_side(generator), w) * w.cross(across).normalized();
+  const direction turned = std::cos(angle) * w + std::sin(angle) * side;
+  return turned.z() > 0.0 ? turned : w;
+}
+
+/// The table's values, interpolated, where light and viewer are each off their directions by an angle in radians, as
+/// samples of the directions that were meant.
+[[nodiscard]] inline sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
+                                                  double angle, std::uint64_t seed = 0) {
+  std::mt19937_64 generator(seed);
+  sample_set samples;
+  for (const auto& [wi, wo] : pairs) {
+    const direction light = misplaced(wi, angle, generator), viewer = misplaced(wo, angle, generator);
+    samples.push_back({to_half_difference(wi, wo), table(light, viewer), 1.0});
+  }
+  return samples;
+}
 
 /// How many of `all` a share of them, between 0 and 1, is: at least one.
 [[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
