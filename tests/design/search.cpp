@@ -67,6 +67,26 @@ TEST_CASE("growing finds all three places from many tries, and the same for a se
   CHECK_THROWS_AS(static_cast<void>(grown(small_cells().size() + 1, 5, 1)), gonio::error);
 }
 
+TEST_CASE("values may be negative or infinite: ties and rounding are no improvements, and every search ends") {
+  using gonio::detail::improves;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double on : {-3.0, 3.0}) {
+    CHECK_FALSE(improves(on, on));
+    CHECK_FALSE(improves(std::nextafter(on, -infinity), on));
+    CHECK(improves(on - 1e-6, on));
+    CHECK_FALSE(improves(on - 1e-7, on, 1e-6));
+  }
+  CHECK(improves(0.0, infinity));
+  CHECK_FALSE(improves(infinity, infinity));
+  CHECK(improves(-1e-300, 0.0));
+
+  const auto below_zero = [](std::span<const std::size_t> cells) { return distance_from_places(cells) - 100.0; };
+  const capture_plan found = gonio::grow_and_descend(small_points(), below_zero, 3, 20, 6),
+                     same = gonio::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
+  CHECK(found.candidates == same.candidates);
+  CHECK(found.value == doctest::Approx(same.value - 100.0));
+}
+
 TEST_CASE("random swaps never make it worse, and all cells are a choice, too") {
   double before = 1e9;
   for (const std::size_t swaps : {0u, 10u, 100u, 5000u}) {

@@ -51,7 +51,7 @@ template <sweeping_objective Objective>
     capture_plan other = plan;
     other.candidates[position] = detail::best_addition(objective, detail::all_but(plan.candidates, position));
     other.value = objective(other.candidates);
-    if (other.value < plan.value * (1.0 - 1e-6)) {
+    if (detail::improves(other.value, plan.value, 1e-6)) {
       plan = std::move(other);
       without_improvement = 1;  // this one is the best in its place now
     } else {

@@ -8,6 +8,7 @@
 #include <gonio/design/capture_geometry.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
@@ -87,8 +88,10 @@ template <plan_objective Objective>
   }
 }
 
-/// Relative improvements below this are rounding.
-inline constexpr double smallest_improvement = 1e-12;
+/// Is a value better than another by more than rounding? Either may be negative: some criteria are logarithms.
+[[nodiscard]] inline bool improves(double value, double on, double rounding = 1e-12) noexcept {
+  return value < on && (std::isinf(on) || on - value > rounding * std::abs(on));
+}
 
 /// Moves one candidate of a plan to the best of its six neighbours at a distance, if that is an improvement.
 template <capture_geometry Geometry, plan_objective Objective>
@@ -103,7 +106,7 @@ template <capture_geometry Geometry, plan_objective Objective>
       const std::optional<std::size_t> to = geometry.stepped(from, step);
       if (!to) continue;
       const double value = value_with(*to);
-      if (!(value < plan.value * (1.0 - smallest_improvement))) continue;
+      if (!improves(value, plan.value)) continue;
       plan.value = value;
       plan.candidates[position] = *to;
     }
@@ -182,7 +185,7 @@ template <capture_geometry Geometry, plan_objective Objective>
     const std::vector<std::size_t> others = detail::all_but(plan.candidates, position);
     const std::size_t candidate = detail::another_candidate(others, geometry, generator);
     const double value = detail::value_of_replacement(objective, plan.candidates, position)(candidate);
-    if (!(value < plan.value * (1.0 - detail::smallest_improvement))) continue;
+    if (!detail::improves(value, plan.value)) continue;
     plan.candidates[position] = candidate;
     plan.value = value;
   }
