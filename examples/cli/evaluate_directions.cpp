@@ -10,6 +10,7 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/io/samples.hpp>
 
 #include <iostream>
 #include <memory>
@@ -20,7 +21,7 @@ namespace cli {
 namespace {
 
 struct directions_options {
-  std::filesystem::path networks, state;
+  std::filesystem::path networks, state, folder;
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
@@ -154,6 +155,18 @@ void print_row(const std::string& set, std::size_t count, const json& result) {
             << fixed(errors["delta_e_lights"], 2) << " | " << fixed(errors["peak_ratio"], 2) << " |\n";
 }
 
+/// A set as a file of directions that is named after what it is for.
+void write_set(const directions_options& options, const json& row) {
+  const auto vector = [](const json& w) { return gonio::direction(w[0], w[1], w[2]); };
+  std::vector<gonio::direction_pair> poses;
+  for (const json& pose : row["result"]["poses"]) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
+  std::string name = options.geometry;
+  if (takes_pictures(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
+  name += '-' + std::to_string(row["count"].get<int>()) + '-' + row["set"].get<std::string>() + ".csv";
+  std::filesystem::create_directories(options.folder);
+  gonio::io::write_direction_pairs(options.folder / name, poses);
+}
+
 void run(const directions_options& options) {
   if (options.geometry == "sphere" && options.misplacement > 0.0)
     throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
@@ -187,6 +200,8 @@ void run(const directions_options& options) {
     }
   bar.wipe();
 
+  if (!options.folder.empty())
+    for (const json& row : all) write_set(options, row);
   if (options.print_json) {
     std::cout << all.dump(2) << '\n';
     return;
@@ -224,6 +239,7 @@ void add_directions(CLI::App& evaluate) {
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
   command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command->add_option("--write", options->folder, "Folder to write each set to, as directions (.csv)");
   command->add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
   add_threads_option(*command, options->threads);
   command->callback([options] { run(*options); });

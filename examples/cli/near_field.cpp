@@ -1,10 +1,14 @@
-/// gonio near-field: pictures of a flat sample, taken from close by, as measurements.
+/// gonio near-field: pictures of a flat sample, taken from close by, as measurements: of one material, or of each of
+/// several that clusters of colours tell apart.
 
 #include "command.hpp"
+#include "inputs.hpp"
+#include <gonio/capture/colour_clusters.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/samples.hpp>
 
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -16,47 +20,155 @@ namespace cli {
 
 namespace {
 
-struct samples_options {
+struct near_field_command {
   std::vector<std::pair<std::string, std::string>> pictures;  ///< each with its set-up
-  std::filesystem::path output;
+  std::string clusters;                                       ///< a number, auto, or empty: one material
+  std::filesystem::path labels, output;
+  std::uint64_t seed = 0;
+  gonio::thread_count threads;
 };
 
-gonio::sample_set samples_of_picture(const std::filesystem::path& picture, const std::filesystem::path& setup) {
-  const gonio::near_field_setup taken = gonio::io::read_near_field_setup(setup);
-  const gonio::image pixels = gonio::io::read_hdr(picture);
+/// A picture and how it was taken.
+struct taken_picture {
+  std::string file, setup_file;
+  gonio::image pixels;
+  gonio::near_field_setup setup;
+};
+
+std::vector<taken_picture> read_pictures(const near_field_command& options) {
+  std::vector<taken_picture> taken;
+  for (const auto& [picture, setup] : options.pictures) {
+    if (setup.empty()) throw gonio::error("pictures: " + picture + " is not followed by its set-up");
+    gonio::near_field_setup read = gonio::io::read_near_field_setup(setup);
+    taken.push_back({picture, setup, gonio::io::read_hdr(picture), std::move(read)});
+  }
+  return taken;
+}
+
+gonio::sample_set samples_of(const taken_picture& picture) {
   try {
-    return gonio::near_field_samples(pixels, taken);
+    return gonio::near_field_samples(picture.pixels, picture.setup);
   } catch (const gonio::error& refusal) {
-    throw gonio::error(picture.string() + " (as " + setup.string() + " says): " + refusal.what());
+    throw gonio::error(picture.file + " (as " + picture.setup_file + " says): " + refusal.what());
   }
 }
 
-void write_samples_of_pictures(const samples_options& options) {
+/// All pictures' samples in one file; prints how many each has.
+void write_samples_of_all(const std::vector<taken_picture>& pictures, const std::filesystem::path& output) {
   gonio::sample_set all;
   std::string counts;
-  for (const auto& [picture, setup] : options.pictures) {
-    if (setup.empty()) throw gonio::error("pictures: " + picture + " is not followed by its set-up");
-    const gonio::sample_set samples = samples_of_picture(picture, setup);
-    counts += picture + ": " + std::to_string(samples.size()) + " samples\n";
+  for (const taken_picture& picture : pictures) {
+    const gonio::sample_set samples = samples_of(picture);
+    counts += picture.file + ": " + std::to_string(samples.size()) + " samples\n";
     all.insert(all.end(), samples.begin(), samples.end());
   }
-  gonio::io::write_samples(options.output, all);
+  gonio::io::write_samples(output, all);
   std::cout << counts;
+}
+
+// ---- several materials -------------------------------------------------------------------------
+
+/// Pixels are the same points of the sample only if the camera stood still.
+void require_fixed_camera(const std::vector<taken_picture>& pictures) {
+  const gonio::pinhole_camera& first = pictures.front().setup.camera;
+  for (const taken_picture& picture : pictures) {
+    const gonio::pinhole_camera& camera = picture.setup.camera;
+    if (camera.intrinsics().rows != first.intrinsics().rows ||
+        camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
+        camera.rotation() != first.rotation())
+      throw gonio::error(picture.setup_file +
+                         ": --clusters needs a camera that stands still, and this is another one than in " +
+                         pictures.front().setup_file);
+  }
+}
+
+/// Clusters of the pixels of a picture's region by their reflectance.
+gonio::colour_clusters clusters_of(const taken_picture& picture, const std::vector<std::size_t>& region,
+                                   const near_field_command& options) {
+  static_cast<void>(samples_of(picture));  // refuses what is no picture of the sample
+  const std::size_t columns = picture.setup.camera.intrinsics().columns;
+  gonio::point_matrix colours(std::ssize(region), 3);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i) {
+    const std::size_t number = region[static_cast<std::size_t>(i)];
+    const gonio::rgb value = gonio::pixel(picture.pixels, number / columns, number % columns);
+    colours.row(i) = (value / picture.setup.light.irradiance).matrix().transpose();
+  }
+  if (options.clusters == "auto")
+    return gonio::cluster_colours(colours, gonio::cluster_count_choice{}, options.seed, options.threads);
+  Eigen::Index count = 0;
+  const std::string& text = options.clusters;
+  const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (failed != std::errc() || end != text.data() + text.size() || count < 1)
+    throw gonio::error("--clusters is auto or a positive number, not '" + text + "'");
+  return gonio::cluster_colours(colours, count, options.seed, options.threads);
+}
+
+/// FILE.csv of material 2 is FILE-2.csv.
+std::filesystem::path path_of_material(const std::filesystem::path& output, std::size_t material) {
+  std::filesystem::path path = output;
+  path.replace_filename(output.stem().string() + '-' + std::to_string(material + 1) + output.extension().string());
+  return path;
+}
+
+/// Each material's pixels in its mean colour, the brightest channel of all of them white; black around.
+gonio::image label_map(const gonio::colour_clusters& clusters, const std::vector<std::size_t>& region,
+                       const gonio::camera_intrinsics& size) {
+  gonio::image map = gonio::uniform_image(size.rows, size.columns);
+  const double brightest = std::max(clusters.centres.maxCoeff(), 1e-30);
+  for (std::size_t i = 0; i < region.size(); ++i)
+    gonio::set_pixel(
+        map, region[i] / size.columns, region[i] % size.columns,
+        gonio::rgb(clusters.centres.row(clusters.labels[static_cast<Eigen::Index>(i)]).transpose().array() /
+                   brightest));
+  return map;
+}
+
+/// A file of samples for each material. Its pixels are those of its cluster in the last picture.
+void write_samples_of_each(std::vector<taken_picture> pictures, const near_field_command& options) {
+  require_fixed_camera(pictures);
+  const taken_picture& diffuse = pictures.back();
+  const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
+  const std::vector<std::size_t> region = gonio::pixels_of_region(diffuse.setup);
+  const gonio::colour_clusters clusters = clusters_of(diffuse, region, options);
+  if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
+  for (std::size_t material = 0; material < clusters.count(); ++material) {
+    std::vector<bool> mask(size.rows * size.columns, false);
+    for (const std::size_t pixel : clusters.pixels(material)) mask[region[pixel]] = true;
+    for (taken_picture& picture : pictures) picture.setup.mask = mask;
+    const std::filesystem::path path = path_of_material(options.output, material);
+    std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n";
+    write_samples_of_all(pictures, path);
+  }
+}
+
+void run(const near_field_command& options) {
+  if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
+  std::vector<taken_picture> pictures = read_pictures(options);
+  if (options.clusters.empty())
+    write_samples_of_all(pictures, options.output);
+  else
+    write_samples_of_each(std::move(pictures), options);
 }
 
 }  // namespace
 
 void add_near_field(CLI::App& app) {
   auto* command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
-  const auto options = std::make_shared<samples_options>();
+  const auto options = std::make_shared<near_field_command>();
   command
       ->add_option("pictures", options->pictures,
                    "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
                    "light and region of interest")
       ->type_name("PICTURE SETUP")
       ->required();
+  command->add_option("--clusters", options->clusters,
+                      "Several materials: how many, or auto; told apart by colour in the last picture, which should "
+                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
+  command->add_option("--labels", options->labels, "Picture of which pixels are which material (.png)");
+  command->add_option("--seed", options->seed, "Seed of the clusters")->capture_default_str();
+  add_threads_option(*command, options->threads);
   command->add_option("-o,--output", options->output, "Samples to write (.csv)")->required();
-  command->callback([options] { write_samples_of_pictures(*options); });
+  command->callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -113,6 +113,22 @@ TEST_CASE("the region is the disc, the window, or both") {
   CHECK(static_cast<double>(beside) == doctest::Approx(static_cast<double>(disc)).epsilon(0.05));
 }
 
+TEST_CASE("a mask leaves pixels out, and the region's pixels are those that bring samples") {
+  auto setup = ordinary_setup();
+  const image picture = lab::photograph(paint, *setup.disc, setup);
+  const auto region = gonio::pixels_of_region(setup);
+  const auto all = near_field_samples(picture, setup);
+  REQUIRE(region.size() == all.size());
+  setup.mask.assign(60 * 80, false);
+  for (std::size_t i = 0; i < region.size(); i += 2) setup.mask[region[i]] = true;
+  const auto half = near_field_samples(picture, setup);
+  REQUIRE(half.size() == (all.size() + 1) / 2);
+  for (std::size_t i = 0; i < half.size(); ++i) CHECK(half[i].angles.theta_h == all[2 * i].angles.theta_h);
+  CHECK(gonio::pixels_of_region(setup).size() == half.size());
+  setup.mask.pop_back();
+  CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(picture, setup)), doctest::Contains("mask"), gonio::error);
+}
+
 TEST_CASE("blocks average their pixels, and count by their share") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);

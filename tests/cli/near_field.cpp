@@ -70,6 +70,38 @@ TEST_CASE("pictures become samples of the paint, and these a table") {
   CHECK(shots.has("paint.binary"));
 }
 
+TEST_CASE("two materials in one picture get a file each, and a map of where they are") {
+  const two_shots shots;
+  const gonio::formula_brdf other = gonio::formula_material("blue-rubber");
+  for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
+    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    gonio::image picture = gonio::io::read_hdr(shots.at(name) + ".hdr");
+    const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup);
+    for (std::size_t row = 0; row < 40; ++row)
+      for (std::size_t column = 0; column < 18; ++column)
+        gonio::set_pixel(picture, row, column, gonio::pixel(patch, row, column));
+    gonio::io::write_hdr(shots.at(name) + ".hdr", picture);
+  }
+  const auto result = gonio_tool("near-field " + shots.shot("first") + shots.shot("second") +
+                                 "--clusters auto --labels " + shots.at("map.png") + " -o " + shots.at("m.csv"));
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  CHECK_FALSE(shots.has("m-3.csv"));
+  CHECK(shots.has("map.png"));
+  const auto agrees = [&](const std::string& file, const gonio::formula_brdf& material) {
+    const auto samples = gonio::io::read_samples(shots.at(file));
+    CHECK(samples.size() > 50);
+    return std::ranges::all_of(samples, [&](const gonio::sample& s) {
+      if (s.weight != 1.0) return true;  // of a block at the border
+      const auto [wi, wo] = gonio::to_directions(s.angles);
+      const gonio::rgb truth = material(wi, wo);
+      return (s.value - truth).abs().maxCoeff() <= 0.05 * truth.maxCoeff();
+    });
+  };
+  CHECK(agrees("m-1.csv", shots.paint));
+  CHECK(agrees("m-2.csv", other));
+  CHECK_FALSE(agrees("m-2.csv", shots.paint));
+}
+
 TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
   const two_shots shots;
   const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {
@@ -95,5 +127,12 @@ TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
   refused(with_setup(camera + "light 0 0 1\n"), {"bad.txt", "'region' or 'window' is missing"});
   refused(with_setup("size 40 48" + first.substr(10)), {"first.hdr", "bad.txt", "48 x 40", "40 x 48"});
   refused(with_setup(first + "saturation 1e-6\n"), {"first.hdr", "saturated"});
+  refused(shots.shot("first") + "--labels x.png", {"--labels", "--clusters"});
+  refused(shots.shot("first") + "--clusters many", {"--clusters", "many"});
+  refused(shots.shot("first") + "--clusters 0", {"--clusters", "0"});
+  scratch::put(shots.at("moved.txt"),
+               "size 48 40\nfocal_length 95 100\nposition 0.7 0 0.6\ntarget 0 0 0\nlight 0 0 1\nregion 0.2\n");
+  refused(shots.shot("first") + shots.at("second.hdr") + " " + shots.at("moved.txt") + " --clusters 2",
+          {"moved.txt", "stands still"});
   refused(with_setup(camera + "light 0 0 1\nregion 0.01 5 5\n"), {"first.hdr", "sees nothing of the sample"});
 }

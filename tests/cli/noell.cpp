@@ -1,14 +1,12 @@
 /// The experiments after Noell et al. 2014 on a few made-up materials.
 
-#include "../io/scratch.hpp"
+#include "made_up_networks.hpp"
 #include "tool.hpp"
-#include <gonio/io/npy.hpp>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <random>
 #include <sstream>
 #include <string>
 
@@ -17,16 +15,7 @@ namespace {
 /// A folder with five networks of random weights, named a to e.
 class made_up_database {
  public:
-  made_up_database() {
-    xt::xtensor<float, 2> weights(std::array<std::size_t, 2>{5, 675});
-    std::mt19937 generator(7);
-    std::normal_distribution<float> normal(0.0f, 0.3f);
-    for (float& weight : weights) weight = normal(generator);
-    for (std::size_t i = 0; i < 5; ++i)
-      for (std::size_t c = 672; c < 675; ++c) weights(i, c) = 0.2f;  // none is black
-    gonio::io::write_npy(folder_ / "n.npy", weights);
-    scratch::put(folder_ / "merl_names.txt", "a\nb\nc\nd\ne\n");
-  }
+  made_up_database() { write_made_up_networks(folder_, {"a", "b", "c", "d", "e"}); }
 
   [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
 

@@ -1,15 +1,12 @@
 /// gonio evaluate soft-specular on a few made-up materials.
 
-#include "../io/scratch.hpp"
+#include "made_up_networks.hpp"
 #include "tool.hpp"
 #include <gonio/evaluate/material_result.hpp>
-#include <gonio/io/npy.hpp>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <random>
 #include <string>
 
 namespace {
@@ -20,17 +17,7 @@ class made_up_database {
   made_up_database() {
     std::vector<std::string> names = gonio::nielsen_test_materials();
     for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
-    xt::xtensor<float, 2> weights(std::array<std::size_t, 2>{names.size(), 675});
-    std::mt19937 generator(7);
-    std::normal_distribution<float> normal(0.0f, 0.3f);
-    for (float& weight : weights) weight = normal(generator);
-    std::string lines;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      for (std::size_t c = 672; c < 675; ++c) weights(i, c) = 0.2f;  // none is black
-      lines += names[i] + '\n';
-    }
-    gonio::io::write_npy(folder_ / "n.npy", weights);
-    scratch::put(folder_ / "merl_names.txt", lines);
+    write_made_up_networks(folder_, names);
   }
 
   [[nodiscard]] auto evaluate(const std::string& arguments) const {

@@ -66,6 +66,36 @@ TEST_CASE("noise is relative and has the asked deviation") {
   CHECK(std::sqrt(sum / 9000) == doctest::Approx(0.1).epsilon(0.03));
 }
 
+TEST_CASE("misplaced directions are off by the angle and above the horizon") {
+  std::mt19937_64 generator(5);
+  for (const double theta : {0.0, 0.3, 1.0, 1.57}) {
+    const gonio::direction w = gonio::spherical_direction(theta, 2.0);
+    for (int trial = 0; trial < 50; ++trial) {
+      const gonio::direction off = gonio::misplaced(w, 0.01, generator);
+      CHECK(off.norm() == doctest::Approx(1.0));
+      CHECK(off.z() > 0.0);
+      const double angle = std::atan2(w.cross(off).norm(), w.dot(off));
+      CHECK((angle == doctest::Approx(0.01) || (angle < 1e-12 && theta > 1.55)));  // else it would be below the horizon
+    }
+  }
+}
+
+TEST_CASE("a misplaced measurement says the directions that were meant") {
+  const std::vector<gonio::direction_pair> pairs{
+      {gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.6, 3.0)},
+      {gonio::spherical_direction(0.2, 1.0), gonio::spherical_direction(1.2, 0.0)}};
+  const auto exact = gonio::measure_misplaced(table(), pairs, 0.0),
+             off = gonio::measure_misplaced(table(), pairs, 0.05, 3);
+  REQUIRE(off.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto angles = gonio::to_half_difference(pairs[i].wi, pairs[i].wo);
+    CHECK(off[i].angles.theta_h == angles.theta_h);
+    CHECK((exact[i].value - table()(pairs[i].wi, pairs[i].wo)).abs().maxCoeff() < 1e-6);
+  }
+  CHECK((off[0].value - exact[0].value).abs().maxCoeff() > 0.0);
+  CHECK((gonio::measure_misplaced(table(), pairs, 0.05, 3)[1].value == off[1].value).all());
+}
+
 TEST_CASE("impossible defects and directions are refused") {
   const auto cells = random_cells(table().cells(), 5, 4);
   CHECK_THROWS_AS(static_cast<void>(measure(table(), cells, {.outlier_ratio = 1.5})), gonio::error);

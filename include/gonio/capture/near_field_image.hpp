@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gonio {
 
@@ -46,6 +47,8 @@ struct near_field_setup {
   /// The region of interest: the pixels that see the disc, those in the window, or if both are given, in both.
   std::optional<sample_disc> disc = {};
   std::optional<pixel_window> window = {};
+  /// Whether each pixel counts, row by row, as clusters of materials say it; all do if it is empty.
+  std::vector<bool> mask = {};
   /// Pixels with a channel of this value and more are skipped, and so are the blocks that they are in.
   std::optional<double> saturation = {};
   /// Pixels a side of the blocks that are averaged to one sample: less noise, and fewer samples.
@@ -81,11 +84,24 @@ inline void require_usable(const near_field_setup& setup) {
         "the window must have pixels, all of them in the picture of " + std::to_string(whole.columns) + " x " +
             std::to_string(whole.rows));
   }
+  refuse_unless(
+      setup.mask.empty() || setup.mask.size() == setup.camera.intrinsics().rows * setup.camera.intrinsics().columns,
+      "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the picture");
   if (setup.saturation) refuse_unless(*setup.saturation > 0.0, "the saturation must be positive");
   refuse_unless(setup.block > 0, "a block needs at least one pixel a side");
 }
 
 namespace detail {
+
+/// What a pixel sees of the region of interest, the window apart: the direction towards the camera, if anything.
+[[nodiscard]] inline std::optional<direction> view_of_pixel(const near_field_setup& setup, std::size_t row,
+                                                            std::size_t column) {
+  if (!setup.mask.empty() && !setup.mask[row * setup.camera.intrinsics().columns + column]) return {};
+  const ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+  const auto point = line.at_ground();
+  if (!point || (setup.disc && !setup.disc->contains(*point))) return {};
+  return -line.towards;
+}
 
 /// What the pixels of a block that see the region add up to.
 struct pixel_block {
@@ -97,9 +113,8 @@ struct pixel_block {
 
 inline void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
                       pixel_block& block) {
-  const ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-  const auto point = line.at_ground();
-  if (!point || (setup.disc && !setup.disc->contains(*point))) return;
+  const std::optional<direction> view = view_of_pixel(setup, row, column);
+  if (!view) return;
   const rgb value = pixel(picture, row, column);
   // In float, as the picture is. Several exposures in one may hold infinity where all of them were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
@@ -108,7 +123,7 @@ inline void add_pixel(const image& picture, const near_field_setup& setup, std::
                 ") is not finite, and it sees the sample");
   block.saturated = block.saturated || saturated;
   block.radiance += value;
-  block.views -= line.towards;
+  block.views += *view;
   ++block.pixels;
 }
 
@@ -124,6 +139,19 @@ inline void require_size(const image& picture, const camera_intrinsics& intrinsi
 }
 
 }  // namespace detail
+
+/// The numbers, row by row, of the pixels that see the region of interest. Throws gonio::error as `require_usable`
+/// does.
+[[nodiscard]] inline std::vector<std::size_t> pixels_of_region(const near_field_setup& setup) {
+  require_usable(setup);
+  const camera_intrinsics& whole = setup.camera.intrinsics();
+  const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
+  std::vector<std::size_t> seen;
+  for (std::size_t row = window.row; row < window.row + window.rows; ++row)
+    for (std::size_t column = window.column; column < window.column + window.columns; ++column)
+      if (detail::view_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
+  return seen;
+}
 
 /// One sample for each block of pixels that see the region of interest, row by row from the picture's (or the
 /// window's) top left corner. Value and viewing direction are the means of those pixels, the weight is their share of

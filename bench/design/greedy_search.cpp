@@ -1,0 +1,123 @@
+/// What a design costs with all components of 90 materials over all cells of MERL's grid (or what the shipped prior
+/// remembers): E(S) of 20 samples, the set-up of the candidates, and sweeps over all cells as the next sample, beside
+/// reading as many bytes.
+
+#include "../real_materials.hpp"
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/design/cell_candidates.hpp>
+#include <gonio/design/exhaustive_search.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <numeric>
+
+namespace {
+
+/// Both cores of the machine that the figures in the documentation are from.
+constexpr gonio::thread_count threads{2};
+
+const gonio::log_relative_pca& prior() {
+  static const auto learned = [] {
+    gonio::material_set materials = real_materials();
+    std::vector<std::size_t> first(std::min<std::size_t>(materials.names.size(), 90));
+    std::iota(first.begin(), first.end(), std::size_t{0});
+    gonio::material_set training = materials.subset(first);
+    const auto metric = gonio::log_relative::to_median_of(training, threads);
+    auto pca = gonio::learn_pca(std::move(training), metric, 300, threads);
+    std::cerr << pca.cells().size() << " cells, " << pca.size() << " components, " << pca.coefficients().rows()
+              << " observations\n";
+    return pca;
+  }();
+  return learned;
+}
+
+const gonio::cell_candidates& candidates() {
+  static const gonio::cell_candidates all(prior(), gonio::expected_error(prior()), {}, threads);
+  return all;
+}
+
+/// A choice of cells far from one another.
+std::vector<std::size_t> some_cells(std::size_t count) {
+  std::vector<std::size_t> cells;
+  for (std::size_t i = 0; i < count; ++i) cells.push_back((i * 7919 + 13) * 137 % candidates().size());
+  return cells;
+}
+
+void error_of_20(benchmark::State& state) {
+  const auto cells = some_cells(20);
+  for (auto _ : state) benchmark::DoNotOptimize(candidates()(cells));
+}
+BENCHMARK(error_of_20)->Unit(benchmark::kMicrosecond);
+
+/// As a descent asks: the other 19 stay where they are.
+void error_of_one_beside_19(benchmark::State& state) {
+  const auto cells = some_cells(19);
+  const auto with = candidates().beside(cells);
+  std::size_t cell = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(with(cell = (cell + 4099) % candidates().size()));
+}
+BENCHMARK(error_of_one_beside_19)->Unit(benchmark::kMicrosecond);
+
+void set_up(benchmark::State& state) {
+  static_cast<void>(prior());
+  for (auto _ : state) {
+    const gonio::cell_candidates all(prior(), gonio::expected_error(prior()), {}, threads);
+    benchmark::DoNotOptimize(all.size());
+  }
+}
+BENCHMARK(set_up)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(2);
+
+/// The bytes of Y and W, which a sweep reads once, and its operations.
+void sweep(benchmark::State& state) {
+  const auto n = static_cast<std::size_t>(state.range(0));
+  const auto cells = some_cells(n);
+  for (auto _ : state) benchmark::DoNotOptimize(candidates().errors_with_each(cells).data());
+  const double entries = static_cast<double>(candidates().size()) * static_cast<double>(prior().coefficients().rows());
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(8.0 * entries));
+  state.counters["GF/s"] = benchmark::Counter(entries * (8.0 * static_cast<double>(n) + 10.0) * 1e-9,
+                                              benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(sweep)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+/// The yardsticks of this machine: reading as many bytes, and a product of floats by Eigen on both cores.
+void read_as_many_bytes(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(2 * prior().coefficients().rows()) * candidates().size();
+  const std::vector<float> values(count, 1.0f);
+  for (auto _ : state) {
+    std::vector<float> sums((count + 65535) / 65536);
+    gonio::for_each_block(
+        sums.size(), 1,
+        [&](gonio::block range) {
+          const std::size_t begin = range.begin * 65536, size = std::min<std::size_t>(65536, count - begin);
+          sums[range.begin] =
+              Eigen::Map<const Eigen::ArrayXf>(values.data() + begin, static_cast<Eigen::Index>(size)).sum();
+        },
+        threads);
+    benchmark::DoNotOptimize(sums.data());
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(4 * count));
+}
+BENCHMARK(read_as_many_bytes)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void product(benchmark::State& state) {
+  constexpr Eigen::Index size = 1024;
+  const Eigen::MatrixXf a = Eigen::MatrixXf::Ones(size, size);
+  std::array<Eigen::MatrixXf, 2> results;
+  for (auto _ : state)
+    gonio::for_each_block(
+        2, 1, [&](gonio::block range) { results[range.begin].noalias() = a * a; }, threads);
+  benchmark::DoNotOptimize(results[0].data());
+  state.counters["GF/s"] =
+      benchmark::Counter(2.0 * 2.0 * size * size * size * 1e-9, benchmark::Counter::kIsIterationInvariantRate);
+}
+BENCHMARK(product)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+void grow_20(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::grow_greedily(candidates(), 20).value);
+}
+BENCHMARK(grow_20)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
+
+}  // namespace

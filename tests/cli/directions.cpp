@@ -1,0 +1,52 @@
+/// gonio evaluate directions on a few made-up materials.
+
+#include "made_up_networks.hpp"
+#include "tool.hpp"
+#include <gonio/evaluate/material_result.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <string>
+
+TEST_CASE("sets of directions are judged, kept, and written") {
+  const scratch::folder folder;
+  std::vector<std::string> names = gonio::nielsen_test_materials();
+  for (const char* name : {"a", "b", "c", "d"}) names.emplace_back(name);
+  write_made_up_networks(folder, names);
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  const auto evaluate = [&](const std::string& arguments) {
+    return gonio_tool("evaluate directions --networks " + at("n.npy") + " " + arguments);
+  };
+
+  const std::string points =
+      "-n 2 5 --sets published industry random --state " + at("state") + " --write " + at("sets");
+  const auto table = evaluate(points);
+  REQUIRE_MESSAGE(table.exit_code == 0, table.output);
+  CHECK(table.output.find("| 2 | published |") != std::string::npos);
+  CHECK(table.output.find("| 2 | industry |") == std::string::npos);  // which are five
+  CHECK(table.output.find("| 5 | industry |") != std::string::npos);
+  CHECK(gonio::io::read_direction_pairs(folder / "sets" / "point-5-industry.csv").size() == 5);
+  const std::string kept = scratch::get(folder / "state");
+  CHECK(evaluate(points).output == table.output);
+  CHECK(scratch::get(folder / "state") == kept);
+
+  const auto defects = evaluate("-n 5 --sets published --noise 0.05 --misplaced 2 --json");
+  REQUIRE_MESSAGE(defects.exit_code == 0, defects.output);
+  const auto clean = evaluate("-n 5 --sets published --json");
+  const auto rms = [](const std::string& output) {
+    return nlohmann::json::parse(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
+  };
+  CHECK(rms(defects.output) != rms(clean.output));
+
+  const auto pictures =
+      evaluate("--geometry near-field -n 1 --step 40 --sets expected-error --noise 0.02 --misplaced 0.5 --json");
+  REQUIRE_MESSAGE(pictures.exit_code == 0, pictures.output);
+  CHECK(nlohmann::json::parse(pictures.output)[0]["result"]["samples"].get<int>() > 100);
+
+  const auto refused = evaluate("--geometry sphere --misplaced 1");
+  CHECK(refused.exit_code == 2);
+  CHECK(std::ranges::count(refused.output, '\n') == 1);
+}
