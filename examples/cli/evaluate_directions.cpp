@@ -141,18 +141,24 @@ json judged(const laboratory& lab, const directions_options& options, const desi
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
   const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
   return {{"expected_error", quality.expected_error},
-          {"condition", std::isfinite(condition) ? json(condition) : json()},
+          {"condition", condition},
           {"samples", found.samples.size()},
           {"errors", mean_errors(results)},
           {"poses", poses}};
 }
 
+/// JSON has no infinity: it comes back as null.
+std::string printed(const json& value, int digits) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) return "infinite";
+  return fixed(value, digits);
+}
+
 void print_row(const std::string& set, std::size_t count, const json& result) {
   const json& errors = result["errors"];
-  std::cout << "| " << count << " | " << set << " | " << fixed(result["expected_error"], 4) << " | ";
-  std::cout << (result["condition"].is_number() ? fixed(result["condition"], 2) : "infinite");
-  std::cout << " | " << fixed(errors["mapped_rms"], 3) << " | " << fixed(errors["delta_e_env"], 2) << " | "
-            << fixed(errors["delta_e_lights"], 2) << " | " << fixed(errors["peak_ratio"], 2) << " |\n";
+  std::cout << "| " << count << " | " << set << " | " << printed(result["expected_error"], 4) << " | "
+            << printed(result["condition"], 2) << " | " << printed(errors["mapped_rms"], 3) << " | "
+            << printed(errors["delta_e_env"], 2) << " | " << printed(errors["delta_e_lights"], 2) << " | "
+            << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
 /// A set as a file of directions that is named after what it is for.
