@@ -1,7 +1,7 @@
 /// gonio evaluate soft-specular on a few made-up materials.
 
+#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include "tool.hpp"
 #include <gonio/evaluate/material_result.hpp>
 
 #include <doctest/doctest.h>

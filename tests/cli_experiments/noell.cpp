@@ -1,7 +1,7 @@
 /// The experiments after Noell et al. 2014 on a few made-up materials.
 
+#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include "tool.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
