@@ -72,21 +72,21 @@ designed point_samples(const std::vector<gonio::half_difference>& directions) {
   return set;
 }
 
-/// Nothing where there is no such set.
-std::optional<designed> find_set(const laboratory& lab, const directions_options& options, const std::string& set,
-                                 std::size_t count, const gonio::progress& listener) {
+/// Sets that are not searched for are of points, and of the numbers that somebody published.
+bool exists(const directions_options& options, const std::string& set, std::size_t count) {
   const bool points = options.geometry == "point";
-  if (set == "published") {
-    if (!points || std::ranges::find(gonio::nielsen_direction_counts, count) == gonio::nielsen_direction_counts.end())
-      return {};
-    return point_samples(gonio::nielsen_directions(count));
-  }
-  if (set == "industry") {
-    if (!points || count != 5) return {};
-    return point_samples(gonio::westlund_meyer_directions());
-  }
+  if (set == "published")
+    return points && std::ranges::find(gonio::nielsen_direction_counts, count) != gonio::nielsen_direction_counts.end();
+  if (set == "industry") return points && count == gonio::westlund_meyer_directions().size();
+  return set != "random" || points;
+}
+
+/// A set that exists.
+designed find_set(const laboratory& lab, const directions_options& options, const std::string& set, std::size_t count,
+                  const gonio::progress& listener) {
+  if (set == "published") return point_samples(gonio::nielsen_directions(count));
+  if (set == "industry") return point_samples(gonio::westlund_meyer_directions());
   if (set == "random") {
-    if (!points) return {};
     std::vector<gonio::half_difference> directions;
     for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
       directions.push_back(lab.truths.cells.angles(cell));
@@ -195,11 +195,11 @@ void run(const directions_options& options) {
                      options.seed};
       const json* result = results.find(key);
       if (!result) {
+        if (!exists(options, set, count)) continue;
         if (!lab) lab.emplace(open_laboratory(options, listener));
-        const auto found = find_set(*lab, options, set, count, listener);
-        if (!found) continue;
+        const designed found = find_set(*lab, options, set, count, listener);
         gonio::report(listener, "judging " + std::to_string(count) + " of " + set, 0.0);
-        results.add(key, judged(*lab, options, *found));
+        results.add(key, judged(*lab, options, found));
         result = results.find(key);
       }
       all.push_back({{"set", set}, {"count", count}, {"result", *result}});

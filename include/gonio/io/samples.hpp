@@ -15,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace gonio::io {
@@ -212,6 +213,15 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
   if (rows == 0) throw error(name + ": has a header line but no samples, expected at least one");
 }
 
+/// What `of` makes of each row of a file of directions.
+template <class Of>
+[[nodiscard]] auto read_rows(const std::filesystem::path& path, Of&& of) {
+  const auto bytes = read_bytes(path);
+  std::vector<decltype(of(std::declval<const parsed_row&>()))> all;
+  parse_rows(as_text(bytes), path.string(), false, [&](const parsed_row& row) { all.push_back(of(row)); });
+  return all;
+}
+
 }  // namespace detail
 
 /// Samples from the text of a CSV file; `name` is what errors call it.
@@ -235,20 +245,12 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
 
 /// Reads directions alone; the file may have `r,g,b` and `weight` columns, which are checked and left out.
 [[nodiscard]] inline std::vector<half_difference> read_directions(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  std::vector<half_difference> directions;
-  detail::parse_rows(detail::as_text(bytes), path.string(), false,
-                     [&](const detail::parsed_row& row) { directions.push_back(detail::row_angles(row)); });
-  return directions;
+  return detail::read_rows(path, [](const detail::parsed_row& row) { return detail::row_angles(row); });
 }
 
 /// Reads the same files as pairs, in which light and viewer are told apart.
 [[nodiscard]] inline std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  std::vector<direction_pair> pairs;
-  detail::parse_rows(detail::as_text(bytes), path.string(), false,
-                     [&](const detail::parsed_row& row) { pairs.push_back(detail::row_directions(row)); });
-  return pairs;
+  return detail::read_rows(path, [](const detail::parsed_row& row) { return detail::row_directions(row); });
 }
 
 /// Writes pairs as `theta_i,phi_i,theta_o,phi_o`, rounded to 1e-9 degrees.
