@@ -17,7 +17,7 @@ namespace {
 struct design_command {
   std::filesystem::path prior, constraint, start, output;
   design_options design;
-  double field_of_view = 25.0, step = 5.0;
+  double field_of_view = 25.0, step = 5.0, misplacement = 0.0;
   bool print_json = false;
 };
 
@@ -26,6 +26,7 @@ void run(design_command command) {
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
+  command.design.misplacement = gonio::radians(command.misplacement);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
@@ -81,6 +82,10 @@ void add_design(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--eta", design.eta, "Tikhonov's penalty of the reconstruction")->capture_default_str();
   command->add_option("--noise", design.noise, "Deviation of every measurement's logarithm")->capture_default_str();
+  command
+      ->add_option("--misplaced", options->misplacement,
+                   "Points: degrees by which light and viewer may each be off their directions")
+      ->capture_default_str();
   command->add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       ->capture_default_str();
   command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();

@@ -1,5 +1,6 @@
 #include "design_search.hpp"
 
+#include <gonio/basis/misplacement.hpp>
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/exhaustive_search.hpp>
@@ -70,8 +71,11 @@ designed by_expected_error(const prior_t& prior, const Geometry& geometry, const
                            const gonio::progress& listener) {
   gonio::expected_error criterion = criterion_of(prior, options);
   if constexpr (std::is_same_v<Geometry, gonio::point_geometry>) {
-    const gonio::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
-                                            options.threads);
+    const std::vector<double> own_etas = options.misplacement > 0.0
+                                             ? gonio::misplacement_etas(prior, options.misplacement, options.threads)
+                                             : std::vector<double>{};
+    const gonio::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint, options.threads,
+                                            own_etas);
     return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
                                                           : sweep(candidates, options, listener));
   } else {
@@ -115,6 +119,12 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 }  // namespace
 
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener) {
+  const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
+  if (options.misplacement != 0.0 && !(options.geometry == "point" && expects_errors))
+    throw gonio::error("directions that are not quite met are expected of points alone, by the expected error");
+  if (!(options.misplacement >= 0.0 && options.misplacement < gonio::radians(45.0)))
+    throw gonio::error("directions may be off by 0 to 45 degrees, not by " +
+                       std::to_string(gonio::degrees(options.misplacement)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
     return with(prior, gonio::point_geometry(prior.cells(), near_field.constraint), options, listener);

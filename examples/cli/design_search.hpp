@@ -16,6 +16,7 @@ struct design_options {
   std::size_t count = 20;
   std::string geometry = "point", criterion = "expected-error", search = "exchange";
   double eta = 40.0, noise = 0.0;
+  double misplacement = 0.0;                 ///< radians by which light and viewer may be off: of points
   gonio::near_field_options near_field;      ///< its constraint holds for points, too
   std::vector<gonio::direction_pair> start;  ///< above the horizon
   std::uint64_t seed = 0;

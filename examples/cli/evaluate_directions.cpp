@@ -10,6 +10,8 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/misplaced_decomposition.hpp>
+#include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <iostream>
@@ -27,7 +29,7 @@ struct directions_options {
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
   std::string geometry = "point";
   std::string reconstruction_eta;
-  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0;
+  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0, expected = 0.0;
   std::uint64_t seed = 0;
   bool print_json = false;
   gonio::thread_count threads;
@@ -60,6 +62,8 @@ design_options search_for(const directions_options& options, const std::string& 
   search.noise = options.noise;
   search.near_field.field_of_view = gonio::radians(options.field_of_view);
   search.near_field.step = gonio::radians(options.step);
+  if (options.geometry == "point" && (criterion == "expected-error" || criterion == "perceived"))
+    search.misplacement = gonio::radians(options.expected);
   search.seed = options.seed;
   search.threads = options.threads;
   return search;
@@ -100,27 +104,23 @@ bool takes_pictures(const directions_options& options) {
 }
 
 /// All pictures of a material, each by the simulated laboratory with defects of its own.
-gonio::sample_set photographed(const gonio::brdf_table& material, const directions_options& options,
-                               const designed& found, std::uint64_t seed) {
+std::vector<gonio::picture_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
+                                                 const designed& found, std::uint64_t seed) {
   const gonio::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
   const gonio::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
-  gonio::sample_set all;
+  std::vector<gonio::picture_samples> pictures;
   for (const auto& [wi, wo] : found.poses) {
     const gonio::near_field_setup setup{
         .camera = gonio::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels), .light = {wi}, .disc = disc};
     const gonio::image picture = lab::photograph(
         material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.misplacement)}, ++seed);
-    const gonio::sample_set samples = gonio::near_field_samples(picture, setup);
-    all.insert(all.end(), samples.begin(), samples.end());
+    pictures.push_back(gonio::near_field_pairs(picture, setup));
   }
-  return all;
+  return pictures;
 }
 
-/// What is measured of a material. Its defects come from its number.
-gonio::sample_set measured(const gonio::brdf_table& material, const directions_options& options, const designed& found,
-                           std::size_t number) {
-  const std::uint64_t seed = options.seed + 1000 * number;
-  if (takes_pictures(options)) return photographed(material, options, found, seed);
+gonio::sample_set sampled(const gonio::brdf_table& material, const directions_options& options, const designed& found,
+                          std::uint64_t seed) {
   const gonio::measurement_defects defects{.noise = options.noise};
   if (options.misplacement > 0.0)
     return gonio::spoil(gonio::measure_misplaced(material, found.poses, gonio::radians(options.misplacement), seed),
@@ -128,14 +128,43 @@ gonio::sample_set measured(const gonio::brdf_table& material, const directions_o
   return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
+/// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
+gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab, const gonio::brdf_table& material,
+                                                          const directions_options& options, const designed& found,
+                                                          std::uint64_t seed) {
+  const double expected = gonio::radians(options.expected);
+  const gonio::decomposition trusting{
+      lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", std::to_string(options.eta)})};
+  if (!takes_pictures(options)) {
+    const gonio::sample_set samples = sampled(material, options, found, seed);
+    if (!(expected > 0.0)) return trusting.fit(samples);
+    return gonio::misplaced_decomposition{lab.prior, options.eta, expected, options.threads}.fit(samples);
+  }
+  const auto pictures = photographed(material, options, found, seed);
+  if (expected > 0.0) {
+    gonio::pose_refinement refinement(lab.prior, pictures,
+                                      {.eta = options.eta, .deviation = expected, .threads = options.threads});
+    refinement.solve();
+    return refinement.fit();
+  }
+  gonio::sample_set all;
+  for (const gonio::picture_samples& picture : pictures) {
+    const gonio::sample_set samples = gonio::as_sample_set(picture);
+    all.insert(all.end(), samples.begin(), samples.end());
+  }
+  return trusting.fit(all);
+}
+
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
   const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
-  const std::string eta = options.reconstruction_eta.empty() ? std::to_string(options.eta) : options.reconstruction_eta;
-  const gonio::decomposition estimator{lab.prior, make_solver({"tikhonov", eta}, {})};
-  const auto results = gonio::reconstruct_each(
-      estimator,
-      [&](const gonio::brdf_table& truth, std::size_t number) { return measured(truth, options, found, number); },
-      lab.truths, lab.prior.metric(), lab.judge, options.threads);
+  std::vector<gonio::material_result> results;
+  for (std::size_t number = 0; number < lab.truths.names.size(); ++number) {
+    const gonio::brdf_table truth = lab.truths.table(number);
+    const auto estimate = reconstructed(lab, truth, options, found, options.seed + 1000 * number);
+    results.push_back(
+        {lab.truths.names[number], gonio::compare(estimate.tabulate(lab.truths.cells, options.threads), truth,
+                                                  lab.prior.metric(), lab.judge, options.threads)});
+  }
   json poses = json::array();
   for (const auto& [wi, wo] : found.poses)
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
@@ -176,6 +205,8 @@ void write_set(const directions_options& options, const json& row) {
 void run(const directions_options& options) {
   if (options.geometry == "sphere" && options.misplacement > 0.0)
     throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
+  if (options.expected > 0.0 && (options.geometry == "sphere" || !options.reconstruction_eta.empty()))
+    throw gonio::error("--expected-misplacement is of points and near-field pictures, and of --eta alone");
   progress_bar bar;
   const auto listener = bar.listener();
   resumable_results results(options.state);
@@ -192,7 +223,8 @@ void run(const directions_options& options) {
                      options.misplacement,
                      options.reconstruction_eta,
                      options.step,
-                     options.seed};
+                     options.seed,
+                     options.expected};
       const json* result = results.find(key);
       if (!result) {
         if (!exists(options, set, count)) continue;
@@ -242,6 +274,11 @@ void add_directions(CLI::App& evaluate) {
   command
       ->add_option("--misplaced", options->misplacement,
                    "Degrees by which light and viewer are off their places, towards random sides")
+      ->capture_default_str();
+  command
+      ->add_option("--expected-misplacement", options->expected,
+                   "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
+                   "of pictures, by a reconstruction that finds where they were")
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
   command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");

@@ -4,6 +4,7 @@
 #include "command.hpp"
 #include "inputs.hpp"
 #include <gonio/capture/colour_clusters.hpp>
+#include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/samples.hpp>
@@ -23,7 +24,8 @@ namespace {
 struct near_field_command {
   std::vector<std::pair<std::string, std::string>> pictures;  ///< each with its set-up
   std::string clusters;                                       ///< a number, auto, or empty: one material
-  std::filesystem::path labels, output;
+  std::filesystem::path labels, prior, output;
+  double misplacement = 0.0;  ///< degrees; 0: light and cameras are in their places
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };
@@ -45,23 +47,41 @@ std::vector<taken_picture> read_pictures(const near_field_command& options) {
   return taken;
 }
 
-gonio::sample_set samples_of(const taken_picture& picture) {
+gonio::picture_samples samples_of(const taken_picture& picture) {
   try {
-    return gonio::near_field_samples(picture.pixels, picture.setup);
+    return gonio::near_field_pairs(picture.pixels, picture.setup);
   } catch (const gonio::error& refusal) {
     throw gonio::error(picture.file + " (as " + picture.setup_file + " says): " + refusal.what());
   }
 }
 
+std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
+
+/// The samples where light and cameras are found to be; says by how much these were off.
+gonio::sample_set refined(const std::vector<taken_picture>& pictures, std::vector<gonio::picture_samples> samples,
+                          const near_field_command& options) {
+  gonio::pose_refinement refinement(gonio::io::read_prior(options.prior), std::move(samples),
+                                    {.deviation = gonio::radians(options.misplacement), .threads = options.threads});
+  refinement.solve();
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    std::cout << pictures[i].file << ": light off by " << angle_of(refinement.turns()[i].light)
+              << " degrees, camera by " << angle_of(refinement.turns()[i].camera) << '\n';
+  return refinement.samples();
+}
+
 /// All pictures' samples in one file; prints how many each has.
-void write_samples_of_all(const std::vector<taken_picture>& pictures, const std::filesystem::path& output) {
+void write_samples_of_all(const std::vector<taken_picture>& pictures, const near_field_command& options,
+                          const std::filesystem::path& output) {
   gonio::sample_set all;
+  std::vector<gonio::picture_samples> each;
   std::string counts;
   for (const taken_picture& picture : pictures) {
-    const gonio::sample_set samples = samples_of(picture);
+    each.push_back(samples_of(picture));
+    const gonio::sample_set samples = gonio::as_sample_set(each.back());
     counts += picture.file + ": " + std::to_string(samples.size()) + " samples\n";
     all.insert(all.end(), samples.begin(), samples.end());
   }
+  if (options.misplacement != 0.0) all = refined(pictures, std::move(each), options);
   gonio::io::write_samples(output, all);
   std::cout << counts;
 }
@@ -137,7 +157,7 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const near_field
     for (taken_picture& picture : pictures) picture.setup.mask = mask;
     const std::filesystem::path path = path_of_material(options.output, material);
     std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n";
-    write_samples_of_all(pictures, path);
+    write_samples_of_all(pictures, options, path);
   }
 }
 
@@ -145,7 +165,7 @@ void run(const near_field_command& options) {
   if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
   std::vector<taken_picture> pictures = read_pictures(options);
   if (options.clusters.empty())
-    write_samples_of_all(pictures, options.output);
+    write_samples_of_all(pictures, options, options.output);
   else
     write_samples_of_each(std::move(pictures), options);
 }
@@ -165,6 +185,12 @@ void add_near_field(CLI::App& app) {
                       "Several materials: how many, or auto; told apart by colour in the last picture, which should "
                       "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
   command->add_option("--labels", options->labels, "Picture of which pixels are which material (.png)");
+  command
+      ->add_option("--misplaced", options->misplacement,
+                   "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
+                   "the help of --prior")
+      ->capture_default_str();
+  add_prior_option(*command, options->prior);
   command->add_option("--seed", options->seed, "Seed of the clusters")->capture_default_str();
   add_threads_option(*command, options->threads);
   command->add_option("-o,--output", options->output, "Samples to write (.csv)")->required();

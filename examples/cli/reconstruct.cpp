@@ -32,7 +32,7 @@ const std::vector<method>& methods() {
        "principal components (Nielsen et al. 2015)",
        reconstruct_by_components,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
-        "--variance"}},  // refuses some of them itself, and says why
+        "--variance", "--misplaced"}},  // refuses some of them itself, and says why
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,
@@ -157,6 +157,12 @@ void add_reconstruct(CLI::App& app) {
   command->add_option("--root", options->root, "Which root --metric root takes")->capture_default_str();
   add_solver_options(*command, options->solver);
   add_correction_options(*command, *options);
+  command
+      ->add_option(
+          "--misplaced", options->misplacement,
+          "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
+          "of highlights count less then (for pictures: gonio near-field --misplaced)")
+      ->capture_default_str();
   command->add_option("-o,--output", options->output, "Table to write (.binary)");
   command->add_option("--image", options->picture, "Picture of a sphere to write (.png)");
   command->add_flag("--json", options->print_json, "Print the result of the fit as JSON");

@@ -5,6 +5,7 @@
 #include "progress_bar.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -28,13 +29,27 @@ void describe(const gonio::solution& found, std::size_t samples, reconstruction&
                     fixed(used.y(), 0) + ' ' + fixed(used.z(), 0);
 }
 
+template <class Fit>
+reconstruction described(const Fit& fitted, std::size_t samples, gonio::thread_count threads) {
+  reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
+  describe(fitted.found(), samples, result);
+  return result;
+}
+
 template <class Basis, class Solver>
 reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample_set& samples,
                    gonio::thread_count threads) {
-  const auto fitted = gonio::decomposition{basis, solver, threads}.fit(samples);
-  reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
-  describe(fitted.found(), samples.size(), result);
-  return result;
+  return described(gonio::decomposition{basis, solver, threads}.fit(samples), samples.size(), threads);
+}
+
+/// Samples whose light and viewer may be off their directions.
+reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const std::string eta = options.solver.eta.empty() ? "40" : options.solver.eta;
+  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || eta == "gcv" || eta == "loo")
+    throw gonio::error("--misplaced needs --solver tikhonov and a number as its --eta");
+  const gonio::misplaced_decomposition estimator{gonio::io::read_prior(options.materials.prior), number_of_eta(eta),
+                                                 gonio::radians(options.misplacement), options.threads};
+  return described(estimator.fit(samples), samples.size(), options.threads);
 }
 
 }  // namespace
@@ -50,6 +65,7 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
                        " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
+  if (options.misplacement != 0.0) return reconstruct_misplaced(options, samples);
   return fit(gonio::io::read_prior(options.materials.prior), solver, samples, options.threads);
 }
 

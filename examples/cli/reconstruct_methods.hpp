@@ -19,7 +19,7 @@ namespace cli {
 struct reconstruct_options {
   std::filesystem::path samples, output, picture, history, story, truth;
   std::string method = "pca", metric, gamma = "auto";
-  double root = 2.0;
+  double root = 2.0, misplacement = 0.0;
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;

@@ -26,14 +26,18 @@ struct relative_lasso {
 gonio::any_solver make_tikhonov(const std::string& eta) {
   if (eta == "gcv") return gonio::automatic_tikhonov(gonio::eta_criterion::generalised_cross_validation);
   if (eta == "loo") return gonio::automatic_tikhonov(gonio::eta_criterion::leave_one_out);
-  double value = 0.0;
-  const auto [end, status] = std::from_chars(eta.data(), eta.data() + eta.size(), value);
-  if (status != std::errc() || end != eta.data() + eta.size())
-    throw gonio::error("--eta is a positive number, gcv or loo, not '" + eta + "'");
-  return gonio::tikhonov(value);
+  return gonio::tikhonov(number_of_eta(eta));
 }
 
 }  // namespace
+
+double number_of_eta(const std::string& text) {
+  double value = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (status != std::errc() || end != text.data() + text.size())
+    throw gonio::error("--eta is a positive number, gcv or loo, not '" + text + "'");
+  return value;
+}
 
 void add_solver_options(CLI::App& command, solver_choice& choice) {
   command

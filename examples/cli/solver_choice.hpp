@@ -19,6 +19,9 @@ struct solver_choice {
 /// Adds `--solver`, `--eta`, `--lambda` and `--variance`.
 void add_solver_options(CLI::App& command, solver_choice& choice);
 
+/// `--eta` as a number. Throws gonio::error unless it is one.
+[[nodiscard]] double number_of_eta(const std::string& text);
+
 /// The solver chosen, where `own` has what is not said. Throws gonio::error if an option's value is impossible.
 [[nodiscard]] gonio::any_solver make_solver(solver_choice choice, const solver_choice& own);
 

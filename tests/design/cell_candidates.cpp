@@ -4,10 +4,23 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
+namespace {
+
+/// Some cells have none, others much more than eta.
+std::vector<double> made_up_own_etas() {
+  std::vector<double> etas(small_cells().size());
+  for (std::size_t cell = 0; cell < etas.size(); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
+  return etas;
+}
+
+}  // namespace
+
 TEST_CASE("all additions at once are what each is by itself") {
-  for (const double noise : {0.0, 0.4}) {
+  const std::vector<double> none, some = made_up_own_etas();
+  for (const auto& [noise, own_etas] :
+       {std::pair{0.0, none}, std::pair{0.4, none}, std::pair{0.0, some}, std::pair{0.4, some}}) {
     // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
-    const auto candidates = made_up_candidates({.eta = 4.0, .noise = noise});
+    const auto candidates = made_up_candidates({.eta = 4.0, .noise = noise}, {}, own_etas);
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
@@ -32,4 +45,12 @@ TEST_CASE("the same bytes for any number of threads") {
              three = made_up_candidates({.eta = 2.0, .noise = 0.1}, {3});
   CHECK(one.errors_with_each(cells) == three.errors_with_each(cells));
   CHECK(one(cells) == three(cells));
+}
+
+TEST_CASE("errors of their own are those of all cells, and sensible") {
+  std::vector<double> etas = made_up_own_etas();
+  etas.pop_back();
+  CHECK_THROWS_WITH_AS(made_up_candidates({}, {}, etas), doctest::Contains("etas of their own for"), gonio::error);
+  etas.push_back(-1.0);
+  CHECK_THROWS_WITH_AS(made_up_candidates({}, {}, etas), doctest::Contains("not negative"), gonio::error);
 }

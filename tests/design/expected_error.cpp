@@ -61,6 +61,29 @@ TEST_CASE("cells count as much as the norm says") {
         doctest::Approx(as_printed(measured, 0.7, 0.2, weights)).epsilon(1e-6));
 }
 
+TEST_CASE("errors of their own: the reconstruction expects them, and they add their mean square") {
+  const Eigen::MatrixXd measured = components_at({3, 60, 200, 222, 310}),
+                        q = candidate_basis().components().cast<double>(),
+                        c = candidate_basis().coefficients().cast<double>();
+  const double eta = 0.7, m = static_cast<double>(c.rows());
+  const expected_error criterion(candidate_basis(), {.eta = eta});
+  auto rows = criterion.prepare(measured);
+  rows.own_eta << 0.0, 0.3, 5.0, 1e-3, 40.0;
+
+  Eigen::MatrixXd k = measured * measured.transpose();
+  k.diagonal() += (eta + rows.own_eta.array()).matrix();
+  const Eigen::MatrixXd inverse = measured.transpose() * k.inverse(), spread = q * inverse;
+  const double own = (spread.colwise().squaredNorm() * rows.own_eta / m).value();
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < c.rows(); ++i) {
+    const Eigen::VectorXd y = c.row(i).transpose();
+    sum += std::sqrt((q * (y - inverse * (measured * y))).squaredNorm() + own);
+  }
+  CHECK(own > 0.0);
+  CHECK(criterion(rows) == doctest::Approx(sum / m).epsilon(1e-6));
+  CHECK(criterion(rows) > criterion(measured));
+}
+
 TEST_CASE("nothing measured: the mean distance of the materials from their mean; more measurements leave less") {
   const expected_error criterion(candidate_basis(), {.eta = 1e-3});
   const auto error = [&](const std::vector<std::size_t>& cells) {

@@ -10,6 +10,7 @@ inline const gonio::log_relative_pca& candidate_basis() {
 }
 
 inline gonio::cell_candidates made_up_candidates(const gonio::expected_error_options& options = {.eta = 0.5},
-                                                 gonio::thread_count threads = {}) {
-  return {candidate_basis(), gonio::expected_error(candidate_basis(), options), {}, threads};
+                                                 gonio::thread_count threads = {},
+                                                 std::span<const double> own_etas = {}) {
+  return {candidate_basis(), gonio::expected_error(candidate_basis(), options), {}, threads, own_etas};
 }

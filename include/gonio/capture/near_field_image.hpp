@@ -8,7 +8,7 @@
 
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/sample_set.hpp>
+#include <gonio/table/picture_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -160,9 +160,9 @@ inline void require_size(const image& picture, const camera_intrinsics& intrinsi
 /// ```cpp
 /// const gonio::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples =
-///     gonio::near_field_samples(picture, {.camera = camera, .light = lamp, .disc = gonio::sample_disc{0.2}});
+///     gonio::near_field_pairs(picture, {.camera = camera, .light = lamp, .disc = gonio::sample_disc{0.2}});
 /// ```
-[[nodiscard]] inline sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
+[[nodiscard]] inline picture_samples near_field_pairs(const image& picture, const near_field_setup& setup) {
   require_usable(setup);
   const camera_intrinsics& whole = setup.camera.intrinsics();
   detail::require_size(picture, whole);
@@ -172,7 +172,7 @@ inline void require_size(const image& picture, const camera_intrinsics& intrinsi
   const rgb reflected = setup.light.irradiance * setup.light.towards.z();
   const double pixels_of_block = static_cast<double>(setup.block) * static_cast<double>(setup.block);
 
-  sample_set samples;
+  picture_samples samples;
   bool any_saturated = false;
   for (std::size_t row = window.row; row < last_row; row = end(row, last_row))
     for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {
@@ -181,16 +181,22 @@ inline void require_size(const image& picture, const camera_intrinsics& intrinsi
         for (std::size_t c = column; c < end(column, last_column); ++c) detail::add_pixel(picture, setup, r, c, block);
       any_saturated = any_saturated || block.saturated;
       if (block.pixels == 0 || block.saturated) continue;
-      const half_difference angles = to_half_difference(setup.light.towards, block.views.normalized());
+      const direction_pair seen{setup.light.towards, block.views.normalized()};
       // A view that grazes the sample may round to one at the horizon.
-      if (const cosine_pair cosine = cosines(angles); !(cosine.i > 0.0 && cosine.o > 0.0)) continue;
+      const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
+      if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
       const auto pixels = static_cast<double>(block.pixels);
-      samples.push_back({angles, block.radiance / (pixels * reflected), pixels / pixels_of_block});
+      samples.push_back({seen, block.radiance / (pixels * reflected), pixels / pixels_of_block});
     }
   if (samples.empty())
     throw error(any_saturated ? "all that the picture sees of the sample is saturated"
                               : "the picture sees nothing of the sample: no pixel's ray meets the region of interest");
   return samples;
+}
+
+/// The same as samples for any estimator, which light and viewer may change places in.
+[[nodiscard]] inline sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
+  return as_sample_set(near_field_pairs(picture, setup));
 }
 
 }  // namespace gonio

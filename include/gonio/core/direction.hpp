@@ -58,6 +58,14 @@ struct cosine_pair {
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
+/// A direction turned by an angle towards one of its sides, which `side` counts round it: 0 is a side parallel to the
+/// surface, unless the direction is near the normal. All in radians.
+[[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {
+  const direction beside = w.cross(std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX()).normalized();
+  const direction towards = std::cos(side) * beside + std::sin(side) * w.cross(beside);
+  return std::cos(angle) * w + std::sin(angle) * towards;
+}
+
 /// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
 [[nodiscard]] inline double fold_phi_d(double phi) noexcept {
   const double folded = phi - std::numbers::pi * std::floor(phi / std::numbers::pi);

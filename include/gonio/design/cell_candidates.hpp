@@ -19,15 +19,19 @@ namespace gonio {
 /// million cells and 270 observations. With less memory, take fewer components and cells (`thin`).
 class cell_candidates {
  public:
-  /// 4 k m operations a cell.
+  /// 4 k m operations a cell. `own_etas` are those of the errors that a measurement of each cell has of its own, such
+  /// as `misplacement_etas`; none if it is empty. Throws gonio::error unless there is one for each cell, finite and not
+  /// negative.
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
-                  thread_count threads = {})
+                  thread_count threads = {}, std::span<const double> own_etas = {})
       : geometry_(basis.cells(), std::move(constraint)),
         criterion_(std::move(criterion)),
         materials_(static_cast<Eigen::Index>(basis.cells().size()), criterion_.coefficients().rows()),
         weighted_(materials_.rows(), materials_.cols()),
+        own_etas_(Eigen::ArrayXf::Zero(materials_.rows())),
         threads_(threads) {
+    if (!own_etas.empty()) own_etas_ = checked(own_etas, size());
     const Eigen::MatrixXf to_materials = criterion_.coefficients().transpose().cast<float>();
     const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().transpose().cast<float>();
     for (std::size_t cell = 0; cell < size(); ++cell)
@@ -51,11 +55,12 @@ class cell_candidates {
   [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const {
     const auto n = std::ssize(cells);
     expected_error::rows rows{Eigen::MatrixXd(n, materials_.cols()), Eigen::MatrixXd(n, materials_.cols()),
-                              Eigen::VectorXd::Ones(n)};
+                              Eigen::VectorXd::Ones(n), Eigen::VectorXd(n)};
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto cell = static_cast<Eigen::Index>(cells[static_cast<std::size_t>(i)]);
       rows.materials.row(i) = materials_.row(cell).cast<double>();
       rows.weighted.row(i) = weighted_.row(cell).cast<double>();
+      rows.own_eta[i] = double{own_etas_[cell]};
     }
     return rows;
   }
@@ -67,7 +72,7 @@ class cell_candidates {
   [[nodiscard]] auto beside(std::span<const std::size_t> cells) const {
     return [this, with = extended_error<double>(criterion_, rows_of(cells))](std::size_t cell) {
       const expected_error::rows row = rows_of({&cell, 1});
-      return with(row.materials, row.weighted)[0];
+      return with(row.materials, row.weighted, row.own_eta.array())[0];
     };
   }
 
@@ -80,8 +85,8 @@ class cell_candidates {
         size(), 128,
         [&](block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-          Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) =
-              with(materials_.middleRows(begin, count), weighted_.middleRows(begin, count));
+          Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) = with(
+              materials_.middleRows(begin, count), weighted_.middleRows(begin, count), own_etas_.segment(begin, count));
         },
         threads_);
     for (const std::size_t cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
@@ -89,10 +94,20 @@ class cell_candidates {
   }
 
  private:
+  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> own_etas, std::size_t cells) {
+    if (own_etas.size() != cells)
+      throw error(std::to_string(own_etas.size()) + " etas of their own for " + std::to_string(cells) + " cells");
+    for (const double eta : own_etas)
+      if (!(eta >= 0.0 && std::isfinite(eta)))
+        throw error("a cell's own eta must be finite and not negative, not " + std::to_string(eta));
+    return Eigen::Map<const Eigen::ArrayXd>(own_etas.data(), std::ssize(own_etas)).cast<float>();
+  }
+
   point_geometry geometry_;
   expected_error criterion_;
   std::vector<std::size_t> excluded_;
   cell_matrix materials_, weighted_;
+  Eigen::ArrayXf own_etas_;
   thread_count threads_;
 };
 

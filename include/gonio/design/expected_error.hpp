@@ -30,6 +30,11 @@ struct expected_error_options {
 ///
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
+/// A measurement may also have an error of its own, of variance v: a detector's, or that of a direction which is not
+/// quite met (`misplacement_etas`). A weight's variance over the observations is 1 / m, so that the reconstruction
+/// which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every squared error grows
+/// by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average.
+///
 /// Cells that the components are not known for take no part. Where k is less than all components, what the materials
 /// have beyond them is left out: it is the same for all S, but for what it does as noise.
 class expected_error {
@@ -39,6 +44,7 @@ class expected_error {
     Eigen::MatrixXd materials;  ///< Y
     Eigen::MatrixXd weighted;   ///< W
     Eigen::VectorXd noise;      ///< S O of Eq. 13, n values: 1 for a sample by itself
+    Eigen::VectorXd own_eta;    ///< m v of the errors of its own, n values: 0 where there are none
   };
 
   /// Errors over the cells that the components were learned on, all of which count alike.
@@ -71,7 +77,9 @@ class expected_error {
 
   /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const {
-    return {components * coefficients_.transpose(), components * weighted_.transpose(), std::move(noise)};
+    Eigen::VectorXd none = Eigen::VectorXd::Zero(noise.size());
+    return {components * coefficients_.transpose(), components * weighted_.transpose(), std::move(noise),
+            std::move(none)};
   }
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const {
     return prepare(components, Eigen::VectorXd::Ones(components.rows()));
@@ -87,6 +95,7 @@ class expected_error {
   struct remainder {
     Eigen::MatrixXd inverse;         ///< K^-1, n x n
     Eigen::ArrayXd squared_errors;   ///< of each observation
+    Eigen::VectorXd own_variances;   ///< v of each measurement's own error
     Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what noise adds to the weights
     double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
 
@@ -103,10 +112,13 @@ class expected_error {
     left.noise_response = Eigen::VectorXd::Zero(coefficients_.rows());
     if (n == 0) return left;
     Eigen::MatrixXd k = y * y.transpose();
-    k.diagonal().array() += options_.eta;
+    k.diagonal() += (options_.eta + measured.own_eta.array()).matrix();
     left.inverse = k.llt().solve(Eigen::MatrixXd::Identity(n, n));
     const Eigen::MatrixXd b = left.inverse * y, between = w * y.transpose();
     left.squared_errors += ((between * b - 2.0 * w).cwiseProduct(b)).colwise().sum().transpose().array();
+    left.own_variances = measured.own_eta / static_cast<double>(coefficients_.rows());
+    if ((left.own_variances.array() > 0.0).any())
+      left.squared_errors += left.own_variances.dot((left.inverse * between * left.inverse).diagonal());
     const Eigen::VectorXd noise = left.inverse * measured.noise;
     left.noise_response = y.transpose() * noise;
     left.noise_energy = noise.dot(between * noise);
@@ -123,7 +135,9 @@ static_assert(design_criterion<expected_error>);
 
 /// Measurements to which another one is added. A = I - (SQ)' K^-1 (SQ), what they leave unknown, then changes by a
 /// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared
-/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate.
+/// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. With errors of their own, d contains the
+/// candidate's own eta, and with a = K^-1 SQ q, b = K^-1 SQ M A q and its v, all squared errors grow by
+/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more.
 template <class Scalar>
 class extended_error {
  public:
@@ -138,37 +152,54 @@ class extended_error {
     weighted_ = measured.weighted.cast<Scalar>();
     inverse_ = left.inverse.cast<Scalar>();
     squared_errors_ = left.squared_errors.cast<Scalar>().transpose();
+    own_variances_ = left.own_variances.cast<Scalar>();
     noise_response_ = left.noise_response.cast<Scalar>();
     noise_energy_ = static_cast<Scalar>(left.noise_energy);
   }
 
-  /// E with each of some candidates, whose rows of Y and W are given.
-  [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w) const {
+  /// E with each of some candidates, whose rows of Y and W and whose own etas are given.
+  [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
+                                  const Eigen::Ref<const column>& own_eta) const {
     // Take away what the measurements know: from q, then from M q.
-    matrix t = y, once = w;
+    matrix t = y, once = w, known_once, known_twice;
     if (materials_.rows() > 0) {
-      const matrix known = (y * materials_.transpose()) * inverse_;
-      t.noalias() -= known * materials_;
-      once.noalias() -= known * weighted_;
+      known_once = (y * materials_.transpose()) * inverse_;
+      t.noalias() -= known_once * materials_;
+      once.noalias() -= known_once * weighted_;
     }
     matrix twice = once;
     if (materials_.rows() > 0) {
-      const matrix known = (once * materials_.transpose()) * inverse_;
-      twice.noalias() -= known * materials_;
+      known_twice = (once * materials_.transpose()) * inverse_;
+      twice.noalias() -= known_twice * materials_;
     }
-    const column d = eta_ + y.cwiseProduct(t).rowwise().sum().array();
+    const column d = eta_ + own_eta + y.cwiseProduct(t).rowwise().sum().array();
     const column r = t.cwiseProduct(once).rowwise().sum().array();
+    const column grown = own_growth(known_once, known_twice, own_eta, d, r);
     column found(y.rows());
     for (Eigen::Index i = 0; i < y.rows(); ++i) {
       const auto step = t.row(i).array() / d[i];
-      found[i] =
-          (squared_errors_ + step * (r[i] * step - Scalar(2) * twice.row(i).array())).max(Scalar(0)).sqrt().mean();
+      found[i] = (squared_errors_ + (grown[i] + step * (r[i] * step - Scalar(2) * twice.row(i).array())))
+                     .max(Scalar(0))
+                     .sqrt()
+                     .mean();
     }
     if (noise_ > Scalar(0)) found += noise_ * noise(y, once, d, r);
     return found;
   }
 
  private:
+  /// By how much errors of their own add to each squared error, beyond what they do now.
+  [[nodiscard]] column own_growth(const matrix& known_once, const matrix& known_twice,
+                                  const Eigen::Ref<const column>& own_eta, const column& d, const column& r) const {
+    const column v = own_eta / static_cast<Scalar>(squared_errors_.size());
+    column growth = v * r / d.square();
+    if (materials_.rows() == 0) return growth;
+    const matrix spread = known_once * own_variances_.asDiagonal();
+    growth += spread.cwiseProduct(known_once).rowwise().sum().array() * r / d.square();
+    growth -= Scalar(2) * spread.cwiseProduct(known_twice).rowwise().sum().array() / d;
+    return growth;
+  }
+
   /// |Q (SQ)+_eta 1| with each candidate: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
   [[nodiscard]] column noise(const Eigen::Ref<const matrix>& y, const matrix& once, const column& d,
                              const column& r) const {
@@ -180,7 +211,7 @@ class extended_error {
   Scalar eta_, noise_;
   matrix materials_, weighted_, inverse_;
   Eigen::Array<Scalar, 1, Eigen::Dynamic> squared_errors_;
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_, own_variances_;
   Scalar noise_energy_ = Scalar(0);
 };
 

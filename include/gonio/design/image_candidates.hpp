@@ -22,13 +22,14 @@ namespace detail {
 [[nodiscard]] inline expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m) {
   Eigen::Index n = 0;
   for (const auto* part : parts) n += part->noise.size();
-  expected_error::rows all{Eigen::MatrixXd(n, m), Eigen::MatrixXd(n, m), Eigen::VectorXd(n)};
+  expected_error::rows all{Eigen::MatrixXd(n, m), Eigen::MatrixXd(n, m), Eigen::VectorXd(n), Eigen::VectorXd(n)};
   Eigen::Index begin = 0;
   for (const auto* part : parts) {
     const Eigen::Index count = part->noise.size();
     all.materials.middleRows(begin, count) = part->materials;
     all.weighted.middleRows(begin, count) = part->weighted;
     all.noise.segment(begin, count) = part->noise;
+    all.own_eta.segment(begin, count) = part->own_eta;
     begin += count;
   }
   return all;

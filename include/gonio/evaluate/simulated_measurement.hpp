@@ -5,8 +5,6 @@
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -29,10 +27,8 @@ struct measurement_defects {
 template <class Generator>
 [[nodiscard]] direction misplaced(const direction& w, double angle, Generator& generator) {
   std::uniform_real_distribution<double> any_side(0.0, 2.0 * std::numbers::pi);
-  const direction across = std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX();
-  const direction side = Eigen::AngleAxisd(any_side(generator), w) * w.cross(across).normalized();
-  const direction turned = std::cos(angle) * w + std::sin(angle) * side;
-  return turned.z() > 0.0 ? turned : w;
+  const direction elsewhere = turned(w, angle, any_side(generator));
+  return elsewhere.z() > 0.0 ? elsewhere : w;
 }
 
 /// The table's values, interpolated, where light and viewer are each off their directions by an angle in radians, as

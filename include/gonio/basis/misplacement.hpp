@@ -1,0 +1,72 @@
+#pragma once
+/// What it does to measurements that light and viewer are not quite where they are said to be.
+
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/parallel.hpp>
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// A direction turned towards one of its sides; left where it is if that is below the horizon.
+[[nodiscard]] inline direction moved_above(const direction& w, double angle, double side) noexcept {
+  const direction elsewhere = turned(w, angle, side);
+  return elsewhere.z() > 0.0 ? elsewhere : w;
+}
+
+/// A pair whose light, or whose viewer, is turned by an angle towards one of four sides.
+[[nodiscard]] inline std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle) {
+  std::array<direction_pair, 8> pairs;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;
+    pairs[2 * quarter] = {moved_above(meant.wi, angle, side), meant.wo};
+    pairs[2 * quarter + 1] = {meant.wi, moved_above(meant.wo, angle, side)};
+  }
+  return pairs;
+}
+
+}  // namespace detail
+
+/// The penalty that a measurement deserves beyond the prior's eta because light and viewer are each an angle in radians
+/// off their directions, towards unknown sides: m times the variance of the error of its mapped value, over the m
+/// observations of the basis and over the sides.
+///
+/// A value measured at x', taken for one at x, is wrong by (q(x') - q(x)) . c + o, where o is the error of the mean
+/// material: its value at x', mapped as if it were at x. The weights c have orthonormal columns over the observations,
+/// so that m times the mean square is |q(x') - q(x)|^2 + m o^2. Light and viewer move independently: their errors add.
+/// O(k).
+template <error_metric Metric>
+[[nodiscard]] double misplacement_eta(const pca<Metric>& basis, const direction_pair& meant, double angle) {
+  const location here = locate(basis.cells(), to_half_difference(meant.wi, meant.wo));
+  const Eigen::RowVectorXd row = row_at(basis, here);
+  const double mean = offset_at(basis, here), m = static_cast<double>(basis.coefficients().rows());
+  double sum = 0.0;
+  for (const direction_pair& pair : detail::misplaced_pairs(meant, angle)) {
+    const location there = locate(basis.cells(), to_half_difference(pair.wi, pair.wo));
+    const double reflectance = basis.metric().inverse(offset_at(basis, there), there);
+    const double wrong = basis.metric().forward(reflectance, here) - mean;
+    sum += (row_at(basis, there) - row).squaredNorm() + m * wrong * wrong;
+  }
+  return sum / 4.0;
+}
+
+/// The same for a measurement at each cell, for `cell_candidates`.
+template <error_metric Metric>
+[[nodiscard]] std::vector<double> misplacement_etas(const pca<Metric>& basis, double angle, thread_count threads = {}) {
+  std::vector<double> etas(basis.cells().size());
+  for_each_block(
+      etas.size(), 256,
+      [&](block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell)
+          etas[cell] = misplacement_eta(basis, to_directions(basis.cells().angles(cell)), angle);
+      },
+      threads);
+  return etas;
+}
+
+}  // namespace gonio

@@ -1,0 +1,149 @@
+#pragma once
+/// Basis decomposition of samples that are not quite where they are said to be: light and viewer are each off by an
+/// angle, towards sides that nobody knows.
+
+#include <gonio/basis/misplacement.hpp>
+#include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace gonio {
+
+/// The reconstruction of Nielsen et al. 2015, Eq. 12, from samples whose light and viewer may be anywhere on circles of
+/// `angle` radians around their directions.
+///
+/// What a sample then shows is, on average, the mean of the prior's rows over the circles, and a value deviates from it
+/// by d = (q(x) - mean q) . c + o(x) - mean o at a place x, where o is the mean material's value there, mapped as if it
+/// were in place. That is an error of its own of variance v, the mean of d^2: with m observations the penalty m v
+/// beyond eta, or the weight eta / (eta + m v). v depends on the material: it is nothing for a matte one, and much on
+/// the flank of a highlight. It is taken over the prior's observations first (C'C = I: |q(x) - mean q|^2 + m o^2), then
+/// over the colour channels of what was found with it, once more.
+///
+/// The first program is the library's own, the second one judges how much the angle matters.
+/// ```cpp
+/// const auto paint = gonio::misplaced_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
+/// const auto trusting = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
+/// ```
+template <error_metric Metric>
+class misplaced_decomposition {
+ public:
+  /// Throws gonio::error unless eta is positive and the angle from 0 to 45 degrees.
+  misplaced_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
+      : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
+    if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
+      throw error("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
+  }
+
+  /// O(16 n k) for n samples beside the solver's cost. Throws gonio::error for unusable samples.
+  template <sample_range Samples>
+  [[nodiscard]] fitted_brdf<pca<Metric>> fit(const Samples& samples) const {
+    const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
+    const system equations = average(measured);
+    const solution first = solve(equations, measured.weights, equations.own_eta);
+    return {prior_, solve(equations, measured.weights, own_etas(measured, equations, first.weights))};
+  }
+
+ private:
+  static constexpr std::size_t sides = 4;
+
+  /// The equations over the circles.
+  struct system {
+    row_matrix rows;          ///< the mean row of each sample, n x k
+    Eigen::VectorXd offsets;  ///< the mean material's mapped value, n
+    Eigen::MatrixXd right;    ///< mapped values less the offsets, n x 3
+    Eigen::VectorXd own_eta;  ///< m v over the prior's observations, n
+  };
+
+  /// What a sample at one place of its circles would show.
+  struct displaced {
+    std::array<Eigen::RowVectorXd, sides * sides> rows;
+    std::array<double, sides * sides> offsets;
+  };
+
+  [[nodiscard]] displaced around(const location& meant) const {
+    const direction_pair pair = to_directions(meant.angles);
+    displaced all;
+    for (std::size_t place = 0; place < all.rows.size(); ++place) {
+      const direction wi = detail::moved_above(pair.wi, angle_, side(place / sides)),
+                      wo = detail::moved_above(pair.wo, angle_, side(place % sides));
+      const location there = locate(prior_.cells(), to_half_difference(wi, wo));
+      all.rows[place] = row_at(prior_, there);
+      const double reflectance = prior_.metric().inverse(offset_at(prior_, there), there);
+      all.offsets[place] = prior_.metric().forward(reflectance, meant);
+    }
+    return all;
+  }
+
+  template <class Use>
+  void for_each_sample(const located_samples& measured, Use&& use) const {
+    for_each_block(
+        measured.size(), 16,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            use(static_cast<Eigen::Index>(i), measured.at[i], around(measured.at[i]));
+        },
+        threads_);
+  }
+
+  [[nodiscard]] system average(const located_samples& measured) const {
+    const auto n = std::ssize(measured.at), k = static_cast<std::ptrdiff_t>(prior_.size());
+    const double m = observations();
+    system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 3), Eigen::VectorXd::Zero(n)};
+    for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
+      constexpr double share = 1.0 / static_cast<double>(sides * sides);
+      for (std::size_t place = 0; place < seen.rows.size(); ++place) {
+        means.rows.row(i) += share * seen.rows[place];
+        means.offsets[i] += share * seen.offsets[place];
+      }
+      for (std::size_t place = 0; place < seen.rows.size(); ++place)
+        means.own_eta[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
+                                     m * square(seen.offsets[place] - means.offsets[i]));
+      for (Eigen::Index c = 0; c < 3; ++c)
+        means.right(i, c) = prior_.metric().forward(measured.values(i, c), meant) - means.offsets[i];
+    });
+    return means;
+  }
+
+  /// m v of a material whose weights are given, the mean over its channels.
+  [[nodiscard]] Eigen::VectorXd own_etas(const located_samples& measured, const system& means,
+                                         const Eigen::MatrixXd& weights) const {
+    Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
+    for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
+      for (std::size_t place = 0; place < seen.rows.size(); ++place) {
+        const Eigen::RowVector3d along = (seen.rows[place] - means.rows.row(i)) * weights;
+        etas[i] += (along.array() + (seen.offsets[place] - means.offsets[i])).square().mean();
+      }
+      etas[i] *= observations() / static_cast<double>(seen.rows.size());
+    });
+    return etas;
+  }
+
+  [[nodiscard]] solution solve(const system& equations, const Eigen::VectorXd& sample_weights,
+                               const Eigen::VectorXd& own_eta) const {
+    const double eta = solver_.eta();
+    return solver_.solve(
+        least_squares_problem(equations.rows, equations.right, sample_weights.array() * eta / (eta + own_eta.array())));
+  }
+
+  [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
+  /// A quarter of the circle, in radians.
+  [[nodiscard]] static double side(std::size_t quarter) noexcept {
+    return 2.0 * std::numbers::pi * static_cast<double>(quarter) / static_cast<double>(sides);
+  }
+  [[nodiscard]] static double square(double x) noexcept { return x * x; }
+
+  pca<Metric> prior_;
+  tikhonov solver_;
+  double angle_;
+  thread_count threads_;
+};
+
+static_assert(estimator<misplaced_decomposition<log_relative>>);
+
+}  // namespace gonio

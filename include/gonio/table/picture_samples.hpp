@@ -1,0 +1,31 @@
+#pragma once
+/// Measurements that were taken together, and that keep which of their directions is the light's.
+
+#include <gonio/core/direction.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <vector>
+
+namespace gonio {
+
+/// A measurement of which light and viewer are known apart. `sample`, by its half and difference angles, forgets it:
+/// reflectance is the same either way, but what moves the light does not move the viewer.
+struct pair_sample {
+  direction_pair directions;
+  rgb value = rgb::Zero();  ///< sr^-1
+  double weight = 1.0;      ///< how much it counts
+};
+
+/// Those of one picture: with one light and one camera, so that what is wrong with where these are is the same for all.
+using picture_samples = std::vector<pair_sample>;
+
+/// As samples for any estimator.
+[[nodiscard]] inline sample_set as_sample_set(const picture_samples& picture) {
+  sample_set samples;
+  samples.reserve(picture.size());
+  for (const pair_sample& s : picture)
+    samples.push_back({to_half_difference(s.directions.wi, s.directions.wo), s.value, s.weight});
+  return samples;
+}
+
+}  // namespace gonio

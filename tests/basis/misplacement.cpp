@@ -1,0 +1,69 @@
+#include "../made_up_materials.hpp"
+#include <gonio/basis/misplacement.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+const gonio::log_relative_pca& moved_prior() {
+  static const auto basis = learn(made_up_materials(small_cells(), 12), 100);
+  return basis;
+}
+
+/// A mapped value of one of the materials that the basis was learned from, at a place.
+double mapped(std::size_t observation, const gonio::location& at) {
+  const auto c = moved_prior().coefficients().row(static_cast<Eigen::Index>(observation)).cast<double>();
+  return gonio::offset_at(moved_prior(), at) + gonio::row_at(moved_prior(), at).dot(c);
+}
+
+/// m times the mean square, over the observations and eight sides, of what a value is wrong by.
+double measured_eta(const gonio::direction_pair& meant, double angle) {
+  const auto here = gonio::locate(small_cells(), gonio::to_half_difference(meant.wi, meant.wo));
+  const auto& metric = moved_prior().metric();
+  double sum = 0.0;
+  constexpr int sides = 64;
+  for (int side = 0; side < sides; ++side) {
+    const double towards = 2.0 * std::numbers::pi * side / sides;
+    for (const gonio::direction_pair& pair :
+         {gonio::direction_pair{gonio::turned(meant.wi, angle, towards), meant.wo},
+          gonio::direction_pair{meant.wi, gonio::turned(meant.wo, angle, towards)}}) {
+      const auto there = gonio::locate(small_cells(), gonio::to_half_difference(pair.wi, pair.wo));
+      for (std::size_t j = 0; j < 36; ++j) {
+        const double reflectance = metric.inverse(mapped(j, there), there);
+        const double wrong = metric.forward(reflectance, here) - mapped(j, here);
+        sum += wrong * wrong;
+      }
+    }
+  }
+  return sum / sides;
+}
+
+}  // namespace
+
+TEST_CASE("it is what the materials' values change by") {
+  for (const auto& [theta_h, theta_d, phi_d] : {std::array{2.0, 20.0, 40.0}, std::array{8.0, 40.0, 90.0},
+                                                std::array{25.0, 10.0, 130.0}, std::array{40.0, 30.0, 60.0}}) {
+    const auto pair = gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
+    for (const double angle : {gonio::radians(0.1), gonio::radians(0.5)}) {
+      CAPTURE(theta_h);
+      CAPTURE(angle);
+      CHECK(gonio::misplacement_eta(moved_prior(), pair, angle) ==
+            doctest::Approx(measured_eta(pair, angle)).epsilon(0.1));
+    }
+  }
+}
+
+TEST_CASE("nothing is wrong with what is in its place; errors of light and viewer add") {
+  const auto pair = gonio::to_directions({0.1, 0.6, 1.0});
+  CHECK(gonio::misplacement_eta(moved_prior(), pair, 0.0) == doctest::Approx(0.0).epsilon(1e-9));
+  CHECK(gonio::misplacement_eta(moved_prior(), pair, 0.01) > 2.0 * gonio::misplacement_eta(moved_prior(), pair, 0.005));
+}
+
+TEST_CASE("each cell has its own, the same for any number of threads") {
+  const auto one = gonio::misplacement_etas(moved_prior(), gonio::radians(0.5), {1});
+  REQUIRE(one.size() == small_cells().size());
+  CHECK(one == gonio::misplacement_etas(moved_prior(), gonio::radians(0.5), {3}));
+  for (const std::size_t cell : {std::size_t{0}, std::size_t{77}, one.size() - 1})
+    CHECK(one[cell] == gonio::misplacement_eta(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
+                                               gonio::radians(0.5)));
+}

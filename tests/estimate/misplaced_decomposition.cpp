@@ -1,0 +1,91 @@
+#include "../made_up_materials.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/misplaced_decomposition.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+using gonio::misplaced_decomposition, gonio::radians;
+
+const gonio::valid_cells& fine_cells() {
+  static const gonio::valid_cells cells(gonio::grid({24, 16, 18}));
+  return cells;
+}
+
+const gonio::log_relative_pca& misplaced_prior() {
+  static const auto basis = learn(made_up_materials(fine_cells(), 12), 100);
+  return basis;
+}
+
+std::vector<gonio::direction_pair> pairs_over_highlights() {
+  std::vector<gonio::direction_pair> pairs;
+  for (const double theta_h : {1.0, 4.0, 8.0, 12.0, 20.0, 35.0})
+    for (const double theta_d : {10.0, 40.0})
+      pairs.push_back(gonio::to_directions({radians(theta_h), radians(theta_d), 1.0}));
+  return pairs;
+}
+
+/// Mean over the cells of the squared mapped difference from a table.
+double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
+  const auto& metric = misplaced_prior().metric();
+  double sum = 0.0;
+  for (std::size_t cell = 0; cell < fine_cells().size(); ++cell)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      sum += std::pow(
+          metric.forward(double{estimate.at(cell)[c]}, cell) - metric.forward(double{truth.at(cell)[c]}, cell), 2);
+  return sum / static_cast<double>(fine_cells().size());
+}
+
+}  // namespace
+
+TEST_CASE("samples in their places: the plain decomposition") {
+  const auto materials = made_up_materials(fine_cells(), 3, 11);
+  for (std::size_t m = 0; m < 3; ++m) {
+    const auto samples = gonio::measure_misplaced(materials.table(m), pairs_over_highlights(), 0.0);
+    const auto plain = gonio::decomposition{misplaced_prior(), gonio::tikhonov{0.1}}.fit(samples);
+    const auto same = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples);
+    CHECK((plain.found().weights - same.found().weights).norm() < 1e-9 * plain.found().weights.norm());
+  }
+}
+
+TEST_CASE("samples off their places: less is lost by who expects it") {
+  const auto materials = made_up_materials(fine_cells(), 12);  // those of the prior: all that is wrong is misplacement
+  const double angle = radians(2.0);
+  const misplaced_decomposition expecting{misplaced_prior(), 0.01, angle};
+  const gonio::decomposition trusting{misplaced_prior(), gonio::tikhonov{0.01}};
+  double expected = 0.0, trusted = 0.0;
+  for (std::size_t m = 0; m < materials.names.size(); ++m)
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const auto truth = materials.table(m);
+      const auto samples = gonio::measure_misplaced(truth, pairs_over_highlights(), angle, seed);
+      expected += error_of(expecting.fit(samples).tabulate(fine_cells()), truth);
+      trusted += error_of(trusting.fit(samples).tabulate(fine_cells()), truth);
+    }
+  // Measured: 0.36.
+  CHECK(expected < 0.5 * trusted);
+}
+
+TEST_CASE("weights count, threads do not") {
+  const auto truth = made_up_materials(fine_cells(), 1, 5).table(0);
+  auto samples = gonio::measure_misplaced(truth, pairs_over_highlights(), radians(1.0), 3);
+  const auto one = misplaced_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
+             three = misplaced_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
+  CHECK(one.found().weights == three.found().weights);
+  // A sample of weight two is two samples.
+  auto doubled = samples;
+  samples[4].weight = 2.0;
+  doubled.push_back(doubled[4]);
+  const misplaced_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
+  CHECK((estimator.fit(samples).found().weights - estimator.fit(doubled).found().weights).norm() <
+        1e-8 * one.found().weights.norm());
+}
+
+TEST_CASE("what cannot be is refused by who expects misplacement") {
+  CHECK_THROWS_WITH_AS(misplaced_decomposition(misplaced_prior(), 0.0, 0.1), doctest::Contains("eta"), gonio::error);
+  CHECK_THROWS_WITH_AS(misplaced_decomposition(misplaced_prior(), 40.0, -0.1), doctest::Contains("misplaced by"),
+                       gonio::error);
+  CHECK_THROWS_AS(misplaced_decomposition(misplaced_prior(), 40.0, std::nan("")), gonio::error);
+  CHECK_THROWS_AS((misplaced_decomposition{misplaced_prior(), 40.0, 0.1}.fit(gonio::sample_set{})), gonio::error);
+}
