@@ -57,6 +57,13 @@ class drawing_board {
 
 }  // namespace
 
+TEST_CASE("directions that may not be met are others, and leave more unknown") {
+  const drawing_board board;
+  const double met = board.unknown_after("-n 4", "met.csv"),
+               off = board.unknown_after("-n 4 --misplaced 10", "off.csv");
+  CHECK(met < off);
+}
+
 TEST_CASE("more measurements leave less unknown, in every geometry and by every search") {
   const drawing_board board;
   for (const char* how :
@@ -112,6 +119,9 @@ TEST_CASE("designs that cannot be made") {
   board.refuses("-n 9 --geometry sphere", {"9 of 7"});
   board.refuses("-n 2 --eta 0", {"eta"});
   board.refuses("-n 2 --noise -1", {"noise"});
+  board.refuses("-n 2 --misplaced -1", {"45 degrees", "not by -1"});
+  board.refuses("-n 2 --misplaced 1 --geometry sphere", {"points alone"});
+  board.refuses("-n 2 --misplaced 1 --criterion condition", {"expected error"});
   board.refuses("-n 2 --geometry near-field --fov 0", {"field of view"});
   board.refuses("-n 2 --geometry near-field --fov 95", {"field of view", "95"});
   board.refuses("-n 2 --geometry cube", {"cube"});

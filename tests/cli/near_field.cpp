@@ -70,6 +70,61 @@ TEST_CASE("pictures become samples of the paint, and these a table") {
   CHECK(shots.has("paint.binary"));
 }
 
+TEST_CASE("light and camera that are off are found, and samples are where they were") {
+  const two_shots shots;
+  for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
+    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    gonio::io::write_hdr(shots.at(name) + ".hdr", lab::photograph(shots.paint, {.radius = 0.5}, setup,
+                                                                  {.misalignment = gonio::radians(1.0)}, seed));
+  }
+  const std::string pictures = shots.shot("first") + shots.shot("second");
+  const auto plain = gonio_tool("near-field " + pictures + "-o " + shots.at("plain.csv"));
+  REQUIRE_MESSAGE(plain.exit_code == 0, plain.output);
+  const auto found = gonio_tool("near-field " + pictures + "--misplaced 1 -o " + shots.at("found.csv"));
+  REQUIRE_MESSAGE(found.exit_code == 0, found.output);
+  CHECK(found.output.find("light off by ") != std::string::npos);
+  CHECK(found.output.find("second.hdr: light off by ") != std::string::npos);
+
+  // How well the samples are explained by the paint, whose logarithm is steep where pictures were taken.
+  const auto misfit = [&](const char* file) {
+    double sum = 0.0;
+    const auto samples = gonio::io::read_samples(shots.at(file));
+    for (const gonio::sample& s : samples) {
+      const auto [wi, wo] = gonio::to_directions(s.angles);
+      sum += (s.value / shots.paint(wi, wo)).log().square().mean();
+    }
+    return sum / static_cast<double>(samples.size());
+  };
+  CHECK(gonio::io::read_samples(shots.at("found.csv")).size() == gonio::io::read_samples(shots.at("plain.csv")).size());
+  CHECK(misfit("found.csv") < misfit("plain.csv"));
+
+  const auto refused = gonio_tool("near-field " + pictures + "--misplaced -1 -o " + shots.at("no.csv"));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.find("may be off by 0 to 45 degrees, not by -1") != std::string::npos);
+  CHECK_FALSE(shots.has("no.csv"));
+}
+
+TEST_CASE("samples that may be off their directions count less where that matters") {
+  const two_shots shots;
+  const auto run = [&](const std::string& arguments) {
+    return gonio_tool("reconstruct " + shots.at("s.csv") + arguments);
+  };
+  REQUIRE(gonio_tool("near-field " + shots.shot("first") + "-o " + shots.at("s.csv")).exit_code == 0);
+  const auto trusting = run(" --json"), expecting = run(" --misplaced 1 --json");
+  REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
+  CHECK(expecting.output != trusting.output);
+  for (const auto& [arguments, words] :
+       {std::pair{" --misplaced 1 --eta gcv", "a number as its --eta"},
+        std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
+        std::pair{" --misplaced -2", "0 to 45 degrees, not by -2"},
+        std::pair{" --misplaced 1 --method linear", "--misplaced means nothing to --method linear"}}) {
+    CAPTURE(arguments);
+    const auto refused = run(arguments);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find(words) != std::string::npos);
+  }
+}
+
 TEST_CASE("two materials in one picture get a file each, and a map of where they are") {
   const two_shots shots;
   const gonio::formula_brdf other = gonio::formula_material("blue-rubber");

@@ -51,7 +51,22 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   REQUIRE_MESSAGE(pictures.exit_code == 0, pictures.output);
   CHECK(nlohmann::json::parse(pictures.output)[0]["result"]["samples"].get<int>() > 100);
 
-  const auto refused = evaluate("--geometry sphere --misplaced 1");
-  CHECK(refused.exit_code == 2);
-  CHECK(std::ranges::count(refused.output, '\n') == 1);
+  const std::string off = "-n 5 --sets published --misplaced 2 --json";
+  const auto trusting = evaluate(off), expecting = evaluate(off + " --expected-misplacement 2");
+  REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
+  CHECK(rms(expecting.output) != rms(trusting.output));
+  const auto searched = evaluate("-n 3 --sets expected-error --expected-misplacement 2 --json");
+  REQUIRE_MESSAGE(searched.exit_code == 0, searched.output);
+  const std::string shots = "--geometry near-field -n 1 --step 40 --sets expected-error --misplaced 2 --json";
+  const auto refined = evaluate(shots + " --expected-misplacement 2");
+  REQUIRE_MESSAGE(refined.exit_code == 0, refined.output);
+  CHECK(rms(refined.output) != rms(evaluate(shots).output));
+
+  for (const char* arguments : {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
+                                "--reconstruction-eta 3 --expected-misplacement 1"}) {
+    CAPTURE(arguments);
+    const auto refused = evaluate(arguments);
+    CHECK(refused.exit_code == 2);
+    CHECK(std::ranges::count(refused.output, '\n') == 1);
+  }
 }
