@@ -10,6 +10,7 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <iostream>
@@ -128,14 +129,26 @@ gonio::sample_set measured(const gonio::brdf_table& material, const directions_o
   return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
+/// As `gonio reconstruct` does when nobody says how noisy the measurements are.
+struct unknown_noise {
+  const gonio::log_relative_pca& prior;
+
+  [[nodiscard]] auto fit(const gonio::sample_set& samples) const {
+    return gonio::decomposition{prior, gonio::tikhonov{gonio::eta_of_unknown_noise(prior, samples)}}.fit(samples);
+  }
+};
+
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
   const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
   const std::string eta = options.reconstruction_eta.empty() ? std::to_string(options.eta) : options.reconstruction_eta;
-  const gonio::decomposition estimator{lab.prior, make_solver({"tikhonov", eta}, {})};
-  const auto results = gonio::reconstruct_each(
-      estimator,
-      [&](const gonio::brdf_table& truth, std::size_t number) { return measured(truth, options, found, number); },
-      lab.truths, lab.prior.metric(), lab.judge, options.threads);
+  const auto results_of = [&](const auto& estimator) {
+    return gonio::reconstruct_each(
+        estimator,
+        [&](const gonio::brdf_table& truth, std::size_t number) { return measured(truth, options, found, number); },
+        lab.truths, lab.prior.metric(), lab.judge, options.threads);
+  };
+  const auto results = eta == "auto" ? results_of(unknown_noise{lab.prior})
+                                     : results_of(gonio::decomposition{lab.prior, make_solver({"tikhonov", eta}, {})});
   json poses = json::array();
   for (const auto& [wi, wo] : found.poses)
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
@@ -237,7 +250,8 @@ void add_directions(CLI::App& evaluate) {
   command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
   command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
   command->add_option("--reconstruction-eta", options->reconstruction_eta,
-                      "Penalty of the reconstruction where it is another than the design's: a number, gcv or loo");
+                      "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
+                      "auto, as `gonio reconstruct` chooses it");
   command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
   command
       ->add_option("--misplaced", options->misplacement,
