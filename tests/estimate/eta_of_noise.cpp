@@ -69,7 +69,7 @@ const gonio::log_relative_pca& twelve_materials() {
 TEST_CASE("leaving a material out is learning again without it") {
   const auto materials = made_up_materials(small_cells(), 6);
   const auto prior = learn(materials, 1000);
-  for (const std::size_t count : {1, 4, 60}) {  // fewer and more places than components
+  for (const std::size_t count : {1u, 4u, 60u}) {  // fewer and more places than components
     const auto cells = gonio::random_cells(small_cells(), count, count);
     const auto error = error_of(prior, cells, 0.0);
     for (const double eta : {0.01, 1.0, 30.0}) {
@@ -131,7 +131,7 @@ TEST_CASE("the order of the places does not matter, and weights have the units o
 
 TEST_CASE("the chosen eta is the best of a dense scan, and grows with the noise") {
   const auto& prior = twelve_materials();
-  for (const std::size_t count : {5, 40}) {
+  for (const std::size_t count : {5u, 40u}) {
     const auto cells = gonio::random_cells(small_cells(), count, 3);
     const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
     double smaller = 0.0;
@@ -153,7 +153,7 @@ TEST_CASE("the chosen eta is the best of a dense scan, and grows with the noise"
 TEST_CASE("without a stated noise eta is what cross-validation chooses among the plausible ones") {
   const auto& prior = twelve_materials();
   const auto materials = made_up_materials(small_cells(), 3, 99);
-  for (const std::size_t count : {1, 4, 30}) {
+  for (const std::size_t count : {1u, 4u, 30u}) {
     const auto cells = gonio::random_cells(small_cells(), count, 8);
     const auto samples = gonio::measure(materials.table(1), cells, {.noise = 0.1}, 2);
     const auto range = gonio::plausible_etas(prior, samples);
