@@ -10,6 +10,7 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/io/samples.hpp>
@@ -128,16 +129,26 @@ gonio::sample_set sampled(const gonio::brdf_table& material, const directions_op
   return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
+/// By who trusts the directions.
+gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, const directions_options& options,
+                                                     const gonio::sample_set& samples) {
+  // As `gonio reconstruct` does when nobody says how noisy the measurements are.
+  if (options.reconstruction_eta == "auto")
+    return gonio::decomposition{lab.prior, gonio::tikhonov{gonio::eta_of_unknown_noise(lab.prior, samples)}}.fit(
+        samples);
+  return gonio::decomposition{
+      lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", std::to_string(options.eta)})}
+      .fit(samples);
+}
+
 /// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
 gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab, const gonio::brdf_table& material,
                                                           const directions_options& options, const designed& found,
                                                           std::uint64_t seed) {
   const double expected = gonio::radians(options.expected);
-  const gonio::decomposition trusting{
-      lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", std::to_string(options.eta)})};
   if (!takes_pictures(options)) {
     const gonio::sample_set samples = sampled(material, options, found, seed);
-    if (!(expected > 0.0)) return trusting.fit(samples);
+    if (!(expected > 0.0)) return trusting(lab, options, samples);
     return gonio::misplaced_decomposition{lab.prior, options.eta, expected, options.threads}.fit(samples);
   }
   const auto pictures = photographed(material, options, found, seed);
@@ -152,7 +163,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
     const gonio::sample_set samples = gonio::as_sample_set(picture);
     all.insert(all.end(), samples.begin(), samples.end());
   }
-  return trusting.fit(all);
+  return trusting(lab, options, all);
 }
 
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
@@ -269,7 +280,8 @@ void add_directions(CLI::App& evaluate) {
   command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
   command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
   command->add_option("--reconstruction-eta", options->reconstruction_eta,
-                      "Penalty of the reconstruction where it is another than the design's: a number, gcv or loo");
+                      "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
+                      "auto, as `gonio reconstruct` chooses it");
   command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
   command
       ->add_option("--misplaced", options->misplacement,

@@ -31,8 +31,8 @@ const std::vector<method>& methods() {
       {"pca",
        "principal components (Nielsen et al. 2015)",
        reconstruct_by_components,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
-        "--variance", "--misplaced"}},  // refuses some of them itself, and says why
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
+        "--lambda", "--variance", "--misplaced"}},  // refuses some of them itself, and says why
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,
@@ -156,6 +156,9 @@ void add_reconstruct(CLI::App& app) {
       ->check(CLI::IsMember({"lin", "root", "log", "log-relative"}));
   command->add_option("--root", options->root, "Which root --metric root takes")->capture_default_str();
   add_solver_options(*command, options->solver);
+  command->add_option(
+      "--noise", options->noise,
+      "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
   add_correction_options(*command, *options);
   command
       ->add_option(

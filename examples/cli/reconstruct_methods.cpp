@@ -5,6 +5,7 @@
 #include "progress_bar.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -42,20 +43,30 @@ reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample
   return described(gonio::decomposition{basis, solver, threads}.fit(samples), samples.size(), threads);
 }
 
-/// Samples whose light and viewer may be off their directions.
-reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const std::string eta = options.solver.eta.empty() ? "40" : options.solver.eta;
-  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || eta == "gcv" || eta == "loo")
-    throw gonio::error("--misplaced needs --solver tikhonov and a number as its --eta");
-  const gonio::misplaced_decomposition estimator{gonio::io::read_prior(options.materials.prior), number_of_eta(eta),
-                                                 gonio::radians(options.misplacement), options.threads};
-  return described(estimator.fit(samples), samples.size(), options.threads);
+/// Samples whose light and viewer may be off their directions. Noise that is not stated is taken for none:
+/// cross-validation would take what is misplaced for noise.
+reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                     const gonio::sample_set& samples) {
+  const std::string& stated = options.solver.eta;
+  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
+    throw gonio::error("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
+  const double eta = stated.empty() ? gonio::eta_of_noise(prior, samples, options.noise.value_or(0.0), options.threads)
+                                    : number_of_eta(stated);
+  const gonio::misplaced_decomposition estimator{prior, eta, gonio::radians(options.misplacement), options.threads};
+  reconstruction result = described(estimator.fit(samples), samples.size(), options.threads);
+  result.details["eta"] = eta;
+  return result;
 }
 
 }  // namespace
 
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
-  const auto solver = make_solver(options.solver, {"tikhonov", "40"});
+  const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
+  if (options.noise && !options.solver.eta.empty())
+    throw gonio::error("--noise and --eta both say what the penalty is: give one of them");
+  if (options.noise && !penalised)
+    throw gonio::error("--noise chooses the penalty of tikhonov: it means nothing to --solver " + options.solver.name);
+  const auto solver = make_solver(options.solver, {"tikhonov", "gcv"});
   if (solver.non_negative())
     throw gonio::error("--solver " + options.solver.name +
                        " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
@@ -65,8 +76,15 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
                        " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
-  if (options.misplacement != 0.0) return reconstruct_misplaced(options, samples);
-  return fit(gonio::io::read_prior(options.materials.prior), solver, samples, options.threads);
+  const auto prior = gonio::io::read_prior(options.materials.prior);
+  if (options.misplacement != 0.0) return reconstruct_misplaced(options, prior, samples);
+  if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);
+  const double eta = options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
+                                   : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);
+  reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options.threads);
+  result.details["eta"] = eta;
+  result.sentence += ", eta " + fixed(eta, 3);
+  return result;
 }
 
 reconstruction reconstruct_by_materials(const reconstruct_options& options, const gonio::sample_set& samples) {

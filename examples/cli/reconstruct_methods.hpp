@@ -20,6 +20,7 @@ struct reconstruct_options {
   std::filesystem::path samples, output, picture, history, story, truth;
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, misplacement = 0.0;
+  std::optional<double> noise;
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;

@@ -46,9 +46,11 @@ void add_solver_options(CLI::App& command, solver_choice& choice) {
                   "on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov for pca, "
                   "nnls for linear)")
       ->check(CLI::IsMember({"nnls", "qp", "tikhonov", "lasso", "tsvd", "ls"}));
-  command.add_option("--eta", choice.eta,
-                     "Penalty of tikhonov: the larger, the nearer to the mean material; or gcv (generalised "
-                     "cross-validation) or loo (leave one out) to choose it (default: 40 for pca, gcv for linear)");
+  command.add_option(
+      "--eta", choice.eta,
+      "Penalty of tikhonov: the larger, the nearer to the mean material; or gcv (generalised "
+      "cross-validation) or loo (leave one out) to choose it (default: gcv, for pca among what the prior finds "
+      "plausible for noise of up to 30 %)");
   command.add_option("--lambda", choice.lambda, "Penalty of lasso, as a share of the one at which all weights vanish")
       ->capture_default_str();
   command.add_option("--variance", choice.variance, "Share of the variance that tsvd keeps")->capture_default_str();

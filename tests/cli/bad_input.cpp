@@ -83,6 +83,11 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --eta -3", {"eta"});
   refuses(reconstruct + " --eta much", {"eta", "gcv", "much"});
   refuses(reconstruct + " --eta gcv", {"2 rows", "not 1"});  // one observation: nothing to validate with
+  refuses(reconstruct + " --noise -0.1", {"noise", "negative", "-0.1"});
+  refuses(reconstruct + " --noise much", {"--noise", "much"});
+  refuses(reconstruct + " --noise 0.1 --eta 3", {"--noise", "--eta", "one of them"});
+  refuses(reconstruct + " --noise 0.1 --solver lasso", {"--noise", "tikhonov", "lasso"});
+  refuses(reconstruct + " --noise 0.1 --method linear", {"--noise", "linear", "--method pca"});
   refuses(reconstruct + " --solver magic", {"magic"});
   refuses(reconstruct + " --solver nnls", {"nnls", "signs", "--method linear"});
   refuses(reconstruct + " --metric log", {"log", "--method linear"});

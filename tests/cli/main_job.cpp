@@ -84,6 +84,17 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     const auto fit = nlohmann::json::parse(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);
     CHECK(fit["certificate"][0].get<double>() < 1e-9);
+    const auto eta = [&](const std::string& noise) {
+      const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
+      REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+      return nlohmann::json::parse(result.output)["eta"].get<double>();
+    };
+    CHECK(eta(" --noise 0") < eta(" --noise 0.1"));
+    CHECK(eta(" --noise 0.1") < eta(" --noise 0.3"));
+    CHECK(eta("") >= eta(" --noise 0"));
+    CHECK(eta("") <= eta(" --noise 0.3"));
+    CHECK_FALSE(
+        nlohmann::json::parse(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
   }
 }
 

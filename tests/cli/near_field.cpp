@@ -114,7 +114,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
   CHECK(expecting.output != trusting.output);
   for (const auto& [arguments, words] :
-       {std::pair{" --misplaced 1 --eta gcv", "a number as its --eta"},
+       {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
         std::pair{" --misplaced -2", "0 to 45 degrees, not by -2"},
         std::pair{" --misplaced 1 --method linear", "--misplaced means nothing to --method linear"}}) {

@@ -45,6 +45,9 @@ TEST_CASE("sets of directions are judged, kept, and written") {
              defects = evaluate("-n 5 --sets published --noise 0.05 --misplaced 2 --json");
   REQUIRE_MESSAGE(defects.exit_code == 0, defects.output);
   CHECK(rms(defects.output) != rms(clean.output));
+  const auto automatic = evaluate("-n 5 --sets published --reconstruction-eta auto --json");
+  REQUIRE_MESSAGE(automatic.exit_code == 0, automatic.output);
+  CHECK(rms(automatic.output) != rms(clean.output));
 
   const auto pictures =
       evaluate("--geometry near-field -n 1 --step 40 --sets expected-error --noise 0.02 --misplaced 0.5 --json");

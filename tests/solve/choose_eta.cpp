@@ -179,6 +179,29 @@ TEST_CASE("the solver is Tikhonov's with the chosen eta, and rows without weight
     }
 }
 
+TEST_CASE("a choice among plausible etas is the best of these") {
+  for (const eta_criterion criterion : criteria)
+    for (const auto& [n, k] : {std::pair{30, 8}, {8, 30}}) {
+      const auto problem = noisy_problem(n, k, 0.3, 21);
+      const double free = choose_eta(problem, criterion);
+      CHECK(choose_eta(problem, criterion, {2.0 * free, 50.0 * free}) >= 2.0 * free);
+      CHECK(choose_eta(problem, criterion, {0.0, 0.5 * free}) <= 0.5 * free);
+      CHECK(choose_eta(problem, criterion, {0.1 * free, 10.0 * free}) == doctest::Approx(free).epsilon(0.02));
+      CHECK(choose_eta(problem, criterion, {3.0, 3.0}) == 3.0);
+      const gonio::eta_range range{0.03 * free, 0.3 * free};
+      const double eta = choose_eta(problem, criterion, range);
+      const Eigen::VectorXd scan = gonio::detail::geometric(range.lowest, range.highest, 501);
+      CHECK(score(problem, criterion, eta) <= 1.001 * cross_validate(problem, criterion, scan).minCoeff());
+      CHECK(automatic_tikhonov(criterion, range).solve(problem).weights == tikhonov(eta).solve(problem).weights);
+    }
+  // Nothing speaks for less.
+  const least_squares_problem single(random_matrix(1, 2, 1), random_matrix(1, 1, 2));
+  CHECK(choose_eta(single, eta_criterion::leave_one_out, {1.0, 7.0}) == 7.0);
+  for (const gonio::eta_range& impossible :
+       {gonio::eta_range{-1.0, 1.0}, {2.0, 1.0}, {0.0, 0.0}, {std::nan(""), 1.0}, {0.0, std::nan("")}})
+    CHECK_THROWS_AS(automatic_tikhonov(eta_criterion::leave_one_out, impossible), gonio::error);
+}
+
 TEST_CASE("too few observations and bad input are refused") {
   const Eigen::MatrixXd rows = random_matrix(3, 2, 1), right = random_matrix(3, 1, 2);
   for (const eta_criterion criterion : criteria) {

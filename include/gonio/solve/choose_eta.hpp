@@ -1,7 +1,8 @@
 #pragma once
 /// The penalty of a Tikhonov solver, chosen by how well each observation is predicted from the others.
 /// Leave-one-out (PRESS): Allen, Technometrics 16, 1974. Generalised cross-validation: Golub, Heath and Wahba,
-/// Technometrics 21, 1979.
+/// Technometrics 21, 1979. Both take the rows' errors for independent and fail where they go together, as those of a
+/// picture's pixels do if light or camera are off their places (docs/directions.md, docs/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 
@@ -9,10 +10,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace gonio {
+
+/// Which penalties are plausible: 0 <= lowest <= highest, which is not 0.
+struct eta_range {
+  double lowest = 0.0;
+  double highest = std::numeric_limits<double>::infinity();
+};
 
 /// What a choice of eta minimises. With the residual r = W^(1/2) (A x - b) at eta, the leverages
 /// h_i = w_i a_i (A'WA + eta I)^-1 a_i', and all sums over the n rows of positive weight:
@@ -164,6 +172,24 @@ class eta_scores {
   return at;
 }
 
+/// Where a function of many eta has its least value: of eight a decade from first to last, then of 31 between the
+/// neighbours of the best.
+template <class Scores>
+[[nodiscard]] double eta_of_least(const Scores& scores, double first, double last) {
+  const auto steps = std::max<Eigen::Index>(std::llround(8.0 * std::log10(last / first)), 1);
+  const Eigen::VectorXd coarse = geometric(first, last, steps + 1);
+  const Eigen::Index best = last_least(scores(coarse));
+  const Eigen::VectorXd fine =
+      geometric(coarse[std::max<Eigen::Index>(best - 1, 0)], coarse[std::min<Eigen::Index>(best + 1, steps)], 31);
+  return fine[last_least(scores(fine))];
+}
+
+inline void require_etas(const eta_range& range) {
+  if (!(range.lowest >= 0.0 && range.lowest <= range.highest && range.highest > 0.0 && std::isfinite(range.lowest)))
+    throw error("a range of eta goes from a number that is not negative to a larger one, not from " +
+                std::to_string(range.lowest) + " to " + std::to_string(range.highest));
+}
+
 }  // namespace detail
 
 /// The criterion at each eta, summed over all right-hand sides, in the squared units of W^(1/2) b. Throws gonio::error
@@ -183,42 +209,48 @@ template <class Problem = least_squares_problem>
 /// Eight candidates a decade, from 1e-10 of the largest eigenvalue of A'WA, below which rounding decides, to a hundred
 /// times that eigenvalue; then 31 between the neighbours of the best. Of equal scores the largest eta wins: where
 /// nothing speaks for a smaller one, x stays near 0. A choice at the lower end means that no penalty is needed, one at
-/// the upper end that the rows do not predict each other.
+/// the upper end that the rows do not predict each other. With few rows that happens by chance: whoever knows more
+/// says which etas are plausible, and the choice is among these (`plausible_etas` asks a prior).
 ///
 /// Only rows of positive weight are observations. Throws gonio::error if there are less than two, because what is
-/// predicted from no observation does not depend on eta; if they are all zero; and if one is not finite.
+/// predicted from no observation does not depend on eta, unless the range has an upper end, which it is then; if they
+/// are all zero; if one is not finite; and for an impossible range.
 ///
 /// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3), and leave-one-out reads the rows twice for O(n k (k + E r)) with
 /// the number of candidates E.
 template <class Problem = least_squares_problem>
-[[nodiscard]] double choose_eta(const Problem& problem, eta_criterion criterion) {
+[[nodiscard]] double choose_eta(const Problem& problem, eta_criterion criterion, const eta_range& plausible = {}) {
+  detail::require_etas(plausible);
+  if (problem.observations() < 2 && std::isfinite(plausible.highest)) return plausible.highest;
   const detail::eta_scores<Problem> scores(problem, criterion);
-  constexpr Eigen::Index count = 12 * 8 + 1;
-  const Eigen::VectorXd coarse = detail::geometric(1e-10 * scores.largest(), 1e2 * scores.largest(), count);
-  const Eigen::Index best = detail::last_least(scores(coarse));
-  const Eigen::VectorXd fine = detail::geometric(coarse[std::max<Eigen::Index>(best - 1, 0)],
-                                                 coarse[std::min<Eigen::Index>(best + 1, count - 1)], 31);
-  return fine[detail::last_least(scores(fine))];
+  const auto bounded = [&](double eta) { return std::clamp(eta, plausible.lowest, plausible.highest); };
+  return bounded(detail::eta_of_least(scores, bounded(1e-10 * scores.largest()), bounded(1e2 * scores.largest())));
 }
 
 /// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows: normal equations alone do not
 /// tell observations apart. The penalty in the objective and in the certificate is that of the chosen eta.
 class automatic_tikhonov {
  public:
-  explicit automatic_tikhonov(eta_criterion criterion = eta_criterion::generalised_cross_validation)
-      : criterion_(criterion) {}
+  /// Throws gonio::error for an impossible range.
+  explicit automatic_tikhonov(eta_criterion criterion = eta_criterion::generalised_cross_validation,
+                              const eta_range& plausible = {})
+      : criterion_(criterion), plausible_(plausible) {
+    detail::require_etas(plausible);
+  }
 
   [[nodiscard]] eta_criterion criterion() const noexcept { return criterion_; }
+  [[nodiscard]] const eta_range& plausible() const noexcept { return plausible_; }
 
   /// Throws gonio::error as `choose_eta` does.
   template <quadratic_problem Problem = least_squares_problem>
   requires requires(const Problem& problem) { problem.rows(); }
   [[nodiscard]] solution solve(const Problem& problem) const {
-    return tikhonov(choose_eta(problem, criterion_)).solve(problem);
+    return tikhonov(choose_eta(problem, criterion_, plausible_)).solve(problem);
   }
 
  private:
   eta_criterion criterion_;
+  eta_range plausible_;
 };
 
 static_assert(solver<automatic_tikhonov> && !normal_solver<automatic_tikhonov>);

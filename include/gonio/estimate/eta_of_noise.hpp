@@ -1,0 +1,61 @@
+#pragma once
+/// Tikhonov's penalty eta (Nielsen et al. 2015, Eq. 12) as what it is, a noise parameter.
+///
+/// The m observations' coefficients have orthonormal columns, so that a weight has the variance 1 / m, and |Q c - y|^2
+/// + eta |c|^2 is least at the posterior mean of rows whose errors have the variance eta / m: that of the noise, and of
+/// what the basis cannot say of a new material. The latter is what leaving out each material that it was learned from
+/// tells. docs/eta.md has what comes of it.
+
+#include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/left_out_error.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/solve/choose_eta.hpp>
+
+#include <algorithm>
+
+namespace gonio {
+
+/// The eta that is expected to reconstruct best from samples at these places: their values do not matter. `noise`: the
+/// deviation of a measured value relative to it, independent in each sample and channel; 0.02 is 2 %. Throws
+/// gonio::error for unusable samples, noise that is negative or not finite, and a prior of fewer than two materials.
+///
+/// ```cpp
+/// const double eta = gonio::eta_of_noise(prior, samples, 0.02);
+/// const auto paint = gonio::decomposition{prior, gonio::tikhonov{eta}}.fit(samples);
+/// ```
+template <error_metric Metric, class Samples>
+[[nodiscard]] double eta_of_noise(const pca<Metric>& prior, const Samples& samples, double noise,
+                                  thread_count threads = {}) {
+  const located_samples located = locate_samples(prior.cells(), samples, threads);
+  const left_out_error error(prior, located.at, located.weights, noise, threads);
+  // Less than 1e-7 of the largest eigenvalue is no penalty; a hundred times that eigenvalue leaves the mean material.
+  return detail::eta_of_least(error, 1e-7 * error.largest(), 1e2 * error.largest());
+}
+
+/// The etas of no noise and of the largest that is plausible, for cross-validation to choose between: of a few rows GCV
+/// sees no more than how well they predict each other, and by chance asks for any. Throws as `eta_of_noise` does.
+template <error_metric Metric, class Samples>
+[[nodiscard]] eta_range plausible_etas(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
+                                       thread_count threads = {}) {
+  const double without = eta_of_noise(prior, samples, 0.0, threads);
+  const double with = eta_of_noise(prior, samples, largest_noise, threads);
+  return {std::min(without, with), std::max(without, with)};
+}
+
+/// For samples whose noise nobody knows: the eta of generalised cross-validation among the plausible ones, one for all
+/// channels; for a single sample the largest of these. Errors that samples have in common, as those of pictures whose
+/// camera is off its place, it does not see. Throws as `eta_of_noise` does.
+///
+/// ```cpp
+/// const double eta = gonio::eta_of_unknown_noise(prior, samples);
+/// const auto paint = gonio::decomposition{prior, gonio::tikhonov{eta}}.fit(samples);
+/// ```
+template <error_metric Metric, class Samples>
+[[nodiscard]] double eta_of_unknown_noise(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
+                                          thread_count threads = {}) {
+  return choose_eta(basis_equations<pca<Metric>>(prior, samples, threads).problem(),
+                    eta_criterion::generalised_cross_validation,
+                    plausible_etas(prior, samples, largest_noise, threads));
+}
+
+}  // namespace gonio

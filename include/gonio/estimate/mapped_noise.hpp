@@ -1,0 +1,77 @@
+#pragma once
+/// What relative noise of measurements becomes in the domain of a metric.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/core/parallel.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The errors of n measurements in the mapped domain.
+struct mapped_noise {
+  Eigen::VectorXd shift;     ///< their means, n values: a map that is not linear moves them
+  Eigen::VectorXd variance;  ///< their variances, n values
+};
+
+namespace detail {
+
+/// The middles of `count` equally likely parts of the standard normal distribution, by bisection.
+[[nodiscard]] inline std::vector<double> normal_quantiles(int count) {
+  std::vector<double> quantiles;
+  for (int i = 0; i < count; ++i) {
+    const double share = (i + 0.5) / count;
+    double low = -10.0, high = 10.0;
+    for (int halving = 0; halving < 60; ++halving) {
+      const double middle = (low + high) / 2.0;
+      (0.5 * std::erfc(-middle / std::sqrt(2.0)) < share ? low : high) = middle;
+    }
+    quantiles.push_back((low + high) / 2.0);
+  }
+  return quantiles;
+}
+
+}  // namespace detail
+
+/// Gaussian noise of a deviation relative to the value (0.02 is 2 %), where the value is that of the basis' mean
+/// material. From 64 quantiles: what happens to one measurement in a hundred is an outlier rather than noise. Throws
+/// gonio::error for noise that is negative or not finite. O(places).
+template <basis Basis>
+[[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> places, double noise,
+                                     thread_count threads = {}) {
+  if (!(noise >= 0.0 && std::isfinite(noise)))
+    throw error("the noise must be finite and not negative, not " + std::to_string(noise));
+  const auto n = static_cast<Eigen::Index>(places.size());
+  mapped_noise mapped{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
+  if (noise == 0.0) return mapped;
+  const std::vector<double> quantiles = detail::normal_quantiles(64);
+  const auto count = static_cast<double>(quantiles.size());
+  for_each_block(
+      places.size(), 1024,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto& metric = functions.metric();
+          const double value = std::max(metric.inverse(offset_at(functions, places[i]), places[i]), 0.0);
+          const double exact = metric.forward(value, places[i]);
+          double sum = 0.0, squares = 0.0;
+          for (const double z : quantiles) {
+            const double deviation = metric.forward(value * (1.0 + noise * z), places[i]) - exact;
+            sum += deviation;
+            squares += deviation * deviation;
+          }
+          const auto row = static_cast<Eigen::Index>(i);
+          mapped.shift[row] = sum / count;
+          mapped.variance[row] = std::max(squares / count - std::pow(sum / count, 2), 0.0);
+        }
+      },
+      threads);
+  return mapped;
+}
+
+}  // namespace gonio
