@@ -6,10 +6,11 @@
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/material_result.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <random>
 
 namespace cli::figures {
 
