@@ -17,6 +17,8 @@ void add_evaluate(CLI::App& app) {
   add_noell_measured(*command);
   add_noell_corrections(*command);
   add_directions(*command);
+  add_directions_measured(*command);
+  add_figures(*command);
   add_soft_specular(*command);
   add_eta(*command);
 }

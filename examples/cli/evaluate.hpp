@@ -20,6 +20,8 @@ void add_noell_tables(CLI::App& evaluate);
 void add_noell_measured(CLI::App& evaluate);
 void add_noell_corrections(CLI::App& evaluate);
 void add_directions(CLI::App& evaluate);
+void add_directions_measured(CLI::App& evaluate);
+void add_figures(CLI::App& evaluate);
 void add_soft_specular(CLI::App& evaluate);
 void add_eta(CLI::App& evaluate);
 

@@ -4,6 +4,7 @@
 #include "evaluate.hpp"
 #include "noell_judges.hpp"
 #include "progress_bar.hpp"
+#include "scattered_errors.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/noell_tables.hpp>
@@ -56,20 +57,6 @@ struct workshop {
   gonio::measured<gonio::log> materials;
   gonio::correction corrections, printed_corrections;
   noell_judges judges;
-};
-
-/// Root mean square of the difference of ln(f + 0.001) over values of all channels; negative ones count as zero.
-class logarithmic_error {
- public:
-  void add(const gonio::rgb& estimate, const gonio::rgb& truth) {
-    constexpr double offset = 1e-3;
-    sum_ += ((estimate.max(0.0) + offset) / (truth.max(0.0) + offset)).log().square().sum();
-    count_ += 3.0;
-  }
-  [[nodiscard]] double value() const { return std::sqrt(sum_ / count_); }
-
- private:
-  double sum_ = 0.0, count_ = 0.0;
 };
 
 /// One for each method and share of outliers.

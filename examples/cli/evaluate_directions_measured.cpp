@@ -1,0 +1,355 @@
+/// gonio evaluate directions-measured: real measurements, reconstructed from few directions that were chosen for them.
+
+#include "evaluate.hpp"
+#include "progress_bar.hpp"
+#include "resumable_results.hpp"
+#include "scattered_errors.hpp"
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/design/published_directions.hpp>
+#include <gonio/io/merl_directory.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+// Not unnamed: the tool is compiled as one unit.
+namespace directions_measured {
+
+struct options {
+  std::filesystem::path networks, tables, folder, state;
+  std::vector<std::filesystem::path> samples;
+  std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
+  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  double eta = 40.0;
+  std::uint64_t seed = 0;
+  std::size_t repetitions = 5;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The prior on some cells, and the judge there.
+struct workshop {
+  gonio::log_relative_pca prior;
+  gonio::appearance_judge judge;
+};
+
+workshop open_workshop(const options& given, const gonio::valid_cells& cells, const gonio::progress& listener) {
+  const auto networks = gonio::io::read_networks(given.networks);
+  auto materials = gonio::tabulate_networks(networks, cells, given.threads, listener);
+  const auto metric = gonio::log_relative::to_median_of(materials, given.threads);
+  return {gonio::learn_pca(std::move(materials), metric, 300, given.threads, listener),
+          gonio::appearance_judge(cells, 36, given.threads)};
+}
+
+/// A set of directions that is written somewhere, or nothing where there is none of that many.
+std::optional<std::vector<gonio::half_difference>> find_set(const options& given, const std::string& set,
+                                                            std::size_t count) {
+  if (set == "published") {
+    const auto& counts = gonio::nielsen_direction_counts;
+    if (std::ranges::find(counts, count) == counts.end()) return {};
+    return gonio::nielsen_directions(count);
+  }
+  const auto file = given.folder / ("point-" + std::to_string(count) + "-" + set + ".csv");
+  if (!std::filesystem::exists(file)) return {};
+  std::vector<gonio::half_difference> directions;
+  for (const auto& [wi, wo] : gonio::io::read_direction_pairs(file))
+    directions.push_back(gonio::to_half_difference(wi, wo));
+  return directions;
+}
+
+// ---- tables: judged as a whole -------------------------------------------------------------------------------------
+
+/// The cells to measure, as many times as a set is drawn.
+std::vector<std::vector<std::size_t>> cells_of(const options& given, const gonio::valid_cells& cells,
+                                               const std::string& set, std::size_t count) {
+  std::vector<std::vector<std::size_t>> drawn;
+  if (set == "random") {
+    for (std::size_t r = 0; r < given.repetitions; ++r)
+      drawn.push_back(gonio::random_cells(cells, count, given.seed + r));
+  } else if (const auto directions = find_set(given, set, count)) {
+    drawn.push_back(gonio::cells_at(cells, *directions));
+  }
+  return drawn;
+}
+
+/// Means over the repetitions.
+json judge_table(const options& given, const workshop& shop, const std::string& name, const gonio::brdf_table& truth,
+                 const std::vector<std::vector<std::size_t>>& drawn) {
+  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
+  std::vector<gonio::material_result> results;
+  for (const auto& cells : drawn) {
+    const auto estimate = estimator.fit(gonio::measure(truth, cells)).tabulate(truth.cells(), given.threads);
+    results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.judge, given.threads)});
+  }
+  return mean_errors(results);
+}
+
+// ---- scattered measurements: judged on those that were not used ----------------------------------------------------
+
+/// How far one pair of directions is from another: the larger of the angles by which light and viewer are off, after
+/// the turn about the normal that brings both closest, which an isotropic material does not see.
+double angle_between(const gonio::direction_pair& from, const gonio::direction_pair& to) {
+  // The turn maximises the sum of the cosines, A cos phi + B sin phi + C.
+  const auto along = [](const gonio::direction& a, const gonio::direction& b) { return a.x() * b.x() + a.y() * b.y(); };
+  const auto across = [](const gonio::direction& a, const gonio::direction& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const double phi =
+      std::atan2(across(from.wi, to.wi) + across(from.wo, to.wo), along(from.wi, to.wi) + along(from.wo, to.wo));
+  const auto off = [&](const gonio::direction& a, const gonio::direction& b) {
+    const gonio::direction turned(std::cos(phi) * a.x() - std::sin(phi) * a.y(),
+                                  std::sin(phi) * a.x() + std::cos(phi) * a.y(), a.z());
+    return std::atan2(turned.cross(b).norm(), turned.dot(b));
+  };
+  return std::max(off(from.wi, to.wi), off(from.wo, to.wo));
+}
+
+/// Which measurement stands for which direction, and how far away it is, in radians.
+struct stand_ins {
+  std::vector<std::size_t> samples;
+  std::vector<double> distances;
+};
+
+/// The nearest measurement to each direction, light and viewer in either place, none of them twice.
+stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::half_difference> directions) {
+  stand_ins found;
+  for (const gonio::half_difference& angles : directions) {
+    const gonio::direction_pair wanted = gonio::to_directions(angles);
+    std::size_t nearest = 0;
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      if (std::ranges::find(found.samples, s) != found.samples.end()) continue;
+      const auto [wi, wo] = gonio::to_directions(all[s].angles);
+      const double here = std::min(angle_between(wanted, {wi, wo}), angle_between(wanted, {wo, wi}));
+      if (here < distance) {
+        nearest = s;
+        distance = here;
+      }
+    }
+    found.samples.push_back(nearest);
+    found.distances.push_back(distance);
+  }
+  return found;
+}
+
+/// The measurements to use, as many times as a set is drawn; random ones are where they are.
+std::vector<stand_ins> samples_of(const options& given, const gonio::sample_set& all, const std::string& set,
+                                  std::size_t count) {
+  std::vector<stand_ins> drawn;
+  if (set == "random") {
+    for (std::size_t r = 0; r < given.repetitions; ++r)
+      drawn.push_back({gonio::random_choice(all.size(), count, given.seed + r), std::vector<double>(count, 0.0)});
+  } else if (const auto directions = find_set(given, set, count)) {
+    drawn.push_back(nearest_measured(all, *directions));
+  }
+  return drawn;
+}
+
+/// Means over the repetitions.
+json judge_samples(const options& given, const workshop& shop, const gonio::sample_set& all,
+                   const std::vector<stand_ins>& drawn) {
+  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
+  const auto times = static_cast<double>(drawn.size());
+  double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0;
+  for (const stand_ins& used : drawn) {
+    gonio::sample_set some, others;
+    for (std::size_t s = 0; s < all.size(); ++s)
+      (std::ranges::find(used.samples, s) != used.samples.end() ? some : others).push_back(all[s]);
+    const auto fit = estimator.fit(some);
+    logarithmic_error log_error;
+    cosine_weighted_error cosine_error;
+    for (const gonio::sample& other : others) {
+      const gonio::direction_pair pair = gonio::to_directions(other.angles);
+      const gonio::rgb estimate = fit(pair.wi, pair.wo);
+      log_error.add(estimate, other.value);
+      cosine_error.add(estimate, other.value, pair);
+    }
+    in_logarithms += log_error.value() / times;
+    weighted += cosine_error.value() / times;
+    distance += distribution(used.distances).mean / times;
+    farthest = std::max(farthest, distribution(used.distances).worst);
+  }
+  return {{"log_error", in_logarithms},
+          {"cosine_error", weighted},
+          {"degrees_mean", gonio::degrees(distance)},
+          {"degrees_worst", gonio::degrees(farthest)},
+          {"judged_by", all.size() - drawn.front().samples.size()}};
+}
+
+// ---- the experiment ------------------------------------------------------------------------------------------------
+
+/// Does what is not done yet, opening the workshop when it must.
+class experiment {
+ public:
+  experiment(const options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
+
+  [[nodiscard]] json tables() {
+    json rows = json::array();
+    if (given_.tables.empty()) return rows;
+    const auto files = gonio::io::list_merl_directory(given_.tables);
+    if (files.empty()) throw gonio::error(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    for (const auto& [name, path] : files) {
+      std::optional<gonio::brdf_table> truth;
+      each_set(name, rows, [&](const std::string& set, std::size_t count) -> json {
+        if (!truth) truth.emplace(gonio::io::read_merl_any(path));
+        const auto drawn = cells_of(given_, truth->cells(), set, count);
+        if (drawn.empty()) return {};
+        return judge_table(given_, shop_for(truth->cells()), name, *truth, drawn);
+      });
+    }
+    return rows;
+  }
+
+  [[nodiscard]] json scattered() {
+    json rows = json::array();
+    for (const std::filesystem::path& file : given_.samples) {
+      const gonio::sample_set all = read_measurements(file);
+      each_set(file.stem().string(), rows, [&](const std::string& set, std::size_t count) -> json {
+        if (count >= all.size())
+          throw gonio::error(file.string() + ": no sample is left to judge by after " + std::to_string(count));
+        const auto drawn = samples_of(given_, all, set, count);
+        if (drawn.empty()) return {};
+        return judge_samples(given_, shop_for(gonio::valid_cells()), all, drawn);
+      });
+    }
+    return rows;
+  }
+
+ private:
+  /// A row for each number and set that exists; `judge` returns nothing where it does not.
+  template <class Judge>
+  void each_set(const std::string& name, json& rows, Judge&& judge) {
+    for (const std::size_t count : given_.counts)
+      for (const std::string& set : given_.sets) {
+        const json key{name, count, set, given_.eta, given_.seed, given_.repetitions};
+        if (!results_.find(key)) {
+          bar_.draw(name, 0.0);
+          const json found = judge(set, count);
+          if (found.is_null()) continue;
+          results_.add(key, found);
+        }
+        rows.push_back({{"material", name}, {"count", count}, {"set", set}, {"result", *results_.find(key)}});
+      }
+  }
+
+  const workshop& shop_for(const gonio::valid_cells& cells) {
+    if (!shop_ || !(shop_->prior.cells() == cells)) {
+      shop_.reset();  // two would take twice the memory
+      shop_.emplace(open_workshop(given_, cells, bar_.listener()));
+    }
+    return *shop_;
+  }
+
+  const options& given_;
+  progress_bar& bar_;
+  resumable_results results_;
+  std::optional<workshop> shop_;  // of the last table's cells, most often those of the next, too
+};
+
+/// The means over materials of each number and set, in the order of the rows.
+json means_of(const json& rows) {
+  json means = json::array();
+  for (const json& row : rows) {
+    auto found = std::ranges::find_if(
+        means, [&](const json& mean) { return mean["count"] == row["count"] && mean["set"] == row["set"]; });
+    if (found == means.end()) {
+      means.push_back({{"count", row["count"]}, {"set", row["set"]}, {"materials", 0}, {"result", json::object()}});
+      found = means.end() - 1;
+    }
+    (*found)["materials"] = (*found)["materials"].get<int>() + 1;
+    for (const auto& [key, value] : row["result"].items())
+      (*found)["result"][key] = (*found)["result"].value(key, 0.0) + value.get<double>();
+  }
+  for (json& mean : means)
+    for (auto& value : mean["result"]) value = value.get<double>() / mean["materials"].get<double>();
+  return means;
+}
+
+struct column {
+  const char *key, *title;
+  int digits;
+};
+
+void print_rows(const json& rows, std::span<const column> columns) {
+  const json means = means_of(rows);
+  std::cout << "| material | n | chosen by |";
+  for (const column& c : columns) std::cout << ' ' << c.title << " |";
+  std::cout << "\n|---|---|---|" << [&] {
+    std::string line;
+    for (std::size_t i = 0; i < columns.size(); ++i) line += "---|";
+    return line;
+  }() << '\n';
+  const auto print_row = [&](const std::string& name, const json& row) {
+    std::cout << "| " << name << " | " << row["count"] << " | " << row["set"].get<std::string>() << " |";
+    for (const column& c : columns) std::cout << ' ' << fixed(row["result"][c.key].get<double>(), c.digits) << " |";
+    std::cout << '\n';
+  };
+  for (const json& row : means) print_row("mean of " + std::to_string(row["materials"].get<int>()), row);
+  for (const json& row : rows) print_row(row["material"], row);
+}
+
+void print(const options& given, const json& tables, const json& scattered) {
+  std::cout << "eta = " << given.eta << ", random: means of " << given.repetitions << " sets.\n";
+  if (!tables.empty()) {
+    static constexpr std::array columns{column{"mapped_rms", "mapped rms", 3}, column{"delta_e_env", "Delta E env", 2},
+                                        column{"delta_e_lights", "Delta E lights", 2}, column{"peak_ratio", "peak", 2}};
+    std::cout << "\nTables, judged as a whole:\n\n";
+    print_rows(tables, columns);
+  }
+  if (!scattered.empty()) {
+    static constexpr std::array columns{
+        column{"log_error", "rms of ln(f + 0.001)", 3}, column{"cosine_error", "cosine-weighted relative error", 3},
+        column{"degrees_mean", "degrees off, mean", 1}, column{"degrees_worst", "degrees off, worst", 1}};
+    std::cout << "\nScattered measurements, from the nearest ones to the directions, judged on all others:\n\n";
+    print_rows(scattered, columns);
+  }
+}
+
+void run(const options& given) {
+  if (given.tables.empty() && given.samples.empty())
+    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+  progress_bar bar;
+  experiment work(given, bar);
+  const json tables = work.tables(), scattered = work.scattered();
+  bar.wipe();
+  if (given.print_json)
+    std::cout << json{{"tables", tables}, {"scattered", scattered}}.dump(2) << '\n';
+  else
+    print(given, tables, scattered);
+}
+
+}  // namespace directions_measured
+
+void add_directions_measured(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand(
+      "directions-measured", "Reconstruct real measurements from the directions that are the best for a database");
+  const auto options = std::make_shared<directions_measured::options>();
+  add_networks_option(*command, options->networks);
+  command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command->add_option("--samples", options->samples,
+                      "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  options->folder = shipped_prior().parent_path() / "directions";
+  command->add_option("--directions", options->folder, "Folder of sets, as `evaluate directions --write` writes them");
+  command->add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
+      ->check(
+          CLI::IsMember({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
+      ->capture_default_str();
+  command->add_option("-n,--counts", options->counts, "Numbers of measurements")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the first random set")->capture_default_str();
+  command->add_option("--repetitions", options->repetitions, "Random sets of each number")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command->add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(*command, options->threads);
+  command->callback([options] { directions_measured::run(*options); });
+}
+
+}  // namespace cli
