@@ -28,6 +28,7 @@ struct directions_options {
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::vector<std::filesystem::path> files;  ///< of directions, judged beside the sets
   std::string geometry = "point";
   std::string reconstruction_eta;
   double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0, expected = 0.0;
@@ -77,6 +78,13 @@ designed point_samples(const std::vector<gonio::half_difference>& directions) {
   return set;
 }
 
+/// A set of directions and how many there are: by its name, or in a file.
+struct judged_set {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<gonio::direction_pair> directions = {};  ///< those of the file
+};
+
 /// Sets that are not searched for are of points, and of the numbers that somebody published.
 bool exists(const directions_options& options, const std::string& set, std::size_t count) {
   const bool points = options.geometry == "point";
@@ -86,16 +94,38 @@ bool exists(const directions_options& options, const std::string& set, std::size
   return set != "random" || points;
 }
 
+/// All sets that exist, and the files.
+std::vector<judged_set> sets_to_judge(const directions_options& options) {
+  if (!options.files.empty() && options.geometry != "point")
+    throw gonio::error("--files are directions of points, not of " + options.geometry);
+  std::vector<judged_set> all;
+  for (const std::filesystem::path& file : options.files) {
+    auto directions = gonio::io::read_direction_pairs(file);
+    const std::size_t count = directions.size();
+    all.push_back({file.filename().string(), count, std::move(directions)});
+  }
+  for (const std::size_t count : options.counts)
+    for (const std::string& set : options.sets)
+      if (exists(options, set, count)) all.push_back({set, count});
+  return all;
+}
+
 /// A set that exists.
-designed find_set(const laboratory& lab, const directions_options& options, const std::string& set, std::size_t count,
+designed find_set(const laboratory& lab, const directions_options& options, const judged_set& wanted,
                   const gonio::progress& listener) {
+  const auto& [set, count, directions] = wanted;
+  if (!directions.empty()) {
+    designed found{directions, {}, 0.0};
+    for (const auto& [wi, wo] : directions) found.samples.push_back(gonio::to_half_difference(wi, wo));
+    return found;
+  }
   if (set == "published") return point_samples(gonio::nielsen_directions(count));
   if (set == "industry") return point_samples(gonio::westlund_meyer_directions());
   if (set == "random") {
-    std::vector<gonio::half_difference> directions;
+    std::vector<gonio::half_difference> angles;
     for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
-      directions.push_back(lab.truths.cells.angles(cell));
-    return point_samples(directions);
+      angles.push_back(lab.truths.cells.angles(cell));
+    return point_samples(angles);
   }
   return design(lab.prior, search_for(options, set, count), listener);
 }
@@ -223,30 +253,28 @@ void run(const directions_options& options) {
   resumable_results results(options.state);
   std::optional<laboratory> lab;  // opened when there is something to do
   json all = json::array();
-  for (const std::size_t count : options.counts)
-    for (const std::string& set : options.sets) {
-      const json key{options.geometry,
-                     options.geometry == "point" || options.geometry == "sphere" ? 0.0 : options.field_of_view,
-                     count,
-                     set,
-                     options.eta,
-                     options.noise,
-                     options.misplacement,
-                     options.reconstruction_eta,
-                     options.step,
-                     options.seed,
-                     options.expected};
-      const json* result = results.find(key);
-      if (!result) {
-        if (!exists(options, set, count)) continue;
-        if (!lab) lab.emplace(open_laboratory(options, listener));
-        const designed found = find_set(*lab, options, set, count, listener);
-        gonio::report(listener, "judging " + std::to_string(count) + " of " + set, 0.0);
-        results.add(key, judged(*lab, options, found));
-        result = results.find(key);
-      }
-      all.push_back({{"set", set}, {"count", count}, {"result", *result}});
+  for (const judged_set& set : sets_to_judge(options)) {
+    const json key{options.geometry,
+                   options.geometry == "point" || options.geometry == "sphere" ? 0.0 : options.field_of_view,
+                   set.count,
+                   set.name,
+                   options.eta,
+                   options.noise,
+                   options.misplacement,
+                   options.reconstruction_eta,
+                   options.step,
+                   options.seed,
+                   options.expected};
+    const json* result = results.find(key);
+    if (!result) {
+      if (!lab) lab.emplace(open_laboratory(options, listener));
+      const designed found = find_set(*lab, options, set, listener);
+      gonio::report(listener, "judging " + std::to_string(set.count) + " of " + set.name, 0.0);
+      results.add(key, judged(*lab, options, found));
+      result = results.find(key);
     }
+    all.push_back({{"set", set.name}, {"count", set.count}, {"result", *result}});
+  }
   bar.wipe();
 
   if (!options.folder.empty())
@@ -271,6 +299,7 @@ void add_directions(CLI::App& evaluate) {
       ->check(CLI::IsMember(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       ->capture_default_str();
+  command->add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
   command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
   command->add_option("--geometry", options->geometry, "As `gonio design` has them")
       ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))

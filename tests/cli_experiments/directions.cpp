@@ -38,6 +38,10 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   CHECK(evaluate(points).output == table.output);
   CHECK(kept() == 3);
 
+  const auto again = evaluate("-n 7 --sets published --files " + at("sets/point-5-industry.csv"));
+  REQUIRE_MESSAGE(again.exit_code == 0, again.output);
+  CHECK(again.output.find("| 5 | point-5-industry.csv |") != std::string::npos);
+
   const auto rms = [](const std::string& output) {
     return nlohmann::json::parse(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
   };
@@ -65,8 +69,9 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   REQUIRE_MESSAGE(refined.exit_code == 0, refined.output);
   CHECK(rms(refined.output) != rms(evaluate(shots).output));
 
-  for (const char* arguments : {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
-                                "--reconstruction-eta 3 --expected-misplacement 1"}) {
+  for (const char* arguments :
+       {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
+        "--reconstruction-eta 3 --expected-misplacement 1", "--geometry sphere --files none.csv"}) {
     CAPTURE(arguments);
     const auto refused = evaluate(arguments);
     CHECK(refused.exit_code == 2);
