@@ -103,7 +103,7 @@ TEST_CASE("without a step it is Tikhonov's solution; in place, light and camera 
 
 TEST_CASE("no step makes it worse, and samples come out where they were found to be") {
   CHECK(rc::check("random turns", [] {
-    const auto turn = [] {
+    const auto turn = []() -> Eigen::Vector3d {
       const auto part = rc::gen::inRange(-40, 41);
       return Eigen::Vector3d(*part, *part, *part) / 1000.0;
     };
