@@ -141,7 +141,9 @@ design_quality quality_of(const gonio::log_relative_pca& prior, const design_opt
   const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
   const double nothing = criterion.energies().cwiseSqrt().mean();
-  return {error / std::sqrt(static_cast<double>(prior.cells().size())), error / nothing};
+  // A prior may have been learned on more cells than it keeps; its singular values are of all of them.
+  const double kept = prior.components().cast<double>().squaredNorm() / prior.singular_values().squaredNorm();
+  return {error * std::sqrt(kept / static_cast<double>(prior.cells().size())), error / nothing};
 }
 
 }  // namespace cli
