@@ -16,7 +16,8 @@
 namespace gonio {
 
 /// The rows Y and W of all cells (see `expected_error`), in float: 8 bytes a cell and observation, or 2.4 GB for a
-/// million cells and 270 observations. With less memory, take fewer components and cells (`thin`).
+/// million cells and 270 observations. A prior that was learned with fewer cells (`gonio learn --thin`) needs less, and
+/// loses little: docs/directions.md.
 class cell_candidates {
  public:
   /// 4 k m operations a cell. `own_etas` are those of the errors that a measurement of each cell has of its own, such

@@ -25,7 +25,7 @@ namespace gonio {
 /// the flank of a highlight. It is taken over the prior's observations first (C'C = I: |q(x) - mean q|^2 + m o^2), then
 /// over the colour channels of what was found with it, once more.
 ///
-/// The first program is the library's own, the second one judges how much the angle matters.
+/// Where both agree, the angle does not matter:
 /// ```cpp
 /// const auto paint = gonio::misplaced_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
 /// const auto trusting = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
