@@ -30,6 +30,13 @@ inline void add_networks_option(CLI::App& command, std::filesystem::path& networ
   command.add_option("--networks", networks, "File of networks of the 100 materials (.npy)")->required();
 }
 
+/// Adds `-n,--counts N ...`.
+inline void add_counts_option(CLI::App& command, std::vector<std::size_t>& counts) {
+  command.add_option("-n,--counts", counts, "Numbers of measurements")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+}
+
 /// What a row of a table says of one figure of many reconstructions, of which there is at least one.
 struct distribution {
   double mean = 0.0, median = 0.0, worst = 0.0;

@@ -3,13 +3,12 @@
 #include "../lab/near_field_lab.hpp"
 #include "design_search.hpp"
 #include "evaluate.hpp"
+#include "nielsen_split.hpp"
 #include "progress_bar.hpp"
 #include "resumable_results.hpp"
 #include "solver_choice.hpp"
-#include <gonio/basis/learn_pca.hpp>
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
-#include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
@@ -37,22 +36,15 @@ struct directions_options {
   gonio::thread_count threads;
 };
 
-/// What all sets are judged with: 90 materials learned, ten tested.
-struct laboratory {
-  gonio::material_set truths;
-  gonio::log_relative_pca prior;
+/// What all sets are judged with.
+struct laboratory : nielsen_split {
   gonio::appearance_judge judge;
 };
 
 laboratory open_laboratory(const directions_options& options, const gonio::progress& listener) {
-  const auto networks = gonio::io::read_networks(options.networks);
-  const gonio::valid_cells cells;
-  const auto& names = gonio::nielsen_test_materials();
-  auto training = gonio::tabulate_networks(networks_except(networks, names), cells, options.threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(training, options.threads);
-  return {gonio::tabulate_networks(networks_in(networks, names), cells, options.threads),
-          gonio::learn_pca(std::move(training), metric, 300, options.threads, listener),
-          gonio::appearance_judge(cells, 36, options.threads)};
+  auto split = nielsen_split::learn(options.networks, options.threads, listener);
+  const gonio::valid_cells cells = split.truths.cells;
+  return {std::move(split), gonio::appearance_judge(cells, 36, options.threads)};
 }
 
 design_options search_for(const directions_options& options, const std::string& criterion, std::size_t count) {
@@ -88,8 +80,7 @@ struct judged_set {
 /// Sets that are not searched for are of points, and of the numbers that somebody published.
 bool exists(const directions_options& options, const std::string& set, std::size_t count) {
   const bool points = options.geometry == "point";
-  if (set == "published")
-    return points && std::ranges::find(gonio::nielsen_direction_counts, count) != gonio::nielsen_direction_counts.end();
+  if (set == "published") return points && gonio::has_nielsen_directions(count);
   if (set == "industry") return points && count == gonio::westlund_meyer_directions().size();
   return set != "random" || points;
 }
@@ -300,7 +291,7 @@ void add_directions(CLI::App& evaluate) {
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       ->capture_default_str();
   command->add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
-  command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
+  add_counts_option(*command, options->counts);
   command->add_option("--geometry", options->geometry, "As `gonio design` has them")
       ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       ->capture_default_str();

@@ -1,13 +1,11 @@
 /// gonio evaluate directions-measured: real measurements, reconstructed from few directions that were chosen for them.
 
 #include "evaluate.hpp"
+#include "nielsen_split.hpp"
 #include "progress_bar.hpp"
 #include "resumable_results.hpp"
 #include "scattered_errors.hpp"
-#include <gonio/basis/learn_pca.hpp>
-#include <gonio/design/published_directions.hpp>
 #include <gonio/io/merl_directory.hpp>
-#include <gonio/io/samples.hpp>
 
 #include <iostream>
 #include <limits>
@@ -20,7 +18,7 @@ namespace cli {
 namespace directions_measured {
 
 struct options {
-  std::filesystem::path networks, tables, folder, state;
+  std::filesystem::path networks, tables, folder = shipped_directions(), state;
   std::vector<std::filesystem::path> samples;
   std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
@@ -38,27 +36,8 @@ struct workshop {
 };
 
 workshop open_workshop(const options& given, const gonio::valid_cells& cells, const gonio::progress& listener) {
-  const auto networks = gonio::io::read_networks(given.networks);
-  auto materials = gonio::tabulate_networks(networks, cells, given.threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(materials, given.threads);
-  return {gonio::learn_pca(std::move(materials), metric, 300, given.threads, listener),
+  return {learn_all_components(gonio::io::read_networks(given.networks), cells, given.threads, listener),
           gonio::appearance_judge(cells, 36, given.threads)};
-}
-
-/// A set of directions that is written somewhere, or nothing where there is none of that many.
-std::optional<std::vector<gonio::half_difference>> find_set(const options& given, const std::string& set,
-                                                            std::size_t count) {
-  if (set == "published") {
-    const auto& counts = gonio::nielsen_direction_counts;
-    if (std::ranges::find(counts, count) == counts.end()) return {};
-    return gonio::nielsen_directions(count);
-  }
-  const auto file = given.folder / ("point-" + std::to_string(count) + "-" + set + ".csv");
-  if (!std::filesystem::exists(file)) return {};
-  std::vector<gonio::half_difference> directions;
-  for (const auto& [wi, wo] : gonio::io::read_direction_pairs(file))
-    directions.push_back(gonio::to_half_difference(wi, wo));
-  return directions;
 }
 
 // ---- tables: judged as a whole -------------------------------------------------------------------------------------
@@ -70,7 +49,7 @@ std::vector<std::vector<std::size_t>> cells_of(const options& given, const gonio
   if (set == "random") {
     for (std::size_t r = 0; r < given.repetitions; ++r)
       drawn.push_back(gonio::random_cells(cells, count, given.seed + r));
-  } else if (const auto directions = find_set(given, set, count)) {
+  } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(gonio::cells_at(cells, *directions));
   }
   return drawn;
@@ -143,7 +122,7 @@ std::vector<stand_ins> samples_of(const options& given, const gonio::sample_set&
   if (set == "random") {
     for (std::size_t r = 0; r < given.repetitions; ++r)
       drawn.push_back({gonio::random_choice(all.size(), count, given.seed + r), std::vector<double>(count, 0.0)});
-  } else if (const auto directions = find_set(given, set, count)) {
+  } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(nearest_measured(all, *directions));
   }
   return drawn;
@@ -332,15 +311,12 @@ void add_directions_measured(CLI::App& evaluate) {
   command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
   command->add_option("--samples", options->samples,
                       "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
-  options->folder = shipped_prior().parent_path() / "directions";
   command->add_option("--directions", options->folder, "Folder of sets, as `evaluate directions --write` writes them");
   command->add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
       ->check(
           CLI::IsMember({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       ->capture_default_str();
-  command->add_option("-n,--counts", options->counts, "Numbers of measurements")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_counts_option(*command, options->counts);
   command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the first random set")->capture_default_str();
   command->add_option("--repetitions", options->repetitions, "Random sets of each number")

@@ -1,11 +1,9 @@
 /// gonio evaluate eta: how far the chosen penalty is from the best in hindsight.
 
 #include "evaluate.hpp"
+#include "nielsen_split.hpp"
 #include "progress_bar.hpp"
-#include <gonio/basis/learn_pca.hpp>
-#include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/io/samples.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -86,13 +84,8 @@ class reconstruction_error {
 };
 
 std::vector<gonio::half_difference> directions_of(const std::string& set, std::size_t count) {
-  if (set == "published") return gonio::nielsen_directions(count);
-  const auto file =
-      shipped_prior().parent_path() / "directions" / ("point-" + std::to_string(count) + '-' + set + ".csv");
-  std::vector<gonio::half_difference> directions;
-  for (const auto& [wi, wo] : gonio::io::read_direction_pairs(file))
-    directions.push_back(gonio::to_half_difference(wi, wo));
-  return directions;
+  if (const auto found = written_points(shipped_directions(), set, count)) return *found;
+  throw gonio::error("there is no set of " + std::to_string(count) + " directions by " + set);
 }
 
 /// What a way to choose eta comes to.
@@ -171,19 +164,14 @@ void print_eta_row(const json& row) {
 void compare_etas(const eta_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
-  const auto networks = gonio::io::read_networks(options.networks);
-  const gonio::valid_cells cells;
-  const auto& names = gonio::nielsen_test_materials();
-  const auto materials = gonio::tabulate_networks(networks_in(networks, names), cells, options.threads);
-  auto training = gonio::tabulate_networks(networks_except(networks, names), cells, options.threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(training, options.threads);
-  const auto prior = gonio::learn_pca(std::move(training), metric, 300, options.threads, listener);
-  const mapped_truths truths = map_truths(prior, materials, options.threads);
+  const nielsen_split split = nielsen_split::learn(options.networks, options.threads, listener);
+  const gonio::log_relative_pca& prior = split.prior;
+  const mapped_truths truths = map_truths(prior, split.truths, options.threads);
 
   json rows = json::array();
   for (const std::string& set : options.sets)
     for (const std::size_t count : options.counts) {
-      const auto at = gonio::cells_at(cells, directions_of(set, count));
+      const auto at = gonio::cells_at(prior.cells(), directions_of(set, count));
       for (const double noise : options.noises) {
         gonio::report(listener, "choosing for " + std::to_string(count) + " of " + set, 0.0);
         json row{{"set", set}, {"n", count}, {"noise", noise}};
@@ -197,7 +185,7 @@ void compare_etas(const eta_options& options) {
     return;
   }
   std::cout
-      << names.size() << " test materials, " << prior.names().size() << " learned, " << options.repetitions
+      << split.truths.names.size() << " test materials, " << prior.names().size() << " learned, " << options.repetitions
       << " times the noise.\n\n"
       << "| directions | n | noise | best eta | rms | each its best | eta 40: rms | ratio | noise stated: eta | rms "
          "| ratio | not stated: eta | rms | ratio | GCV by itself: ratio |\n"
@@ -215,7 +203,7 @@ void add_eta(CLI::App& evaluate) {
   command->add_option("--sets", options->sets, "Directions: published (1, 2, 5, 10 or 20), or of which files ship")
       ->check(CLI::IsMember({"published", "expected-error", "perceived"}))
       ->capture_default_str();
-  command->add_option("-n,--counts", options->counts, "Numbers of measurements")->capture_default_str();
+  add_counts_option(*command, options->counts);
   command->add_option("--noise", options->noises, "Relative deviations of the measurements")->capture_default_str();
   command->add_option("--repetitions", options->repetitions, "How often each material is measured with noise")
       ->check(CLI::Range(1, 10'000))

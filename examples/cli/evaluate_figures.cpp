@@ -2,8 +2,8 @@
 
 #include "evaluate.hpp"
 #include "figures.hpp"
+#include "nielsen_split.hpp"
 #include "progress_bar.hpp"
-#include <gonio/basis/learn_pca.hpp>
 
 #include <iostream>
 #include <memory>
@@ -15,12 +15,9 @@ namespace figures {
 laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
                            const gonio::progress& listener) {
   const gonio::valid_cells cells;
-  auto materials = gonio::tabulate_networks(learned, cells, given.threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(materials, given.threads);
-  auto prior = gonio::learn_pca(std::move(materials), metric, 300, given.threads, listener);
   const auto others = networks_in(gonio::io::read_networks(given.networks), gonio::nielsen_test_materials());
-  return {mapped_errors(std::move(prior), gonio::tabulate_networks(others, cells, given.threads), given.eta,
-                        given.threads)};
+  return {mapped_errors(learn_all_components(learned, cells, given.threads, listener),
+                        gonio::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
 }
 
 laboratory open_laboratory(const options& given, const gonio::progress& listener) {

@@ -1,9 +1,8 @@
 /// gonio evaluate nielsen-test-materials: Nielsen et al. 2015, section 6, on surrogates of their materials.
 
 #include "evaluate.hpp"
+#include "nielsen_split.hpp"
 #include "progress_bar.hpp"
-#include <gonio/basis/learn_pca.hpp>
-#include <gonio/design/published_directions.hpp>
 
 #include <iostream>
 #include <memory>
@@ -44,21 +43,18 @@ void print_row(const std::string& label, double reference, const json& full, con
 void run(const nielsen_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
-  const auto networks = gonio::io::read_networks(options.networks);
-  const gonio::valid_cells cells;
-  const auto& names = gonio::nielsen_test_materials();
-  const auto truths = gonio::tabulate_networks(networks_in(networks, names), cells, options.threads);
-  auto training = gonio::tabulate_networks(networks_except(networks, names), cells, options.threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(training, options.threads);
-  const auto prior = gonio::learn_pca(std::move(training), metric, 300, options.threads, listener);
+  const nielsen_split split = nielsen_split::learn(options.networks, options.threads, listener);
+  const auto& prior = split.prior;
+  const auto& truths = split.truths;
   const auto shipped = as_shipped(prior);
-  const gonio::appearance_judge judge(cells, 36, options.threads);
+  const gonio::appearance_judge judge(truths.cells, 36, options.threads);
 
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
   for (const std::size_t n : gonio::nielsen_direction_counts) {
     const auto directions = gonio::nielsen_directions(n);
     const auto reconstruct = [&](const gonio::log_relative_pca& from) {
-      return gonio::reconstruct_from_directions(from, options.eta, directions, truths, metric, judge, options.threads);
+      return gonio::reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), judge,
+                                                options.threads);
     };
     gonio::report(listener, "reconstructing from " + std::to_string(n), 0.0);
     const auto full = reconstruct(prior), thin = reconstruct(shipped);
@@ -73,7 +69,7 @@ void run(const nielsen_options& options) {
     std::cout << result.dump(2) << '\n';
     return;
   }
-  std::cout << "Means over " << names.size() << " test materials, " << prior.names().size()
+  std::cout << "Means over " << truths.names.size() << " test materials, " << prior.names().size()
             << " learned, eta = " << options.eta << ".\n"
             << "full: " << prior.size() << " components at full resolution; shipped form: " << shipped.size()
             << " components, thinned and quantised.\n\n"

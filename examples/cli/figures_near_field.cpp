@@ -68,9 +68,8 @@ point_errors errors_of_points(const laboratory& lab, const options& given, std::
   point_errors errors;
   for (const auto& plan : best_plans(candidates, most, 0, given.seed, listener)) {
     const std::size_t n = plan.candidates.size();
-    const auto& counts = gonio::nielsen_direction_counts;
-    const bool printed = std::ranges::find(counts, n) != counts.end();
-    errors.published.push_back(printed ? json(lab.error(gonio::nielsen_directions(n))) : json());
+    errors.published.push_back(gonio::has_nielsen_directions(n) ? json(lab.error(gonio::nielsen_directions(n)))
+                                                                : json());
     errors.expected.emplace_back(lab.error(samples_of(candidates.geometry(), plan.candidates)));
   }
   return errors;

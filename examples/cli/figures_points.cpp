@@ -89,8 +89,7 @@ std::vector<std::size_t> numbers_of(const gonio::sphere_geometry& spheres, const
 
 /// The published points of a number, if there are any.
 json error_of_published(const laboratory& lab, std::size_t n) {
-  const auto& counts = gonio::nielsen_direction_counts;
-  if (std::ranges::find(counts, n) == counts.end()) return {};
+  if (!gonio::has_nielsen_directions(n)) return {};
   return lab.error(gonio::nielsen_directions(n));
 }
 

@@ -55,12 +55,12 @@ class cell_candidates {
   /// Y and W of some cells.
   [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const {
     const auto n = std::ssize(cells);
-    expected_error::rows rows{Eigen::MatrixXd(n, materials_.cols()), Eigen::MatrixXd(n, materials_.cols()),
-                              Eigen::VectorXd::Ones(n), Eigen::VectorXd(n)};
+    expected_error::rows rows(n, materials_.cols());
+    rows.noise.setOnes();
     for (Eigen::Index i = 0; i < n; ++i) {
       const auto cell = static_cast<Eigen::Index>(cells[static_cast<std::size_t>(i)]);
-      rows.materials.row(i) = materials_.row(cell).cast<double>();
-      rows.weighted.row(i) = weighted_.row(cell).cast<double>();
+      rows.materials().row(i) = materials_.row(cell).cast<double>();
+      rows.weighted().row(i) = weighted_.row(cell).cast<double>();
       rows.own_eta[i] = double{own_etas_[cell]};
     }
     return rows;
@@ -73,7 +73,7 @@ class cell_candidates {
   [[nodiscard]] auto beside(std::span<const std::size_t> cells) const {
     return [this, with = extended_error<double>(criterion_, rows_of(cells))](std::size_t cell) {
       const expected_error::rows row = rows_of({&cell, 1});
-      return with(row.materials, row.weighted, row.own_eta.array())[0];
+      return with(row.materials(), row.weighted(), row.own_eta.array())[0];
     };
   }
 

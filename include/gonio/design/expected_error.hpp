@@ -4,6 +4,7 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/design_criterion.hpp>
+#include <gonio/solve/row_source.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -39,12 +40,21 @@ struct expected_error_options {
 /// have beyond them is left out: it is the same for all S, but for what it does as noise.
 class expected_error {
  public:
-  /// What is needed of measurements: Y and W, n x m each, one row for each measurement, and what noise does to them.
+  /// What is needed of n measurements and m observations: Y and W, one row for each measurement, and what noise does to
+  /// them. Y stands above W in one matrix, because products with both at once are faster than two.
   struct rows {
-    Eigen::MatrixXd materials;  ///< Y
-    Eigen::MatrixXd weighted;   ///< W
-    Eigen::VectorXd noise;      ///< S O of Eq. 13, n values: 1 for a sample by itself
-    Eigen::VectorXd own_eta;    ///< m v of the errors of its own, n values: 0 where there are none
+    row_matrix both;          ///< 2n x m
+    Eigen::VectorXd noise;    ///< S O of Eq. 13, n values: 1 for a sample by itself
+    Eigen::VectorXd own_eta;  ///< m v of the errors of its own, n values: 0 where there are none
+
+    rows() = default;
+    rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), own_eta(Eigen::VectorXd::Zero(n)) {}
+
+    [[nodiscard]] Eigen::Index size() const noexcept { return noise.size(); }
+    [[nodiscard]] auto materials() { return both.topRows(size()); }
+    [[nodiscard]] auto materials() const { return both.topRows(size()); }
+    [[nodiscard]] auto weighted() { return both.bottomRows(size()); }
+    [[nodiscard]] auto weighted() const { return both.bottomRows(size()); }
   };
 
   /// Errors over the cells that the components were learned on, all of which count alike.
@@ -77,9 +87,11 @@ class expected_error {
 
   /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const {
-    Eigen::VectorXd none = Eigen::VectorXd::Zero(noise.size());
-    return {components * coefficients_.transpose(), components * weighted_.transpose(), std::move(noise),
-            std::move(none)};
+    rows measured(components.rows(), coefficients_.rows());
+    measured.materials().noalias() = components * coefficients_.transpose();
+    measured.weighted().noalias() = components * weighted_.transpose();
+    measured.noise = std::move(noise);
+    return measured;
   }
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const {
     return prepare(components, Eigen::VectorXd::Ones(components.rows()));
@@ -105,23 +117,28 @@ class expected_error {
   };
 
   [[nodiscard]] remainder state(const rows& measured) const {
-    const Eigen::MatrixXd &y = measured.materials, &w = measured.weighted;
-    const Eigen::Index n = y.rows();
+    const Eigen::Index n = measured.size();
     remainder left;
     left.squared_errors = energies_.array();
     left.noise_response = Eigen::VectorXd::Zero(coefficients_.rows());
     if (n == 0) return left;
-    Eigen::MatrixXd k = y * y.transpose();
+    const auto y = measured.materials();
+    Eigen::MatrixXd products(2 * n, n);
+    products.noalias() = measured.both * y.transpose();
+    Eigen::MatrixXd k = products.topRows(n);
     k.diagonal() += (options_.eta + measured.own_eta.array()).matrix();
     left.inverse = k.llt().solve(Eigen::MatrixXd::Identity(n, n));
-    const Eigen::MatrixXd b = left.inverse * y, between = w * y.transpose();
-    left.squared_errors += ((between * b - 2.0 * w).cwiseProduct(b)).colwise().sum().transpose().array();
+    // b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w), for all observations by one product with Y and W.
+    Eigen::MatrixXd factors(n, 2 * n);
+    factors << left.inverse * products.bottomRows(n) * left.inverse, -2.0 * left.inverse;
+    const auto spread = factors.leftCols(n);
+    row_matrix changed(n, y.cols());
+    changed.noalias() = factors * measured.both;
+    left.squared_errors += changed.cwiseProduct(y).colwise().sum().transpose().array();
     left.own_variances = measured.own_eta / static_cast<double>(coefficients_.rows());
-    if ((left.own_variances.array() > 0.0).any())
-      left.squared_errors += left.own_variances.dot((left.inverse * between * left.inverse).diagonal());
-    const Eigen::VectorXd noise = left.inverse * measured.noise;
-    left.noise_response = y.transpose() * noise;
-    left.noise_energy = noise.dot(between * noise);
+    if ((left.own_variances.array() > 0.0).any()) left.squared_errors += left.own_variances.dot(spread.diagonal());
+    left.noise_response = y.transpose() * (left.inverse * measured.noise);
+    left.noise_energy = measured.noise.dot(spread * measured.noise);
     return left;
   }
 
@@ -148,8 +165,8 @@ class extended_error {
   extended_error(const expected_error& criterion, const expected_error::rows& measured)
       : eta_(static_cast<Scalar>(criterion.options().eta)), noise_(static_cast<Scalar>(criterion.options().noise)) {
     const expected_error::remainder left = criterion.state(measured);
-    materials_ = measured.materials.cast<Scalar>();
-    weighted_ = measured.weighted.cast<Scalar>();
+    materials_ = measured.materials().cast<Scalar>();
+    weighted_ = measured.weighted().cast<Scalar>();
     inverse_ = left.inverse.cast<Scalar>();
     squared_errors_ = left.squared_errors.cast<Scalar>().transpose();
     own_variances_ = left.own_variances.cast<Scalar>();

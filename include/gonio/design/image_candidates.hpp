@@ -21,13 +21,13 @@ namespace detail {
 /// Measurements of both, one after the other.
 [[nodiscard]] inline expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m) {
   Eigen::Index n = 0;
-  for (const auto* part : parts) n += part->noise.size();
-  expected_error::rows all{Eigen::MatrixXd(n, m), Eigen::MatrixXd(n, m), Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (const auto* part : parts) n += part->size();
+  expected_error::rows all(n, m);
   Eigen::Index begin = 0;
   for (const auto* part : parts) {
-    const Eigen::Index count = part->noise.size();
-    all.materials.middleRows(begin, count) = part->materials;
-    all.weighted.middleRows(begin, count) = part->weighted;
+    const Eigen::Index count = part->size();
+    all.materials().middleRows(begin, count) = part->materials();
+    all.weighted().middleRows(begin, count) = part->weighted();
     all.noise.segment(begin, count) = part->noise;
     all.own_eta.segment(begin, count) = part->own_eta;
     begin += count;
@@ -66,7 +66,7 @@ class image_objective {
     return [this, others = rows_of_all(candidates)](std::size_t candidate) {
       const expected_error::rows one = rows_of(candidate);
       const std::array<const expected_error::rows*, 2> both{&others, &one};
-      return criterion_(detail::joined(both, others.materials.cols()));
+      return criterion_(detail::joined(both, others.both.cols()));
     };
   }
 
@@ -118,7 +118,7 @@ class image_candidates {
   [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
     return [this, others = rows_of_all(candidates)](std::size_t candidate) {
       const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
-      return objective_.criterion()(detail::joined(both, others.materials.cols()));
+      return objective_.criterion()(detail::joined(both, others.both.cols()));
     };
   }
 

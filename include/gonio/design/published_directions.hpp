@@ -6,6 +6,7 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ inline const std::vector<std::vector<printed_direction>>& nielsen_table_1() {
 
 /// The numbers of directions for which Nielsen et al. 2015 print a set.
 inline constexpr std::array<std::size_t, 5> nielsen_direction_counts{1, 2, 5, 10, 20};
+
+/// Whether there is a set of that many.
+[[nodiscard]] constexpr bool has_nielsen_directions(std::size_t n) {
+  return std::ranges::find(nielsen_direction_counts, n) != nielsen_direction_counts.end();
+}
 
 /// Nielsen et al. 2015, Table 1, in radians. Throws gonio::error unless n is 1, 2, 5, 10 or 20.
 [[nodiscard]] inline std::vector<half_difference> nielsen_directions(std::size_t n) {
