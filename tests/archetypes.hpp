@@ -18,6 +18,12 @@ struct identity_metric {
 };
 static_assert(gonio::error_metric<identity_metric>);
 
+/// The same, and its slope.
+struct smooth_identity_metric : identity_metric {
+  double slope(double) const noexcept { return 1.0; }
+};
+static_assert(gonio::smooth_metric<smooth_identity_metric>);
+
 /// One function, the constant 1.
 struct constant_basis {
   gonio::valid_cells over;

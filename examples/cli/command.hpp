@@ -12,6 +12,7 @@ void add_plan(CLI::App& app);
 void add_sample(CLI::App& app);
 void add_near_field(CLI::App& app);
 void add_reconstruct(CLI::App& app);
+void add_fit(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_render(CLI::App& app);
 void add_info(CLI::App& app);

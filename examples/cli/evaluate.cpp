@@ -21,6 +21,9 @@ void add_evaluate(CLI::App& app) {
   add_figures(*command);
   add_soft_specular(*command);
   add_eta(*command);
+  add_models(*command);
+  add_model_properties(*command);
+  add_model_recovery(*command);
 }
 
 }  // namespace cli

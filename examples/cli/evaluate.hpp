@@ -24,6 +24,9 @@ void add_directions_measured(CLI::App& evaluate);
 void add_figures(CLI::App& evaluate);
 void add_soft_specular(CLI::App& evaluate);
 void add_eta(CLI::App& evaluate);
+void add_models(CLI::App& evaluate);
+void add_model_properties(CLI::App& evaluate);
+void add_model_recovery(CLI::App& evaluate);
 
 /// Adds `--networks FILE`, which must be given.
 inline void add_networks_option(CLI::App& command, std::filesystem::path& networks) {

@@ -80,8 +80,7 @@ double angle_between(const gonio::direction_pair& from, const gonio::direction_p
   const double phi =
       std::atan2(across(from.wi, to.wi) + across(from.wo, to.wo), along(from.wi, to.wi) + along(from.wo, to.wo));
   const auto off = [&](const gonio::direction& a, const gonio::direction& b) {
-    const gonio::direction turned(std::cos(phi) * a.x() - std::sin(phi) * a.y(),
-                                  std::sin(phi) * a.x() + std::cos(phi) * a.y(), a.z());
+    const gonio::direction turned = gonio::turned_about_normal(a, phi);
     return std::atan2(turned.cross(b).norm(), turned.dot(b));
   };
   return std::max(off(from.wi, to.wi), off(from.wo, to.wo));

@@ -7,6 +7,8 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/design/sphere_geometry.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/model/fit_model.hpp>
 
 #include <algorithm>
 
@@ -146,16 +148,30 @@ struct named_errors {
   Eigen::ArrayX3d errors;
 };
 
+/// Ward's lobe beside a Lambertian one, fitted to each material's measurements there; compared by ln(1 + f).
+Eigen::ArrayX3d fitted_ward(const laboratory& lab, const options& given, const angles& directions) {
+  const std::vector kinds{&gonio::lobe_kind::of<gonio::lambert_shape>(), &gonio::lobe_kind::of<gonio::ward_shape>()};
+  std::vector<gonio::analytic_brdf> fits;
+  for (std::size_t m = 0; m < lab.tested.names().size(); ++m) {
+    const auto observations = gonio::fit_observations(lab.tested.measured(m, directions));
+    fits.push_back(gonio::fit_model(kinds, observations, gonio::log(), {.random_starts = 20}).model);
+  }
+  return lab.tested.of(fits, given.threads);
+}
+
 std::vector<named_errors> five_directions(const laboratory& lab, const options& given,
                                           const gonio::progress& listener) {
   Eigen::ArrayX3d random = Eigen::ArrayX3d::Zero(std::ssize(lab.tested.names()), 3);
   for (std::size_t r = 0; r < given.random_sets; ++r)
     random += lab.tested.from(random_points(lab, 5, given.seed + r)) / static_cast<double>(given.random_sets);
+  const angles expected = points_by_expected_error(lab, given, 5, listener).back();
   return {{"published", lab.tested.from(gonio::nielsen_directions(5))},
           {"condition", lab.tested.from(by_condition(lab, given, 5))},
-          {"expected error", lab.tested.from(points_by_expected_error(lab, given, 5, listener).back())},
+          {"expected error", lab.tested.from(expected)},
           {"industry", lab.tested.from(gonio::westlund_meyer_directions())},
           {"random", std::move(random)},
+          {"Ward, published", fitted_ward(lab, given, gonio::nielsen_directions(5))},
+          {"Ward, expected error", fitted_ward(lab, given, expected)},
           {"all", lab.tested.from_all()},
           {"nothing", lab.tested.from_nothing()}};
 }

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   cli::add_sample(app);
   cli::add_near_field(app);
   cli::add_reconstruct(app);
+  cli::add_fit(app);
   cli::add_compare(app);
   cli::add_render(app);
   cli::add_info(app);

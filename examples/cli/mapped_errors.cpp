@@ -2,6 +2,7 @@
 
 #include <gonio/basis/project.hpp>
 #include <gonio/design/compressed_rows.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
@@ -47,6 +48,44 @@ Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> dire
       gonio::tikhonov(eta_).solve(gonio::least_squares_problem(std::move(rows), std::move(values)));
   const Eigen::MatrixXd off = prior_.singular_values().asDiagonal() * (found.weights - projected_);
   return root_mean_square(missed_ + off.colwise().squaredNorm().transpose().array());
+}
+
+gonio::sample_set mapped_errors::measured(std::size_t material,
+                                          std::span<const gonio::half_difference> directions) const {
+  gonio::sample_set samples;
+  for (const std::size_t cell : gonio::cells_at(prior_.cells(), directions)) {
+    gonio::sample seen{prior_.cells().angles(cell), {}, 1.0};
+    for (Eigen::Index channel = 0; channel < 3; ++channel) {
+      const double mapped =
+          double{centred_(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(3 * material) + channel)} +
+          prior_.offset(cell);
+      seen.value[channel] = prior_.metric().inverse(mapped, cell);
+    }
+    samples.push_back(seen);
+  }
+  return samples;
+}
+
+Eigen::ArrayX3d mapped_errors::of(const std::vector<gonio::analytic_brdf>& estimates,
+                                  gonio::thread_count threads) const {
+  const Eigen::ArrayXd squares = gonio::sum_over_blocks(
+      prior_.cells().size(), 1024, Eigen::ArrayXd::Zero(3 * std::ssize(names_)).eval(),
+      [&](Eigen::ArrayXd& sum, gonio::block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+          const auto [wi, wo] = gonio::to_directions(prior_.cells().angles(cell));
+          for (std::size_t m = 0; m < estimates.size(); ++m) {
+            const gonio::rgb value = estimates[m](wi, wo);
+            for (Eigen::Index channel = 0; channel < 3; ++channel) {
+              const Eigen::Index column = static_cast<Eigen::Index>(3 * m) + channel;
+              const double off = prior_.metric().forward(value[channel], cell) - prior_.offset(cell) -
+                                 double{centred_(static_cast<Eigen::Index>(cell), column)};
+              sum[column] += off * off;
+            }
+          }
+        }
+      },
+      threads);
+  return root_mean_square(squares);
 }
 
 Eigen::ArrayX3d mapped_errors::from_all() const { return root_mean_square(missed_); }

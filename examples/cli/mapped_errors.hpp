@@ -2,7 +2,9 @@
 /// What reconstructions from thousands of sets of measurements miss, without expanding a single table.
 
 #include <gonio/basis/pca.hpp>
+#include <gonio/model/analytic_brdf.hpp>
 #include <gonio/table/material_set.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 
@@ -28,6 +30,14 @@ class mapped_errors {
 
   /// From the cells next to directions, where a cell that is met twice counts twice.
   [[nodiscard]] Eigen::ArrayX3d from(std::span<const gonio::half_difference> directions) const;
+
+  /// What a material shows at the cells next to directions, which are the samples' own.
+  [[nodiscard]] gonio::sample_set measured(std::size_t material,
+                                           std::span<const gonio::half_difference> directions) const;
+
+  /// Of other estimates than this prior's, one for each material.
+  [[nodiscard]] Eigen::ArrayX3d of(const std::vector<gonio::analytic_brdf>& estimates,
+                                   gonio::thread_count threads) const;
 
   /// The lower bound: the projection of the whole table.
   [[nodiscard]] Eigen::ArrayX3d from_all() const;

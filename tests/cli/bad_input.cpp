@@ -30,6 +30,7 @@ TEST_CASE("help is no error") {
                               "sample ",
                               "near-field ",
                               "reconstruct ",
+                              "fit ",
                               "compare ",
                               "render ",
                               "info ",
@@ -41,7 +42,10 @@ TEST_CASE("help is no error") {
                               "evaluate noell-table2 ",
                               "evaluate noell-measured ",
                               "evaluate noell-corrections ",
-                              "evaluate directions "}) {
+                              "evaluate directions ",
+                              "evaluate models ",
+                              "evaluate model-properties ",
+                              "evaluate model-recovery "}) {
     const auto result = gonio_tool(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);

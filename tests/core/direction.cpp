@@ -118,3 +118,9 @@ TEST_CASE("phi_d folds into [0, pi)") {
   CHECK(gonio::fold_phi_d(-0.5) == doctest::Approx(pi - 0.5));
   CHECK(gonio::fold_phi_d(3 * pi + 0.25) == doctest::Approx(0.25));
 }
+
+TEST_CASE("a turn about the normal is one of the azimuth") {
+  const gonio::direction w = gonio::spherical_direction(0.7, 0.4), turned = gonio::turned_about_normal(w, 1.1);
+  CHECK((turned - gonio::spherical_direction(0.7, 1.5)).norm() < 1e-15);
+  CHECK(turned.z() == w.z());
+}

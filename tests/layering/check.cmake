@@ -12,7 +12,7 @@ set(edges
   "basis      -> metric solve"
   "estimate   -> basis"
   "design     -> basis"
-  "model      -> table solve"
+  "model      -> table solve metric"
   "capture    -> table"
   "render     -> table"
   "evaluate   -> estimate render design"

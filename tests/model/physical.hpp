@@ -2,6 +2,7 @@
 /// What every analytic BRDF must keep, as checks that any model can be handed to.
 
 #include <gonio/core/brdf.hpp>
+#include <gonio/model/physical_properties.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -29,10 +30,7 @@ void check_reciprocal_isotropic_and_not_negative(const Brdf& f) {
     // The sum wi + wo and products of two factors do not depend on their order: exact equality.
     RC_ASSERT((f(wo, wi) == value).all());
     const double turn = any_fraction() * 2.0 * pi;
-    const auto turned = [turn](const gonio::direction& w) {
-      return gonio::direction(std::cos(turn) * w.x() - std::sin(turn) * w.y(),
-                              std::sin(turn) * w.x() + std::cos(turn) * w.y(), w.z());
-    };
+    const auto turned = [turn](const gonio::direction& w) { return gonio::turned_about_normal(w, turn); };
     // A rotation rounds by 1e-16, which a highlight of width alpha amplifies by about 1/alpha.
     RC_ASSERT(((f(turned(wi), turned(wo)) - value).abs() <= 1e-9 * value.maxCoeff() + 1e-12).all());
   }));
@@ -68,21 +66,8 @@ void check_finite_at_special_pairs_and_zero_below_the_horizon(const Brdf& f) {
   }
 }
 
-/// The fraction of light from angle theta that is reflected: integral of f cos over the hemisphere, over half vectors
-/// with midpoints in sqrt(theta_h), which resolves highlights.
+/// The fraction of light from angle theta that is reflected.
 template <gonio::brdf Brdf>
 gonio::rgb albedo(const Brdf& f, double theta, int bins = 400) {
-  const gonio::direction wo = gonio::spherical_direction(theta, 0.0);
-  gonio::rgb sum = gonio::rgb::Zero();
-  for (int i = 0; i < bins; ++i) {
-    const double s = (i + 0.5) / bins, theta_h = s * s * pi / 2.0;
-    const double area = std::sin(theta_h) * (2.0 * s * pi / 2.0 / bins) * (2.0 * pi / bins);
-    for (int k = 0; k < bins; ++k) {
-      const gonio::direction h = gonio::spherical_direction(theta_h, (k + 0.5) * 2.0 * pi / bins);
-      const double cosine = h.dot(wo);
-      const gonio::direction wi = 2.0 * cosine * h - wo;
-      if (cosine > 0.0 && wi.z() > 0.0) sum += f(wi, wo) * (4.0 * cosine * area * wi.z());
-    }
-  }
-  return sum;
+  return gonio::directional_albedo(f, theta, bins);
 }

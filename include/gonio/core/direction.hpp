@@ -58,6 +58,12 @@ struct cosine_pair {
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
+/// A direction turned about the normal by an azimuth, in radians.
+[[nodiscard]] inline direction turned_about_normal(const direction& w, double azimuth) noexcept {
+  const double c = std::cos(azimuth), s = std::sin(azimuth);
+  return {c * w.x() - s * w.y(), s * w.x() + c * w.y(), w.z()};
+}
+
 /// A direction turned by an angle towards one of its sides, which `side` counts round it: 0 is a side parallel to the
 /// surface, unless the direction is near the normal. All in radians.
 [[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {

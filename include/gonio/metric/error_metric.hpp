@@ -35,6 +35,13 @@ concept error_metric = requires(const Metric& metric, double value, std::size_t 
   { metric.inverse(value, at) } -> std::convertible_to<double>;
 };
 
+/// A metric that also knows the derivative of `forward` by the reflectance, `slope(rho)`, wherever that is: finite and
+/// positive for every finite rho. Fits that are not linear need it.
+template <class Metric>
+concept smooth_metric = error_metric<Metric> && requires(const Metric& metric, double value) {
+  { metric.slope(value) } -> std::convertible_to<double>;
+};
+
 /// A metric that maps a whole row of cells back at once, which is how tables are expanded fast.
 ///
 /// `companions` fields of its own are interpolated beside the three channels, given cell by cell by

@@ -10,10 +10,12 @@ namespace gonio {
 struct lin : place_free_metric<lin> {
   [[nodiscard]] static double map(double rho) noexcept { return rho; }
   [[nodiscard]] static double unmap(double y) noexcept { return y; }
+  /// The derivative of `map`.
+  [[nodiscard]] static double slope(double /*rho*/) noexcept { return 1.0; }
   template <class Values>
   static void unmap_all(Values& /*values*/) noexcept {}
 };
 
-static_assert(row_metric<lin>);
+static_assert(row_metric<lin> && smooth_metric<lin>);
 
 }  // namespace gonio

@@ -12,6 +12,8 @@ namespace gonio {
 struct log : place_free_metric<log> {
   [[nodiscard]] static double map(double rho) noexcept { return std::copysign(std::log1p(std::abs(rho)), rho); }
   [[nodiscard]] static double unmap(double y) noexcept { return std::copysign(std::expm1(std::abs(y)), y); }
+  /// The derivative of `map`.
+  [[nodiscard]] static double slope(double rho) noexcept { return 1.0 / (1.0 + std::abs(rho)); }
   /// Up to 1/2 by the series of exp(y) - 1, beyond by exp, each held where it leaves its range: within 5e-7 of the
   /// value, and three times as fast as Eigen's expm1, which takes a logarithm, too.
   template <class Values>
@@ -25,6 +27,6 @@ struct log : place_free_metric<log> {
   }
 };
 
-static_assert(row_metric<log>);
+static_assert(row_metric<log> && smooth_metric<log>);
 
 }  // namespace gonio

@@ -5,6 +5,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/metric/place_free.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -30,6 +31,11 @@ class root : public place_free_metric<root> {
     const double size = std::abs(y);
     return std::copysign(p_ == 2.0 ? size * size : std::pow(size, p_), y);
   }
+  /// The derivative of `map`, which is infinite at zero for p > 1: below 1e-12 that at 1e-12.
+  [[nodiscard]] double slope(double rho) const noexcept {
+    const double size = std::max(std::abs(rho), 1e-12);
+    return std::pow(size, 1.0 / p_ - 1.0) / p_;
+  }
   template <class Values>
   void unmap_all(Values& values) const {
     if (p_ == 2.0)
@@ -42,6 +48,6 @@ class root : public place_free_metric<root> {
   double p_;
 };
 
-static_assert(row_metric<root>);
+static_assert(row_metric<root> && smooth_metric<root>);
 
 }  // namespace gonio

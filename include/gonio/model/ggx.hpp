@@ -6,12 +6,35 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
+#include <gonio/model/fresnel.hpp>
+#include <gonio/model/lobe.hpp>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace gonio {
+
+namespace detail {
+
+/// Eq. 33.
+template <class Real>
+[[nodiscard]] Real ggx_distribution(const direction& h, const Real& alpha) {
+  const double squared_sine = h.x() * h.x() + h.y() * h.y();
+  const Real squared_alpha = alpha * alpha;
+  const Real spread = squared_sine + squared_alpha * (h.z() * h.z());
+  return squared_alpha * std::numbers::inv_pi / (spread * spread);
+}
+
+/// Eq. 34.
+template <class Real>
+[[nodiscard]] Real ggx_masking_over_twice_cosine(double cosine, const Real& alpha) {
+  using std::sqrt;
+  const double squared = cosine * cosine;
+  return 1.0 / (cosine + sqrt(Real(squared + alpha * alpha * (1.0 - squared))));
+}
+
+}  // namespace detail
 
 /// F D G / (4 cos_i cos_o). Masking is Smith's, height-uncorrelated as in the paper: G = G1(wi) G1(wo).
 /// ```cpp
@@ -27,41 +50,49 @@ struct ggx {
 
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
-    const direction sum = wi + wo;
-    const double length = sum.norm();
-    // Directions that are opposite up to rounding leave no half vector; the normal is the limit within the plane.
-    const direction h = length > 0.0 ? direction(sum / length) : direction(0.0, 0.0, 1.0);
-    const double masking_over_cosines = masking_over_twice_cosine(wi.z()) * masking_over_twice_cosine(wo.z());
-    return fresnel(0.5 * length) * (distribution(h) * masking_over_cosines);
+    const lobe_geometry at(wi, wo);
+    const double masking_over_cosines = detail::ggx_masking_over_twice_cosine(at.cosine_i, alpha) *
+                                        detail::ggx_masking_over_twice_cosine(at.cosine_o, alpha);
+    return fresnel(at.cosine_d) * (distribution(at.h) * masking_over_cosines);
   }
 
   /// D(h) of Eq. 33, in sr^-1: area of microfacets with normal h. Its integral with the cosine is 1.
   [[nodiscard]] double distribution(const direction& h) const noexcept {
     GONIO_ASSERT(alpha > 0.0);
-    const double squared_sine = h.x() * h.x() + h.y() * h.y();
-    const double squared_alpha = alpha * alpha;
-    const double spread = squared_sine + squared_alpha * h.z() * h.z();
-    return squared_alpha * std::numbers::inv_pi / (spread * spread);
+    return detail::ggx_distribution(h, alpha);
   }
 
   /// G1 of Eq. 34: the fraction of microfacets that is visible at this cosine, whichever their normal.
   [[nodiscard]] double masking(double cosine) const noexcept {
-    return 2.0 * cosine * masking_over_twice_cosine(cosine);
+    return 2.0 * cosine * detail::ggx_masking_over_twice_cosine(cosine, alpha);
   }
 
   /// Schlick's approximation of the Fresnel reflectance; `cosine` is that of wi with h.
-  [[nodiscard]] rgb fresnel(double cosine) const noexcept {
-    const double rest = std::max(1.0 - cosine, 0.0);  // a cosine may round to more than 1
-    return f0 + (1.0 - f0) * (rest * rest * rest * rest * rest);
-  }
-
- private:
-  [[nodiscard]] double masking_over_twice_cosine(double cosine) const noexcept {
-    const double squared = cosine * cosine;
-    return 1.0 / (cosine + std::sqrt(squared + alpha * alpha * (1.0 - squared)));
-  }
+  [[nodiscard]] rgb fresnel(double cosine) const noexcept { return fresnel_schlick(cosine, f0); }
 };
 
 static_assert(brdf<ggx>);
+
+/// The same as the shape of a lobe, whose f0 all colours share: what one fits to measurements.
+template <class Real>
+struct ggx_shape {
+  static constexpr std::string_view name = "ggx";
+  static constexpr std::array parameters{shape_parameter{"alpha", "slope", 0.002, 1.0, 0.2, true},
+                                         shape_parameter{"f0", "", 0.0, 1.0, 0.1}};
+  static auto members(auto& self) { return std::tie(self.alpha, self.f0); }
+
+  Real alpha = Real(0.2);  ///< roughness
+  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence, beside which the colour scales all
+
+  [[nodiscard]] Real operator()(const lobe_geometry& at) const {
+    const Real masking = detail::ggx_masking_over_twice_cosine(at.cosine_i, alpha) *
+                         detail::ggx_masking_over_twice_cosine(at.cosine_o, alpha);
+    return fresnel_schlick(at.cosine_d, f0) * detail::ggx_distribution(at.h, alpha) * masking;
+  }
+};
+
+using ggx_lobe = lobe<ggx_shape>;
+
+static_assert(brdf<ggx_lobe>);
 
 }  // namespace gonio

@@ -3,8 +3,12 @@
 /// J. B. Nielsen's thesis (2016), Sec. 2.2.4; J. H. Lambert, "Photometria" (1760).
 
 #include <gonio/core/brdf.hpp>
+#include <gonio/model/lobe.hpp>
 
+#include <array>
 #include <numbers>
+#include <string_view>
+#include <tuple>
 
 namespace gonio {
 
@@ -23,5 +27,17 @@ struct lambertian {
 };
 
 static_assert(brdf<lambertian>);
+
+/// The same as the shape of a lobe, whose colour is the albedo: 1 / pi.
+template <class Real>
+struct lambert_shape {
+  static constexpr std::string_view name = "lambert";
+  static constexpr std::array<shape_parameter, 0> parameters{};
+  static auto members(auto& /*self*/) { return std::tie(); }
+
+  [[nodiscard]] Real operator()(const lobe_geometry& /*at*/) const { return Real(std::numbers::inv_pi); }
+};
+
+static_assert(lobe_shape<lambert_shape>);
 
 }  // namespace gonio

@@ -1,0 +1,154 @@
+/// gonio evaluate models: Nielsen, Frisvad, Conradsen and Aanaes 2014, "Addressing Grazing Angle Reflections in Phong
+/// Models", on surrogates of the materials that they fit.
+
+#include "evaluate.hpp"
+#include "model_choice.hpp"
+#include "progress_bar.hpp"
+#include "resumable_results.hpp"
+#include <gonio/evaluate/appearance.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+
+namespace cli {
+
+// Not unnamed: the tool is compiled as one unit.
+namespace models {
+
+struct options {
+  std::filesystem::path networks, state;
+  std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
+      only;
+  std::string metric = "lin";
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// Every third theta_d and fifth phi_d: a lobe is smooth there, and the fit takes a fifteenth of the time.
+gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
+
+json fit_one(const options& given, const std::string& model, const std::string& loss,
+             std::span<const gonio::fit_observation> observations, const gonio::brdf_table& truth,
+             const gonio::appearance_judge& judge) {
+  const gonio::model_fit fit =
+      fit_by_metric(given.metric, lobes_named(model), observations,
+                    {.norm = loss == "l1" ? gonio::fit_norm::l1 : gonio::fit_norm::l2, .threads = given.threads});
+  const auto seen = judge.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
+  return {{"converged", fit.converged},    {"evaluations", fit.evaluations}, {"loss", fit.loss},
+          {"promised", fit.promised_gain}, {"delta_e_lights", seen.lights},  {"delta_e_env", seen.environment},
+          {"lobes", to_json(fit.model)}};
+}
+
+/// Everything that was fitted, in the order of the materials.
+json fit_all(const options& given, progress_bar& bar) {
+  const auto all = gonio::io::read_networks(given.networks);
+  const auto networks = given.only.empty() ? all : networks_in(all, given.only);
+  const gonio::valid_cells cells = cells_of_fit();
+  const gonio::material_set materials = gonio::tabulate_networks(networks, cells, given.threads);
+  const gonio::appearance_judge judge(cells, 36, given.threads);
+  resumable_results results(given.state);
+  json rows = json::array();
+  for (std::size_t m = 0; m < materials.names.size(); ++m) {
+    gonio::report(bar.listener(), materials.names[m],
+                  static_cast<double>(m) / static_cast<double>(materials.names.size()));
+    const gonio::brdf_table truth = materials.table(m);
+    const auto observations = gonio::fit_observations(truth, given.threads);
+    for (const std::string& model : given.models)
+      for (const std::string& loss : given.losses) {
+        const json key{materials.names[m], model, loss, given.metric};
+        if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, judge));
+        rows.push_back(
+            {{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", *results.find(key)}});
+      }
+  }
+  return rows;
+}
+
+std::vector<json> of(const json& rows, const std::string& key, const std::string& value) {
+  std::vector<json> some;
+  for (const json& row : rows)
+    if (row[key] == value) some.push_back(row);
+  return some;
+}
+
+void print_means(const options& given, const json& rows) {
+  std::cout
+      << "| model | loss | fits | converged | evaluations, mean | Delta E lights: mean | median | worst | Delta E "
+         "env: mean | median | worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& model : given.models)
+    for (const std::string& loss : given.losses) {
+      std::vector<double> lights, environment, evaluations;
+      std::size_t converged = 0;
+      for (const json& row : of(json(of(rows, "model", model)), "loss", loss)) {
+        const json& fit = row["fit"];
+        lights.push_back(fit["delta_e_lights"]);
+        environment.push_back(fit["delta_e_env"]);
+        evaluations.push_back(fit["evaluations"]);
+        converged += fit["converged"].get<bool>() ? 1 : 0;
+      }
+      const distribution l(lights), e(environment);
+      std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
+                << fixed(distribution(evaluations).mean, 0);
+      for (const double value : {l.mean, l.median, l.worst, e.mean, e.median, e.worst})
+        std::cout << " | " << fixed(value, 2);
+      std::cout << " |\n";
+    }
+}
+
+/// alpha of the variant, and what is seen of each model, by material.
+void print_materials(const options& given, const json& rows) {
+  std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
+  for (const std::string& model : given.models) std::cout << ' ' << model << " |";
+  std::cout << "\n|---|---|---|---|";
+  for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|";
+  std::cout << '\n';
+  std::map<std::pair<std::string, std::string>, std::map<std::string, json>> by_material;
+  for (const json& row : rows) by_material[{row["material"], row["loss"]}][row["model"]] = row["fit"];
+  for (const auto& [key, fits] : by_material) {
+    std::cout << "| " << key.first << " | " << key.second;
+    for (const char* variant : {"phong-blinn", "phong-blinn-fresnel"}) {
+      std::cout << " | ";
+      if (fits.contains(variant))
+        std::cout << fixed(fits.at(variant)["lobes"].back()["parameters"]["alpha"].get<double>(), 2);
+    }
+    for (const std::string& model : given.models)
+      std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].get<double>(), 2);
+    std::cout << " |\n";
+  }
+}
+
+void run(const options& given) {
+  progress_bar bar;
+  const json rows = fit_all(given, bar);
+  bar.wipe();
+  if (given.print_json) {
+    std::cout << rows.dump(2) << '\n';
+    return;
+  }
+  print_means(given, rows);
+  print_materials(given, rows);
+}
+
+}  // namespace models
+
+void add_models(CLI::App& evaluate) {
+  auto* command = evaluate.add_subcommand(
+      "models", "Analytic models fitted to 100 materials: which are like Phong, which like Blinn-Phong (Nielsen 2014)");
+  const auto options = std::make_shared<models::options>();
+  add_networks_option(*command, options->networks);
+  command->add_option("--models", options->models, "As `gonio fit --model` has them")->capture_default_str();
+  command->add_option("--losses", options->losses, "l1 and l2")
+      ->check(CLI::IsMember({"l1", "l2"}))
+      ->capture_default_str();
+  command->add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
+      ->check(CLI::IsMember({"lin", "log", "cubic"}))
+      ->capture_default_str();
+  command->add_option("--materials", options->only, "Only these materials");
+  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command->add_flag("--json", options->print_json, "Print every fit as JSON");
+  add_threads_option(*command, options->threads);
+  command->callback([options] { models::run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,107 @@
+/// gonio fit: an analytic model of measurements.
+
+#include "command.hpp"
+#include "inputs.hpp"
+#include "model_choice.hpp"
+#include "pictures.hpp"
+#include <gonio/io/renderer_material.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+struct fit_command_options {
+  std::filesystem::path measurements, output, picture, pbrt, mitsuba;
+  std::string model = "ggx", metric = "lin";
+  bool fresnel = false, print_json = false;
+  gonio::model_fit_options fit;
+};
+
+bool is_table(const std::filesystem::path& path) { return path.extension() == ".binary" || path.extension() == ".gz"; }
+
+void print(const gonio::model_fit& fit, std::size_t measurements) {
+  std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
+            << (fit.converged ? "" : ", which did not converge") << '\n';
+  for (const gonio::analytic_lobe& lobe : fit.model.lobes()) {
+    std::cout << lobe.kind().name() << ": colour " << fixed(lobe.colour()[0], 4) << ' ' << fixed(lobe.colour()[1], 4)
+              << ' ' << fixed(lobe.colour()[2], 4);
+    const auto about = lobe.kind().parameters();
+    for (std::size_t i = 0; i < about.size(); ++i) {
+      std::cout << ", " << about[i].name << ' ' << fixed(lobe.parameters()[i], 4);
+      if (!about[i].unit.empty()) std::cout << " (" << about[i].unit << ')';
+    }
+    std::cout << '\n';
+  }
+}
+
+void fit(const fit_command_options& options) {
+  auto kinds = lobes_named(options.model);
+  if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
+  std::optional<gonio::brdf_table> table;
+  if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
+  const auto observations = table ? gonio::fit_observations(*table, options.fit.threads)
+                                  : gonio::fit_observations(read_measurements(options.measurements));
+  const gonio::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
+
+  // Both before either is written: what a renderer cannot have leaves nothing behind.
+  const std::string pbrt = options.pbrt.empty() ? "" : gonio::io::pbrt_material(found.model);
+  const std::string mitsuba = options.mitsuba.empty() ? "" : gonio::io::mitsuba_material(found.model);
+  if (!pbrt.empty()) gonio::io::write_renderer_material(options.pbrt, pbrt);
+  if (!mitsuba.empty()) gonio::io::write_renderer_material(options.mitsuba, mitsuba);
+  if (!options.output.empty() || !options.picture.empty()) {
+    const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
+    const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.fit.threads);
+    if (!options.output.empty()) gonio::io::write_merl(options.output, fitted);
+    if (!options.picture.empty()) {
+      std::vector<gonio::image> pictures;
+      if (table) pictures.push_back(sphere_picture(*table, options.fit.threads));
+      pictures.push_back(sphere_picture(fitted, options.fit.threads));
+      gonio::io::write_png(options.picture, gonio::side_by_side(pictures, 8));
+    }
+  }
+  if (!options.print_json) return print(found, observations.size());
+  std::cout << json{{"measurements", observations.size()},  {"loss", found.loss},
+                    {"evaluations", found.evaluations},     {"converged", found.converged},
+                    {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}}
+                   .dump(2)
+            << '\n';
+}
+
+}  // namespace
+
+void add_fit(CLI::App& app) {
+  auto* command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
+  const auto options = std::make_shared<fit_command_options>();
+  command
+      ->add_option("measurements", options->measurements,
+                   "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      ->required();
+  std::string names;
+  for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
+    names += (names.empty() ? "" : ", ") + std::string(kind->name());
+  command
+      ->add_option("--model", options->model,
+                   "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
+      ->capture_default_str();
+  command
+      ->add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log (ln(1 + x)) or cubic root")
+      ->check(CLI::IsMember({"lin", "log", "cubic"}))
+      ->capture_default_str();
+  command->add_flag("--fresnel", options->fresnel,
+                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
+  add_fit_options(*command, options->fit);
+  command->add_option("-o,--output", options->output, "The model as a table to write (.binary)");
+  command->add_option("--image", options->picture,
+                      "Spheres of measurement (if it is a table) and model to write (.png)");
+  command->add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");
+  command->add_option("--mitsuba", options->mitsuba, "Material of Mitsuba 3 to write (.xml)");
+  command->add_flag("--json", options->print_json, "Print the fit as JSON");
+  add_threads_option(*command, options->fit.threads);
+  command->callback([options] { fit(*options); });
+}
+
+}  // namespace cli

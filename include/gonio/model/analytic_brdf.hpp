@@ -1,0 +1,179 @@
+#pragma once
+/// Analytic BRDFs whose lobes are chosen at run time: what a fit returns, and a file or a command line names.
+
+#include <gonio/model/fresnel_lobe.hpp>
+#include <gonio/model/ggx.hpp>
+#include <gonio/model/lafortune.hpp>
+#include <gonio/model/lambert.hpp>
+#include <gonio/model/phong.hpp>
+#include <gonio/model/torrance_sparrow.hpp>
+#include <gonio/model/ward.hpp>
+
+#include <Eigen/Core>
+#include <unsupported/Eigen/AutoDiff>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio {
+
+/// The shape of a lobe behind function pointers. There is one object of each kind, in static storage.
+class lobe_kind {
+ public:
+  static constexpr std::size_t most_parameters = 4;
+  using values = std::array<double, most_parameters>;  ///< those that a kind does not have are zero
+
+  /// The kind of a shape that is known at compile time.
+  template <template <class> class Shape>
+  requires lobe_shape<Shape>
+  [[nodiscard]] static const lobe_kind& of() {
+    static_assert(parameter_count<Shape> <= most_parameters);
+    static const lobe_kind kind(Shape<double>::name, Shape<double>::parameters, &value_of<Shape>, &slopes_of<Shape>);
+    return kind;
+  }
+
+  [[nodiscard]] std::string_view name() const noexcept { return name_; }
+  [[nodiscard]] std::span<const shape_parameter> parameters() const noexcept { return parameters_; }
+
+  /// Where a fit may start.
+  [[nodiscard]] values typical() const noexcept {
+    values start{};
+    for (std::size_t i = 0; i < parameters_.size(); ++i) start[i] = parameters_[i].typical;
+    return start;
+  }
+
+  /// The shape, in sr^-1.
+  [[nodiscard]] double value(const lobe_geometry& at, const values& p) const noexcept { return value_(at, p); }
+
+  /// The shape, and its derivatives by each parameter, exact (automatic differentiation).
+  double value_and_slopes(const lobe_geometry& at, const values& p, values& slopes) const noexcept {
+    return slopes_(at, p, slopes);
+  }
+
+  friend bool operator==(const lobe_kind& a, const lobe_kind& b) noexcept { return &a == &b; }
+
+ private:
+  using value_function = double (*)(const lobe_geometry&, const values&);
+  using slopes_function = double (*)(const lobe_geometry&, const values&, values&);
+
+  lobe_kind(std::string_view name, std::span<const shape_parameter> parameters, value_function shape,
+            slopes_function slopes)
+      : name_(name), parameters_(parameters), value_(shape), slopes_(slopes) {}
+
+  template <template <class> class Shape>
+  [[nodiscard]] static double value_of(const lobe_geometry& at, const values& p) {
+    std::array<double, parameter_count<Shape>> own{};
+    std::copy_n(p.begin(), own.size(), own.begin());
+    return shape_from<Shape, double>(own)(at);
+  }
+
+  template <template <class> class Shape>
+  [[nodiscard]] static double slopes_of(const lobe_geometry& at, const values& p, values& slopes) {
+    constexpr std::size_t count = parameter_count<Shape>;
+    if constexpr (count == 0) {
+      return value_of<Shape>(at, p);
+    } else {
+      constexpr int size = static_cast<int>(count);
+      using number = Eigen::AutoDiffScalar<Eigen::Matrix<double, size, 1>>;
+      std::array<number, count> own;
+      for (int i = 0; i < size; ++i) own[static_cast<std::size_t>(i)] = number(p[static_cast<std::size_t>(i)], size, i);
+      const number found = shape_from<Shape, number>(own)(at);
+      std::copy_n(found.derivatives().data(), count, slopes.begin());
+      return found.value();
+    }
+  }
+
+  std::string_view name_;
+  std::span<const shape_parameter> parameters_;
+  value_function value_;
+  slopes_function slopes_;
+};
+
+/// All isotropic kinds.
+[[nodiscard]] inline std::span<const lobe_kind* const> lobe_kinds() {
+  static const std::array all{&lobe_kind::of<lambert_shape>(),
+                              &lobe_kind::of<phong_shape>(),
+                              &lobe_kind::of<blinn_phong_shape>(),
+                              &lobe_kind::of<phong_blinn_shape>(),
+                              &lobe_kind::of<with_fresnel<phong_shape>::shape>(),
+                              &lobe_kind::of<with_fresnel<blinn_phong_shape>::shape>(),
+                              &lobe_kind::of<with_fresnel<phong_blinn_shape>::shape>(),
+                              &lobe_kind::of<ward_shape>(),
+                              &lobe_kind::of<ward_duer_shape>(),
+                              &lobe_kind::of<ward_bounded_shape>(),
+                              &lobe_kind::of<lafortune_shape>(),
+                              &lobe_kind::of<torrance_sparrow_shape>(),
+                              &lobe_kind::of<ggx_shape>()};
+  return all;
+}
+
+/// The kind of that name. Throws gonio::error listing the names if there is none.
+[[nodiscard]] inline const lobe_kind& lobe_kind_named(std::string_view name) {
+  std::string known;
+  for (const lobe_kind* kind : lobe_kinds()) {
+    if (kind->name() == name) return *kind;
+    known += (known.empty() ? "" : ", ") + std::string(kind->name());
+  }
+  throw error("there is no lobe named '" + std::string(name) + "'; the names are " + known);
+}
+
+/// One lobe of a BRDF: a kind, a colour and the parameters of the kind.
+class analytic_lobe {
+ public:
+  /// Throws gonio::error naming the parameter and its bound if one is out of bounds; a colour must be finite and not
+  /// negative.
+  analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters)
+      : kind_(&kind), colour_(colour), parameters_(parameters) {
+    require_usable_colour(kind.name(), colour_);
+    for (std::size_t i = 0; i < kind.parameters().size(); ++i)
+      require_within_bounds(kind.name(), kind.parameters()[i], parameters_[i]);
+  }
+
+  [[nodiscard]] const lobe_kind& kind() const noexcept { return *kind_; }
+  [[nodiscard]] const rgb& colour() const noexcept { return colour_; }
+  [[nodiscard]] const lobe_kind::values& parameters() const noexcept { return parameters_; }
+
+  /// In the terms of a model, such as `ward`. Throws gonio::error if it is of another kind.
+  template <template <class> class Shape>
+  [[nodiscard]] lobe<Shape> as() const {
+    if (!(*kind_ == lobe_kind::of<Shape>()))
+      throw error("a lobe is " + std::string(kind_->name()) + ", not " + std::string(Shape<double>::name));
+    std::array<double, parameter_count<Shape>> own{};
+    std::copy_n(parameters_.begin(), own.size(), own.begin());
+    return lobe<Shape>(colour_, shape_from<Shape, double>(own));
+  }
+
+  [[nodiscard]] rgb operator()(const lobe_geometry& at) const noexcept {
+    return (colour_ * std::min(kind_->value(at, parameters_), largest_reflectance)).min(largest_reflectance);
+  }
+
+ private:
+  const lobe_kind* kind_;
+  rgb colour_;
+  lobe_kind::values parameters_;
+};
+
+/// A sum of lobes.
+class analytic_brdf {
+ public:
+  explicit analytic_brdf(std::vector<analytic_lobe> lobes = {}) : lobes_(std::move(lobes)) {}
+
+  [[nodiscard]] const std::vector<analytic_lobe>& lobes() const noexcept { return lobes_; }
+
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    rgb sum = rgb::Zero();
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return sum;
+    const lobe_geometry at(wi, wo);
+    for (const analytic_lobe& lobe : lobes_) sum += lobe(at);
+    return sum;
+  }
+
+ private:
+  std::vector<analytic_lobe> lobes_;
+};
+
+static_assert(brdf<analytic_brdf>);
+
+}  // namespace gonio

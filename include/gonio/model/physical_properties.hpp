@@ -1,0 +1,117 @@
+#pragma once
+/// What a physical BRDF keeps, as measurements of any BRDF: is it reciprocal, never negative, isotropic, and how much
+/// does it reflect? J. B. Nielsen's thesis (2016), Sec. 2.2.
+
+#include <gonio/core/brdf.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gonio {
+
+/// The worst that was met, and where.
+struct worst_pair {
+  double amount = 0.0;  ///< 0: nothing is wrong
+  direction_pair at{direction(0.0, 0.0, 1.0), direction(0.0, 0.0, 1.0)};
+};
+
+/// How densely pairs of directions are tried: `steps`^3 of them, about the normal and denser near highlights.
+struct pair_grid {
+  int steps = 24;
+};
+
+namespace detail {
+
+/// The worst of all pairs by `amount(wi, wo)`. The viewer is at an azimuth of its own, so that models which are not
+/// isotropic are met off their axes.
+template <class Amount>
+[[nodiscard]] worst_pair worst_of_pairs(const pair_grid& grid, Amount&& amount) {
+  constexpr double pi = std::numbers::pi, azimuth = 0.4;
+  worst_pair worst;
+  const auto share = [&](int i) { return (i + 0.5) / grid.steps; };
+  for (int i = 0; i < grid.steps; ++i)
+    for (int j = 0; j < grid.steps; ++j)
+      for (int k = 0; k < grid.steps; ++k) {
+        const direction wo = spherical_direction(share(i) * pi / 2.0, azimuth);
+        // Half vectors about the normal: lights about the mirror direction.
+        const direction h = spherical_direction(share(j) * share(j) * pi / 2.0, 2.0 * pi * share(k));
+        const direction wi = 2.0 * h.dot(wo) * h - wo;
+        if (!(wi.z() > 0.0 && h.dot(wo) > 0.0)) continue;
+        const double here = amount(wi, wo);
+        if (here > worst.amount) worst = {here, {wi, wo}};
+      }
+  return worst;
+}
+
+[[nodiscard]] inline double relative_difference(const rgb& a, const rgb& b) {
+  const double size = std::max(a.abs().maxCoeff(), b.abs().maxCoeff());
+  return size > 0.0 ? (a - b).abs().maxCoeff() / size : 0.0;
+}
+
+}  // namespace detail
+
+/// The largest difference of f(wi, wo) and f(wo, wi), as a share of the larger.
+template <brdf Brdf>
+[[nodiscard]] worst_pair worst_asymmetry(const Brdf& f, const pair_grid& grid = {}) {
+  return detail::worst_of_pairs(grid, [&](const direction& wi, const direction& wo) {
+    return detail::relative_difference(f(wi, wo), f(wo, wi));
+  });
+}
+
+/// How far below zero the reflectance falls, in sr^-1.
+template <brdf Brdf>
+[[nodiscard]] worst_pair worst_negative(const Brdf& f, const pair_grid& grid = {}) {
+  return detail::worst_of_pairs(grid,
+                                [&](const direction& wi, const direction& wo) { return -rgb(f(wi, wo)).minCoeff(); });
+}
+
+/// The largest change when both directions turn about the normal, by a third of a turn, as a share of the larger.
+template <brdf Brdf>
+[[nodiscard]] worst_pair worst_anisotropy(const Brdf& f, const pair_grid& grid = {}) {
+  constexpr double angle = 2.0 * std::numbers::pi / 3.0;
+  return detail::worst_of_pairs(grid, [&](const direction& wi, const direction& wo) {
+    return detail::relative_difference(f(wi, wo), f(turned_about_normal(wi, angle), turned_about_normal(wo, angle)));
+  });
+}
+
+/// The directional-hemispherical reflectance: the integral over wi of f cos theta_i, for a viewer (by reciprocity, a
+/// light) at an angle from the normal, in radians and below pi / 2. The midpoint rule over half vectors in
+/// sqrt(theta_h), which resolves highlights wider than about 1e-4 radians: `bins`^2 evaluations, an error of about 2e-3
+/// where the lobe meets the horizon.
+template <brdf Brdf>
+[[nodiscard]] rgb directional_albedo(const Brdf& f, double theta, int bins = 400) {
+  constexpr double pi = std::numbers::pi;
+  const direction wo = spherical_direction(theta, 0.0);
+  rgb sum = rgb::Zero();
+  for (int i = 0; i < bins; ++i) {
+    const double s = (i + 0.5) / bins, theta_h = s * s * pi / 2.0;
+    const double area = std::sin(theta_h) * (2.0 * s * pi / 2.0 / bins) * (2.0 * pi / bins);
+    for (int k = 0; k < bins; ++k) {
+      const direction h = spherical_direction(theta_h, (k + 0.5) * 2.0 * pi / bins);
+      const double cosine = h.dot(wo);
+      const direction wi = 2.0 * cosine * h - wo;
+      if (cosine > 0.0 && wi.z() > 0.0) sum += rgb(f(wi, wo)) * (4.0 * cosine * area * wi.z());
+    }
+  }
+  return sum;
+}
+
+/// The largest albedo, over the channels, and the angle where it is reached. More than 1 is more than falls in.
+struct largest_albedo {
+  double value = 0.0, theta = 0.0;
+};
+
+/// Angles in steps of five degrees up to 85, and 88.
+template <brdf Brdf>
+[[nodiscard]] largest_albedo find_largest_albedo(const Brdf& f, int bins = 400) {
+  largest_albedo found;
+  for (int degree = 0; degree <= 90; degree += 5) {
+    const double theta = radians(degree == 90 ? 88.0 : degree);
+    const double albedo = directional_albedo(f, theta, bins).maxCoeff();
+    if (albedo > found.value) found = {albedo, theta};
+  }
+  return found;
+}
+
+}  // namespace gonio

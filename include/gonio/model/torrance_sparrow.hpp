@@ -1,0 +1,49 @@
+#pragma once
+/// The microfacet model of K. E. Torrance and E. M. Sparrow 1967, as R. L. Cook and K. E. Torrance, "A Reflectance
+/// Model for Computer Graphics", ACM TOG 1982, have it: J. B. Nielsen's thesis, Eq. 2.19-2.22.
+
+#include <gonio/model/fresnel.hpp>
+#include <gonio/model/lobe.hpp>
+
+#include <numbers>
+
+namespace gonio {
+
+/// D F G / (4 cos theta_i cos theta_o): Beckmann's distribution, Schlick's Fresnel factor, and the masking of
+/// V-cavities. Eq. 2.21 is printed with cos theta_i, which is not reciprocal; as in its source the angle here is
+/// that with the half vector.
+template <class Real>
+struct torrance_sparrow_shape {
+  static constexpr std::string_view name = "torrance-sparrow";
+  static constexpr std::array parameters{shape_parameter{"slope", "slope", 0.005, 2.0, 0.2, true},
+                                         shape_parameter{"f0", "", 0.0, 1.0, 0.1}};
+  static auto members(auto& self) { return std::tie(self.slope, self.f0); }
+
+  Real slope = Real(0.2);  ///< m, the root mean square slope of the facets
+  Real f0 = Real(0.1);     ///< reflectance of a facet at normal incidence, beside which the colour scales all
+
+  [[nodiscard]] Real operator()(const lobe_geometry& at) const {
+    const double cosine_h = at.h.z();
+    const double largest_cosine = std::max(at.cosine_i, at.cosine_o);
+    // G over 4 cos theta_i cos theta_o, with the cosines cancelled where light is masked.
+    const double masking = std::min(
+        {0.25 / (at.cosine_i * at.cosine_o), 0.5 * cosine_h / at.cosine_d / largest_cosine, largest_reflectance});
+    return distribution(at.squared_tangent_h()) * fresnel_schlick(at.cosine_d, f0) * masking;
+  }
+
+  /// D of Eq. 2.20, in sr^-1, of facets whose tan^2 of the angle with the normal is given.
+  [[nodiscard]] Real distribution(double squared_tangent) const {
+    using std::exp;
+    const Real squared_slope = slope * slope;
+    const Real exponent = squared_tangent / squared_slope;
+    if (!(exponent < 700.0)) return Real(0.0);
+    const double squared_secant = 1.0 + squared_tangent;
+    return exp(Real(-exponent)) * (squared_secant * squared_secant * std::numbers::inv_pi) / squared_slope;
+  }
+};
+
+using torrance_sparrow = lobe<torrance_sparrow_shape>;
+
+static_assert(brdf<torrance_sparrow>);
+
+}  // namespace gonio

@@ -1,0 +1,161 @@
+#pragma once
+/// Non-linear least squares of a few unknowns within bounds, on normal equations: J. J. More, "The Levenberg-Marquardt
+/// Algorithm: Implementation and Theory", 1978, with the steps held within the box.
+
+#include <gonio/core/assertion.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A function at a point, and the parabola that is taken for it there. Of 1/2 |r|^2 these are J'r and J'J.
+struct local_parabola {
+  double value = 0.0;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd hessian;  ///< symmetric and positive semidefinite
+};
+
+/// Bounds of each unknown. Where both are equal it is held fixed.
+struct unknown_bounds {
+  Eigen::VectorXd lowest, highest;
+};
+
+struct levenberg_marquardt_options {
+  std::size_t iteration_limit = 200;
+  /// Ends where no unknown moves by more than this share of itself, or of 1 if it is smaller.
+  double smallest_step = 1e-12;
+  /// Ends where the parabola promises less than this share of the value.
+  double smallest_gain = 1e-15;
+  /// Smaller differences of values are rounding: ends where the parabola promises less.
+  double resolution = 0.0;
+};
+
+/// Where the descent ended.
+struct local_minimum {
+  Eigen::VectorXd unknowns;
+  double value = 0.0;
+  std::size_t evaluations = 0;
+  bool converged = false;  ///< false: the limit of iterations came first
+  /// The certificate: by how much the parabola still falls within the bounds, as a share of the value at the start.
+  double promised_gain = 0.0;
+};
+
+namespace detail {
+
+/// Minimises g's + s'Hs / 2 over steps that stay within the bounds, approximately: an unknown whose step leaves the
+/// box is held at its border, and the others are solved for again. O(n^4) at worst.
+[[nodiscard]] inline Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
+                                                  const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
+  const Eigen::Index n = gradient.size();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool held = (lowest[i] >= 0.0 && gradient[i] >= 0.0) || (highest[i] <= 0.0 && gradient[i] <= 0.0);
+    if (!held) free.push_back(i);
+  }
+  while (!free.empty()) {
+    const Eigen::VectorXd slope = gradient + hessian * step;  // with the step of those that are held
+    const Eigen::MatrixXd among = hessian(free, free);
+    const Eigen::VectorXd moves = among.ldlt().solve(-slope(free));
+    std::vector<Eigen::Index> inside;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const Eigen::Index i = free[j];
+      const double move = moves[static_cast<Eigen::Index>(j)];
+      if (move < lowest[i] || move > highest[i])
+        step[i] = std::clamp(move, lowest[i], highest[i]);
+      else
+        inside.push_back(i);
+    }
+    if (inside.size() == free.size()) {
+      step(free) = moves;
+      break;
+    }
+    free = std::move(inside);
+  }
+  return step;
+}
+
+}  // namespace detail
+
+/// Descends from a start, which is first moved into the bounds. `function(unknowns)` returns a `local_parabola`; every
+/// evaluation is asked for it. O(n^3) beside an evaluation.
+///
+/// ```cpp
+/// const auto found = gonio::levenberg_marquardt(f, start, {lowest, highest});
+/// ```
+template <class Function>
+[[nodiscard]] local_minimum levenberg_marquardt(Function&& function, const Eigen::VectorXd& start,
+                                                const unknown_bounds& bounds,
+                                                const levenberg_marquardt_options& options = {}) {
+  GONIO_ASSERT(start.size() == bounds.lowest.size() && start.size() == bounds.highest.size());
+  const auto within = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return x.cwiseMax(bounds.lowest).cwiseMin(bounds.highest);
+  };
+  const auto step_from = [&](const Eigen::VectorXd& x, const local_parabola& here, double damping) -> Eigen::VectorXd {
+    Eigen::MatrixXd damped = here.hessian;
+    const Eigen::VectorXd diagonal = here.hessian.diagonal();
+    const double least = std::max(1e-14 * diagonal.maxCoeff(), std::numeric_limits<double>::min());
+    damped.diagonal() += damping * diagonal.cwiseMax(least) + Eigen::VectorXd::Constant(x.size(), least);
+    return detail::bounded_step(here.gradient, damped, bounds.lowest - x, bounds.highest - x);
+  };
+  const auto gain_of = [](const local_parabola& here, const Eigen::VectorXd& step) {
+    return -(here.gradient.dot(step) + 0.5 * step.dot(here.hessian * step));
+  };
+
+  local_minimum found;
+  found.unknowns = within(start);
+  if (start.size() == 0) {
+    found.value = function(found.unknowns).value;
+    found.evaluations = 1;
+    found.converged = true;
+    return found;
+  }
+  local_parabola here = function(found.unknowns);
+  found.evaluations = 1;
+  const double scale = std::max(std::abs(here.value), std::numeric_limits<double>::min());
+  double damping = 1e-3, bend = 1.0;
+  constexpr double largest_damping = 1e12, least_bend = 0.05;
+  for (std::size_t iteration = 0; iteration < options.iteration_limit && !found.converged; ++iteration) {
+    local_parabola flatter = here;
+    flatter.hessian *= bend;
+    const Eigen::VectorXd step = step_from(found.unknowns, flatter, damping);
+    if (!step.allFinite()) break;  // a start at which the function is no number
+    const double promised = gain_of(flatter, step);
+    const bool tiny = (step.array().abs() <= options.smallest_step * found.unknowns.array().abs().max(1.0)).all();
+    const double least_gain = std::max(options.smallest_gain * here.value, options.resolution);
+    if (tiny || promised <= least_gain || damping > largest_damping) {
+      found.converged = true;
+      break;
+    }
+    const Eigen::VectorXd candidate = within(found.unknowns + step);
+    local_parabola there = function(candidate);
+    ++found.evaluations;
+    // A comparison that a value which is no number fails.
+    const bool better = there.value < here.value;
+    const double change = there.value - here.value, kept = -change / promised;
+    damping *= !better ? 8.0 : kept > 0.75 ? 0.1 : kept > 0.25 ? 1.0 : 3.0;
+    damping = std::max(damping, 1e-15);
+    if (!better) {
+      bend = 1.0;
+      continue;
+    }
+    // Weighted squares that lie above a norm bend more than it does. What the step has met is a better guess.
+    const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
+    bend = std::isfinite(met) ? std::clamp(met, least_bend, 1.0) : 1.0;
+    found.unknowns = candidate;
+    here = std::move(there);
+  }
+  found.value = here.value;
+  found.promised_gain = gain_of(here, step_from(found.unknowns, here, 0.0)) / scale;
+  return found;
+}
+
+}  // namespace gonio

@@ -1,0 +1,73 @@
+#include "scratch.hpp"
+#include <gonio/io/renderer_material.hpp>
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace {
+
+using gonio::analytic_brdf;
+using gonio::lobe_kind;
+using gonio::rgb;
+
+analytic_brdf paint(const char* rough) {
+  return analytic_brdf({{lobe_kind::of<gonio::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
+                        {gonio::lobe_kind_named(rough), {1.0, 0.75, 0.5}, {0.25, 0.25}}});
+}
+
+analytic_brdf metal() { return analytic_brdf({{lobe_kind::of<gonio::ggx_shape>(), {1.0, 0.5, 0.25}, {0.25, 0.5}}}); }
+
+}  // namespace
+
+TEST_CASE("a rough lobe over a diffuse one as a material of pbrt") {
+  CHECK(gonio::io::pbrt_material(paint("ggx")) ==
+        "Material \"coateddiffuse\"\n"
+        "  \"rgb reflectance\" [ 0.5 0.25 0.125 ]\n"
+        "  \"float roughness\" [ 0.25 ]\n"
+        "  \"bool remaproughness\" false\n"
+        "  \"float eta\" [ 3 ]\n");
+  CHECK(gonio::io::pbrt_material(metal()) ==
+        "Material \"conductor\"\n"
+        "  \"rgb reflectance\" [ 0.5 0.25 0.125 ]\n"
+        "  \"float roughness\" [ 0.25 ]\n"
+        "  \"bool remaproughness\" false\n");
+}
+
+TEST_CASE("the same of Mitsuba") {
+  CHECK(gonio::io::mitsuba_material(paint("torrance-sparrow")) ==
+        "<bsdf type=\"roughplastic\">\n"
+        "  <string name=\"distribution\" value=\"beckmann\"/>\n"
+        "  <float name=\"alpha\" value=\"0.25\"/>\n"
+        "  <float name=\"int_ior\" value=\"3\"/>\n"
+        "  <float name=\"ext_ior\" value=\"1\"/>\n"
+        "  <rgb name=\"diffuse_reflectance\" value=\"0.5, 0.25, 0.125\"/>\n"
+        "  <rgb name=\"specular_reflectance\" value=\"1, 0.75, 0.5\"/>\n"
+        "</bsdf>\n");
+  CHECK(gonio::io::mitsuba_material(metal()) ==
+        "<bsdf type=\"roughconductor\">\n"
+        "  <string name=\"material\" value=\"none\"/>\n"
+        "  <string name=\"distribution\" value=\"ggx\"/>\n"
+        "  <float name=\"alpha\" value=\"0.25\"/>\n"
+        "  <rgb name=\"specular_reflectance\" value=\"0.5, 0.25, 0.125\"/>\n"
+        "</bsdf>\n");
+}
+
+TEST_CASE("models that renderers do not have are refused") {
+  CHECK_THROWS_WITH_AS(gonio::io::pbrt_material(paint("torrance-sparrow")), doctest::Contains("fit ggx instead"),
+                       gonio::error);
+  const analytic_brdf two({metal().lobes()[0], metal().lobes()[0]}), none;
+  CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(two), doctest::Contains("one rough lobe, not 2"), gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(none), doctest::Contains("one rough lobe, not 0"), gonio::error);
+  const analytic_brdf phong({{lobe_kind::of<gonio::phong_shape>(), rgb::Ones(), {30.0}}});
+  CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(phong), doctest::Contains("not phong"), gonio::error);
+}
+
+TEST_CASE("a material is written as it is") {
+  const scratch::folder folder;
+  gonio::io::write_renderer_material(folder / "paint.xml", gonio::io::mitsuba_material(paint("ggx")));
+  std::ostringstream text;
+  text << std::ifstream(folder / "paint.xml").rdbuf();
+  CHECK(text.str() == gonio::io::mitsuba_material(paint("ggx")));
+}

@@ -1,0 +1,183 @@
+#include "../archetypes.hpp"
+#include "physical.hpp"
+#include <gonio/metric/log.hpp>
+#include <gonio/metric/root.hpp>
+#include <gonio/model/fit_model.hpp>
+
+#include <random>
+
+namespace {
+
+using gonio::lobe_kind;
+using gonio::rgb;
+
+/// Directions above the horizon, denser near the highlight.
+std::vector<gonio::direction_pair> scattered_pairs(std::size_t count, unsigned seed = 1) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform;
+  std::vector<gonio::direction_pair> pairs;
+  while (pairs.size() < count) {
+    const double s = uniform(random);
+    const auto pair = gonio::to_directions({pi / 2 * s * s, pi / 2 * uniform(random), pi * uniform(random)});
+    if (pair.wi.z() > 0.02 && pair.wo.z() > 0.02) pairs.push_back(pair);
+  }
+  return pairs;
+}
+
+std::vector<gonio::fit_observation> observed(const gonio::analytic_brdf& f,
+                                             const std::vector<gonio::direction_pair>& pairs) {
+  std::vector<gonio::fit_observation> all;
+  for (const auto& [wi, wo] : pairs) all.push_back({gonio::lobe_geometry(wi, wo), f(wi, wo), 1.0});
+  return all;
+}
+
+/// A material of a kind: parameters where a few hundred measurements can see the lobe.
+gonio::analytic_lobe any_lobe(const lobe_kind& kind, std::mt19937_64& random) {
+  const auto between = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  lobe_kind::values values{};
+  for (std::size_t i = 0; i < kind.parameters().size(); ++i) {
+    const auto& about = kind.parameters()[i];
+    double low = about.lowest, high = about.highest;
+    if (about.name == "shininess" || about.name == "exponent") low = 1.0, high = 500.0;
+    if (about.unit == "slope") low = 0.04, high = 0.8;
+    if (about.name == "refractive_index") low = 1.1, high = 2.5;
+    if (about.name == "tilt") low = gonio::radians(30.0), high = gonio::radians(60.0);
+    values[i] = about.logarithmic ? std::exp(between(std::log(low), std::log(high))) : between(low, high);
+  }
+  return {kind, {between(0.05, 1.0), between(0.05, 1.0), between(0.05, 1.0)}, values};
+}
+
+/// The largest relative error of colours and parameters.
+double error_of(const gonio::analytic_lobe& found, const gonio::analytic_lobe& truth) {
+  double worst = ((found.colour() - truth.colour()).abs() / truth.colour()).maxCoeff();
+  for (std::size_t i = 0; i < truth.kind().parameters().size(); ++i)
+    worst = std::max(worst, std::abs(found.parameters()[i] - truth.parameters()[i]) / std::abs(truth.parameters()[i]));
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a fit to what a model made finds its parameters without an initial guess: every kind, beside Lambert") {
+  const auto pairs = scattered_pairs(600);
+  const lobe_kind& lambert = lobe_kind::of<gonio::lambert_shape>();
+  std::mt19937_64 random(3);
+  for (const lobe_kind* kind : gonio::lobe_kinds()) {
+    if (*kind == lambert) continue;
+    CAPTURE(kind->name());
+    for (int draw = 0; draw < 20; ++draw) {
+      CAPTURE(draw);
+      const gonio::analytic_lobe diffuse = any_lobe(lambert, random), lobe = any_lobe(*kind, random);
+      const auto fit = gonio::fit_model({&lambert, kind}, observed(gonio::analytic_brdf({diffuse, lobe}), pairs));
+      CHECK(fit.converged);
+      CHECK(error_of(fit.model.lobes()[0], diffuse) < 1e-6);
+      CHECK(error_of(fit.model.lobes()[1], lobe) < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("also by L1 and Huber's norm, in other metrics, weighted by the cosine") {
+  const auto pairs = scattered_pairs(600);
+  const lobe_kind &lambert = lobe_kind::of<gonio::lambert_shape>(), &ward = lobe_kind::of<gonio::ward_shape>();
+  const gonio::analytic_lobe diffuse(lambert, {0.1, 0.3, 0.5}, {}), lobe(ward, {0.4, 0.2, 0.1}, {0.2});
+  const auto samples = observed(gonio::analytic_brdf({diffuse, lobe}), pairs);
+  const auto check = [&](const auto& metric, const gonio::model_fit_options& options, double tolerance) {
+    CAPTURE(static_cast<int>(options.norm));
+    const auto fit = gonio::fit_model({&lambert, &ward}, samples, metric, options);
+    CHECK(fit.converged);
+    CHECK(error_of(fit.model.lobes()[0], diffuse) < tolerance);
+    CHECK(error_of(fit.model.lobes()[1], lobe) < tolerance);
+  };
+  for (const bool cosine_weighted : {false, true})
+    for (const auto norm : {gonio::fit_norm::l2, gonio::fit_norm::l1, gonio::fit_norm::huber}) {
+      const gonio::model_fit_options options{.norm = norm, .cosine_weighted = cosine_weighted};
+      check(gonio::lin(), options, 1e-6);
+      check(gonio::log(), options, 1e-6);
+      check(gonio::root(3.0), options, 1e-6);
+    }
+}
+
+TEST_CASE("variable projection and the joint descent end in the same minimum of noisy data") {
+  const auto pairs = scattered_pairs(400);
+  const lobe_kind &lambert = lobe_kind::of<gonio::lambert_shape>(), &ggx = lobe_kind::of<gonio::ggx_shape>();
+  auto samples =
+      observed(gonio::analytic_brdf({{lambert, {0.1, 0.3, 0.5}, {}}, {ggx, {0.4, 0.2, 0.1}, {0.2, 0.3}}}), pairs);
+  std::mt19937_64 random(5);
+  std::normal_distribution<double> noise(0.0, 0.05);
+  for (auto& seen : samples) seen.value *= 1.0 + noise(random);
+  const auto projected = gonio::fit_model({&lambert, &ggx}, samples);
+  // The linear metric by another name, of which nobody knows that the colours separate.
+  const auto joint = gonio::fit_model({&lambert, &ggx}, samples, archetype::smooth_identity_metric());
+  CHECK(projected.loss > 1e-6);
+  CHECK(projected.loss == doctest::Approx(joint.loss).epsilon(1e-9));
+  CHECK(error_of(projected.model.lobes()[1], joint.model.lobes()[1]) < 1e-4);
+  CHECK(projected.promised_gain < 1e-9);
+}
+
+TEST_CASE("L1 follows the many where squares follow the few") {
+  const auto pairs = scattered_pairs(500);
+  const lobe_kind& lambert = lobe_kind::of<gonio::lambert_shape>();
+  auto samples = observed(gonio::analytic_brdf({{lambert, rgb::Constant(0.5), {}}}), pairs);
+  for (std::size_t i = 0; i < samples.size(); i += 10) samples[i].value *= 100.0;
+  const auto albedo = [&](gonio::fit_norm norm) {
+    return gonio::fit_model({&lambert}, samples, gonio::lin(), {.norm = norm}).model.lobes()[0].colour()[1];
+  };
+  CHECK(albedo(gonio::fit_norm::l1) == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(albedo(gonio::fit_norm::huber) == doctest::Approx(0.5).epsilon(0.05));
+  CHECK(albedo(gonio::fit_norm::l2) > 3.0);
+}
+
+TEST_CASE("the same bytes for any number of threads, and weights count") {
+  const auto pairs = scattered_pairs(2000);
+  const lobe_kind &lambert = lobe_kind::of<gonio::lambert_shape>(), &phong = lobe_kind::of<gonio::phong_shape>();
+  auto samples =
+      observed(gonio::analytic_brdf({{lambert, {0.1, 0.3, 0.5}, {}}, {phong, {0.4, 0.2, 0.1}, {30.0}}}), pairs);
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    samples[i].value *= 3.0;
+    samples[i].weight = 0.0;
+  }
+  const auto with = [&](unsigned threads) {
+    return gonio::fit_model({&lambert, &phong}, samples, gonio::log(), {.threads = {threads}});
+  };
+  const auto one = with(1), three = with(3);
+  CHECK(one.loss == three.loss);
+  CHECK(one.model.lobes()[1].parameters() == three.model.lobes()[1].parameters());
+  CHECK(one.model.lobes()[1].parameters()[0] == doctest::Approx(30.0).epsilon(1e-6));
+}
+
+TEST_CASE("a table is fitted as its cells are") {
+  const gonio::valid_cells cells(gonio::grid({18, 12, 18}));
+  const gonio::ward paint(rgb(0.1, 0.2, 0.3), {.roughness = 0.3});
+  const auto table = gonio::tabulate(paint, cells);
+  const auto fit = gonio::fit_model({&lobe_kind::of<gonio::ward_shape>()}, gonio::fit_observations(table));
+  const auto ward = fit.model.lobes()[0].as<gonio::ward_shape>();
+  CHECK(ward.shape().roughness == doctest::Approx(0.3).epsilon(1e-6));  // the table is of floats
+  CHECK(((ward.colour() - paint.colour()).abs() < 1e-6).all());
+}
+
+TEST_CASE("random starts never end worse than the consecutive scheme alone") {
+  const auto pairs = scattered_pairs(300);
+  const lobe_kind& ggx = lobe_kind::of<gonio::ggx_shape>();
+  const auto samples = observed(
+      gonio::analytic_brdf({{ggx, rgb::Constant(0.3), {0.05, 0.1}}, {ggx, rgb::Constant(0.2), {0.5, 0.5}}}), pairs);
+  const lobe_kind& ward = lobe_kind::of<gonio::ward_shape>();
+  const auto alone = gonio::fit_model({&ward, &ward}, samples, gonio::log());
+  const auto many = gonio::fit_model({&ward, &ward}, samples, gonio::log(), {.random_starts = 5, .seed = 4});
+  CHECK(many.loss <= alone.loss);
+  CHECK(many.evaluations > alone.evaluations);
+}
+
+TEST_CASE("what cannot be fitted is refused") {
+  const lobe_kind &lambert = lobe_kind::of<gonio::lambert_shape>(), &ggx = lobe_kind::of<gonio::ggx_shape>();
+  auto few = observed(gonio::analytic_brdf({{lambert, rgb::Ones(), {}}}), scattered_pairs(2));
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::fit_model({&lambert, &ggx}, few)),
+                       "2 samples of three channels are too few for 8 parameters", gonio::error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::fit_model({}, few)), doctest::Contains("at least one lobe"),
+                       gonio::error);
+  for (auto& seen : few) seen.value.setZero();
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::fit_model({&lambert}, few)), doctest::Contains("all measurements are"),
+                       gonio::error);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(gonio::fit_observations(gonio::sample_set{{{0.1, 0.2, 0.3}, {0.1, nan, 0.1}, 1.0}})),
+      doctest::Contains("sample 1: a reflectance is not finite"), gonio::error);
+}
