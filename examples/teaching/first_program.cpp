@@ -1,4 +1,8 @@
-#include <gonio/gonio.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/io/merl.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 int main() {
   const auto prior = gonio::io::read_prior("materials.prior");
