@@ -140,10 +140,10 @@ json recover(const gonio::lobe_kind& kind, const options& given) {
           {"draws", given.draws},
           {"recovered", found},
           {"worst", worst},
-          {"evaluations", static_cast<double>(evaluations) / given.draws},
-          {"noise_mean", ratio.mean},
-          {"noise_median", ratio.median},
-          {"noise_worst", ratio.worst}};
+          {"evaluations", static_cast<double>(evaluations) / static_cast<double>(given.draws)},
+          {"noise_median", median},
+          {"noise_within_4", near},
+          {"noise_mean_of_those", passed_on.empty() ? 0.0 : distribution(passed_on).mean}};
 }
 
 void run(const options& given) {

@@ -85,7 +85,7 @@ void print_means(const options& given, const json& rows) {
         lights.push_back(fit["delta_e_lights"]);
         environment.push_back(fit["delta_e_env"]);
         evaluations.push_back(fit["evaluations"]);
-        converged += fit["converged"].get<bool>() ? 1 : 0;
+        if (fit["converged"].get<bool>()) ++converged;
       }
       const distribution l(lights), e(environment);
       std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
