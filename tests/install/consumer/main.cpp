@@ -1,4 +1,6 @@
-#include <gonio/gonio.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <cstdio>
 
