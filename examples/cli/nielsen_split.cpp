@@ -25,13 +25,17 @@ nielsen_split nielsen_split::learn(const std::filesystem::path& networks, gonio:
 
 std::filesystem::path shipped_directions() { return shipped_prior().parent_path() / "directions"; }
 
+std::string points_file(const std::string& set, std::size_t count) {
+  return "point-" + std::to_string(count) + '-' + set + ".csv";
+}
+
 std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
                                                                   const std::string& set, std::size_t count) {
   if (set == "published") {
     if (!gonio::has_nielsen_directions(count)) return {};
     return gonio::nielsen_directions(count);
   }
-  const auto file = folder / ("point-" + std::to_string(count) + '-' + set + ".csv");
+  const auto file = folder / points_file(set, count);
   if (!std::filesystem::exists(file)) return {};
   std::vector<gonio::half_difference> directions;
   for (const auto& [wi, wo] : gonio::io::read_direction_pairs(file))

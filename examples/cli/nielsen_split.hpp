@@ -31,6 +31,9 @@ struct nielsen_split {
 /// Folder of the sets of directions that ship with the tool.
 [[nodiscard]] std::filesystem::path shipped_directions();
 
+/// What the file of such a set is called.
+[[nodiscard]] std::string points_file(const std::string& set, std::size_t count);
+
 /// A set of points that is written down: `published`, or one of a folder, named after its number and criterion as
 /// `gonio evaluate directions --write` does. Nothing where there is none of that many.
 [[nodiscard]] std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,

@@ -36,7 +36,7 @@ TEST_CASE("chosen penalties against the best in hindsight") {
   const auto table = gonio_tool(evaluate + "-n 5 --noise 0.1 --sets published --repetitions 1");
   REQUIRE_MESSAGE(table.exit_code == 0, table.output);
   CHECK(table.output.find("\n| published | 5 | 10 % | ") != std::string::npos);
-  const auto refused = gonio_tool(evaluate + "-n 3");
+  const auto refused = gonio_tool(evaluate + "-n 21 --sets expected-error");
   CHECK(refused.exit_code == 2);
-  CHECK(refused.output.find("point-3-expected-error.csv") != std::string::npos);
+  CHECK(refused.output.find("point-21-expected-error.csv") != std::string::npos);
 }
