@@ -100,6 +100,7 @@
 #include <gonio/model/lafortune.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/lobe.hpp>
+#include <gonio/model/model_loss.hpp>
 #include <gonio/model/network_brdf.hpp>
 #include <gonio/model/phong.hpp>
 #include <gonio/model/physical_properties.hpp>

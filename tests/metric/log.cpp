@@ -27,14 +27,3 @@ TEST_CASE("whole arrays are mapped back to within 5e-7 of each value, from the s
   CHECK(double{edges[2]} == doctest::Approx(std::expm1(0.5)).epsilon(5e-7));
   CHECK(edges[3] > std::numeric_limits<float>::max());
 }
-
-TEST_CASE("the slope of log is that of differences") {
-  const gonio::log metric{};
-  for (const double rho : {-3.0, -0.2, 0.01, 0.4, 50.0}) {
-    CAPTURE(rho);
-    const double step = 1e-6 * std::abs(rho);
-    const double difference = (metric.map(rho + step) - metric.map(rho - step)) / (2.0 * step);
-    CHECK(metric.slope(rho) == doctest::Approx(difference).epsilon(1e-6));
-  }
-  CHECK(std::isfinite(metric.slope(0.0)));
-}

@@ -8,9 +8,10 @@
 
 #include <cmath>
 
-/// Increasing, odd, undone by its inverse, the same at a cell and at a location, and a row of cells is mapped back as
-/// one by one.
+/// Increasing, odd, undone by its inverse, with the slope of its differences, the same at a cell and at a location, and
+/// a row of cells is mapped back as one by one.
 template <gonio::row_metric Metric>
+requires gonio::smooth_metric<Metric>
 void check_place_free(const Metric& metric) {
   const gonio::valid_cells cells(gonio::grid({4, 4, 4}));
   CHECK(rc::check([&] {
@@ -26,6 +27,14 @@ void check_place_free(const Metric& metric) {
   }));
   CHECK(metric.forward(0.0, std::size_t{0}) == 0.0);
   CHECK(metric.inverse(0.0, std::size_t{0}) == 0.0);
+
+  CHECK(std::isfinite(metric.slope(0.0)));
+  for (const double rho : {-3.0, -0.2, 0.01, 0.4, 50.0}) {
+    CAPTURE(rho);
+    const double step = 1e-6 * std::abs(rho);
+    const double difference = (metric.map(rho + step) - metric.map(rho - step)) / (2.0 * step);
+    CHECK(metric.slope(rho) == doctest::Approx(difference).epsilon(1e-6));
+  }
 
   gonio::cell_fields<3> values(3, 2);
   values << 0.5f, -0.5f, 2e-4f, 0.0f, 3.0f, 1.0f;

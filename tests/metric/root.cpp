@@ -23,14 +23,3 @@ TEST_CASE("any root of at least 1") {
 TEST_CASE("other roots are refused") {
   for (const double p : {0.0, 0.5, -2.0, std::nan(""), HUGE_VAL}) CHECK_THROWS_AS(root{p}, gonio::error);
 }
-
-TEST_CASE("the slope of root is that of differences") {
-  const gonio::root metric{};
-  for (const double rho : {-3.0, -0.2, 0.01, 0.4, 50.0}) {
-    CAPTURE(rho);
-    const double step = 1e-6 * std::abs(rho);
-    const double difference = (metric.map(rho + step) - metric.map(rho - step)) / (2.0 * step);
-    CHECK(metric.slope(rho) == doctest::Approx(difference).epsilon(1e-6));
-  }
-  CHECK(std::isfinite(metric.slope(0.0)));
-}
