@@ -33,6 +33,21 @@ inline void add_networks_option(CLI::App& command, std::filesystem::path& networ
   command.add_option("--networks", networks, "File of networks of the 100 materials (.npy)")->required();
 }
 
+/// A file of networks, and the cells of MERL's grid that its materials are tabulated over.
+struct studied_networks {
+  std::filesystem::path file;
+  thinning thin = {};
+
+  [[nodiscard]] gonio::named_networks read() const { return gonio::io::read_networks(file); }
+  [[nodiscard]] gonio::valid_cells cells() const { return thin.of(gonio::valid_cells()); }
+};
+
+/// Adds `--networks FILE`, which must be given, and `--thin N M`.
+inline void add_networks_option(CLI::App& command, studied_networks& networks) {
+  add_networks_option(command, networks.file);
+  add_thin_option(command, networks.thin);
+}
+
 /// Adds `-n,--counts N ...`.
 inline void add_counts_option(CLI::App& command, std::vector<std::size_t>& counts) {
   command.add_option("-n,--counts", counts, "Numbers of measurements")

@@ -23,7 +23,8 @@ namespace cli {
 namespace {
 
 struct directions_options {
-  std::filesystem::path networks, state, folder;
+  studied_networks networks;
+  std::filesystem::path state, folder;
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
@@ -255,7 +256,9 @@ void run(const directions_options& options) {
                    options.reconstruction_eta,
                    options.step,
                    options.seed,
-                   options.expected};
+                   options.expected,
+                   options.networks.thin.theta_d,
+                   options.networks.thin.phi_d};
     const json* result = results.find(key);
     if (!result) {
       if (!lab) lab.emplace(open_laboratory(options, listener));

@@ -15,7 +15,7 @@ namespace cli {
 namespace {
 
 struct eta_options {
-  std::filesystem::path networks;
+  studied_networks networks;
   std::vector<std::string> sets{"expected-error", "published"};
   std::vector<std::size_t> counts{5, 10, 20};
   std::vector<double> noises{0.0, 0.02, 0.1, 0.3};

@@ -14,14 +14,14 @@ namespace figures {
 
 laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
                            const gonio::progress& listener) {
-  const gonio::valid_cells cells;
-  const auto others = networks_in(gonio::io::read_networks(given.networks), gonio::nielsen_test_materials());
+  const auto cells = given.networks.cells();
+  const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials());
   return {mapped_errors(learn_all_components(learned, cells, given.threads, listener),
                         gonio::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
 }
 
 laboratory open_laboratory(const options& given, const gonio::progress& listener) {
-  const auto all = gonio::io::read_networks(given.networks);
+  const auto all = given.networks.read();
   return open_laboratory(given, networks_except(all, gonio::nielsen_test_materials()), listener);
 }
 

@@ -43,7 +43,7 @@ void print_row(const std::string& label, double reference, const json& full, con
 void run(const nielsen_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
-  const nielsen_split split = nielsen_split::learn(options.networks, options.threads, listener);
+  const nielsen_split split = nielsen_split::learn({options.networks}, options.threads, listener);
   const auto& prior = split.prior;
   const auto& truths = split.truths;
   const auto shipped = as_shipped(prior);

@@ -17,7 +17,7 @@ namespace cli {
 namespace {
 
 struct soft_specular_options {
-  std::filesystem::path networks;
+  studied_networks networks;
   std::vector<std::size_t> counts{2, 5};
   double eta = 40.0;
   std::optional<double> eta_of_halves, threshold;
@@ -137,8 +137,8 @@ void print_heading(const rivals& from, const gonio::material_set& truths, const 
 void run(const soft_specular_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
-  const auto networks = gonio::io::read_networks(options.networks);
-  const gonio::valid_cells cells;
+  const auto networks = options.networks.read();
+  const auto cells = options.networks.cells();
   const auto& names = gonio::nielsen_test_materials();
   const auto truths = gonio::tabulate_networks(networks_in(networks, names), cells, options.threads);
   const rivals from = learn_rivals(

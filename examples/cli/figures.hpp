@@ -1,7 +1,7 @@
 #pragma once
 /// gonio evaluate figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 as tables, one function each.
 
-#include "inputs.hpp"
+#include "evaluate.hpp"
 #include "mapped_errors.hpp"
 #include <gonio/design/exhaustive_search.hpp>
 
@@ -13,7 +13,7 @@
 namespace cli::figures {
 
 struct options {
-  std::filesystem::path networks;
+  studied_networks networks;
   std::size_t most = 0;  ///< measurements; 0: as many as the figure has
   std::size_t repetitions = 5, random_sets = 20;
   double eta = 40.0, step = 10.0;

@@ -242,7 +242,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
 }
 
 tables xu_7(const options& given, const gonio::progress& listener) {
-  auto learned = networks_except(gonio::io::read_networks(given.networks), gonio::nielsen_test_materials());
+  auto learned = networks_except(given.networks.read(), gonio::nielsen_test_materials());
   // In random order: the first ones of it are learned.
   std::vector<std::string> order = learned.names;
   std::mt19937_64 generator(given.seed);

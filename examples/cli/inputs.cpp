@@ -41,6 +41,29 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
   return gonio::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
 }
 
+gonio::valid_cells thinning::of(const gonio::valid_cells& cells) const {
+  const gonio::grid_extents extents = cells.grid().extents();
+  if (extents.theta_d % theta_d != 0 || extents.phi_d % phi_d != 0)
+    throw gonio::error("--thin " + std::to_string(theta_d) + " " + std::to_string(phi_d) +
+                       " does not divide the table's " + std::to_string(extents.theta_d) + " and " +
+                       std::to_string(extents.phi_d) + " cells");
+  const gonio::grid kept({extents.theta_h, extents.theta_d / theta_d, extents.phi_d / phi_d}, cells.grid().anchor());
+  return gonio::valid_cells(kept, cells.minimum_cosine());
+}
+
+void add_thin_option(CLI::App& command, thinning& thin) {
+  const auto default_value = std::to_string(thin.theta_d) + ' ' + std::to_string(thin.phi_d);
+  command
+      .add_option_function<std::pair<int, int>>(
+          "--thin",
+          [&thin](const auto& steps) {
+            thin = {steps.first, steps.second};
+          },
+          "Keep every n-th theta_d and every m-th phi_d; 1 1 keeps all")
+      ->check(CLI::Range(1, 90))
+      ->default_str(default_value);
+}
+
 gonio::sample_set read_measurements(const std::filesystem::path& path) {
   return path.extension() == ".brdf" ? gonio::io::read_cornell(path) : gonio::io::read_samples(path);
 }

@@ -41,6 +41,18 @@ CLI::Option_group* add_material_options(CLI::App& command, material_source& sour
 [[nodiscard]] gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                                  const gonio::progress& listener = {});
 
+/// Which cells of a grid are kept: every n-th theta_d and every m-th phi_d.
+struct thinning {
+  int theta_d = 1, phi_d = 1;
+
+  /// Throws gonio::error if the numbers do not divide those of the grid. An odd step of cell centres is a grid of cell
+  /// centres again.
+  [[nodiscard]] gonio::valid_cells of(const gonio::valid_cells& cells) const;
+};
+
+/// Adds `--thin N M`.
+void add_thin_option(CLI::App& command, thinning& thin);
+
 /// Measurements: samples as CSV, or if the name ends in .brdf, Cornell's text format.
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path);
 

@@ -16,7 +16,7 @@ struct learn_options {
   material_source materials;
   std::filesystem::path output;
   std::size_t components = 60;
-  std::vector<int> thin{3, 5};
+  thinning thin{3, 5};
   gonio::thread_count threads;
 };
 
@@ -28,17 +28,6 @@ std::string source_of(const material_source& source, std::size_t materials) {
   return text;
 }
 
-/// Every n-th theta_d and phi_d; an odd step of cell centres is a grid of cell centres again.
-gonio::valid_cells thinned_cells(const gonio::valid_cells& cells, int theta_d, int phi_d) {
-  const gonio::grid_extents extents = cells.grid().extents();
-  if (extents.theta_d % theta_d != 0 || extents.phi_d % phi_d != 0)
-    throw gonio::error("--thin " + std::to_string(theta_d) + " " + std::to_string(phi_d) +
-                       " does not divide the table's " + std::to_string(extents.theta_d) + " and " +
-                       std::to_string(extents.phi_d) + " cells");
-  const gonio::grid thin({extents.theta_h, extents.theta_d / theta_d, extents.phi_d / phi_d}, cells.grid().anchor());
-  return gonio::valid_cells(thin, cells.minimum_cosine());
-}
-
 }  // namespace
 
 void add_learn(CLI::App& app) {
@@ -48,17 +37,14 @@ void add_learn(CLI::App& app) {
   command->add_option("--components", options->components, "Number of components to keep")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--thin", options->thin, "Keep every n-th theta_d and every m-th phi_d; 1 1 keeps all")
-      ->expected(2)
-      ->check(CLI::Range(1, 90))
-      ->capture_default_str();
+  add_thin_option(*command, options->thin);
   command->add_option("-o,--output", options->output, "Prior to write")->required();
   add_threads_option(*command, options->threads);
   command->callback([options] {
     progress_bar bar;
     auto materials = read_materials(options->materials, options->threads, bar.listener());
     const std::string source_text = source_of(options->materials, materials.names.size());
-    const auto cells = thinned_cells(materials.cells, options->thin[0], options->thin[1]);
+    const auto cells = options->thin.of(materials.cells);
     const auto metric = gonio::log_relative::to_median_of(materials, options->threads);
     const auto learned =
         gonio::learn_pca(std::move(materials), metric, options->components, options->threads, bar.listener());

@@ -14,11 +14,11 @@ gonio::log_relative_pca learn_all_components(const gonio::named_networks& networ
   return gonio::learn_pca(std::move(materials), metric, every_component, threads, listener);
 }
 
-nielsen_split nielsen_split::learn(const std::filesystem::path& networks, gonio::thread_count threads,
+nielsen_split nielsen_split::learn(const studied_networks& networks, gonio::thread_count threads,
                                    const gonio::progress& listener) {
-  const auto all = gonio::io::read_networks(networks);
+  const auto all = networks.read();
   const auto& tested = gonio::nielsen_test_materials();
-  const gonio::valid_cells cells;
+  const auto cells = networks.cells();
   return {learn_all_components(networks_except(all, tested), cells, threads, listener),
           gonio::tabulate_networks(networks_in(all, tested), cells, threads)};
 }

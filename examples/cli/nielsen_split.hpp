@@ -1,7 +1,7 @@
 #pragma once
 /// The experiment of Nielsen et al. 2015, section 6, that most tables are of: 90 materials learned, ten others tested.
 
-#include "inputs.hpp"
+#include "evaluate.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/material_result.hpp>
@@ -18,13 +18,13 @@ namespace cli {
                                                            const gonio::valid_cells& cells, gonio::thread_count threads,
                                                            const gonio::progress& listener);
 
-/// What is learned from, and what is tested, over all cells of MERL's grid.
+/// What is learned from, and what is tested.
 struct nielsen_split {
   gonio::log_relative_pca prior;  ///< of the 90, with all components
   gonio::material_set truths;     ///< the ten
 
   /// From a file of the 100 networks.
-  static nielsen_split learn(const std::filesystem::path& networks, gonio::thread_count threads,
+  static nielsen_split learn(const studied_networks& networks, gonio::thread_count threads,
                              const gonio::progress& listener);
 };
 

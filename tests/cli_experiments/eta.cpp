@@ -14,7 +14,7 @@ TEST_CASE("chosen penalties against the best in hindsight") {
   std::vector<std::string> names = gonio::nielsen_test_materials();
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
   write_made_up_networks(folder, names);
-  const std::string evaluate = "evaluate eta --networks " + (folder / "n.npy").string() + " ";
+  const std::string evaluate = "evaluate eta --thin 3 5 --networks " + (folder / "n.npy").string() + " ";
 
   const auto printed = gonio_tool(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);

@@ -25,7 +25,7 @@ class figures_database {
   }
 
   [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
-    return gonio_tool("evaluate " + arguments + " --networks " + (folder_ / "n.npy").string());
+    return gonio_tool("evaluate " + arguments + " --thin 3 5 --networks " + (folder_ / "n.npy").string());
   }
 
   /// The tables of a figure.

@@ -21,7 +21,7 @@ class made_up_database {
   }
 
   [[nodiscard]] auto evaluate(const std::string& arguments) const {
-    return gonio_tool("evaluate soft-specular --networks " + (folder_ / "n.npy").string() + " " + arguments);
+    return gonio_tool("evaluate soft-specular --thin 3 5 --networks " + (folder_ / "n.npy").string() + " " + arguments);
   }
 
  private:

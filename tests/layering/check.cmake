@@ -13,7 +13,7 @@ set(edges
   "estimate   -> basis"
   "design     -> basis"
   "model      -> table solve metric"
-  "capture    -> table"
+  "capture    -> table solve"
   "render     -> table"
   "evaluate   -> estimate render design"
   "shape      -> basis"

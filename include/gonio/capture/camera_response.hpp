@@ -1,0 +1,215 @@
+#pragma once
+/// What a camera's counts mean: the exposure that causes each, up to a factor (P. Debevec and J. Malik, "Recovering
+/// High Dynamic Range Radiance Maps from Photographs", SIGGRAPH 1997; Nielsen's thesis 2016, note on relative BRDF
+/// measurement, Sec. 3).
+
+#include <gonio/core/error.hpp>
+#include <gonio/solve/quadratic_program.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// The logarithm of exposure as a function of counts from 0 to a largest one, for one colour channel. It never falls.
+/// Exposures are relative: that of the middle count is 1.
+///
+/// Between its knots, which lie evenly over the counts, it is a straight line of the *logarithm* of the count, so that
+/// a power law, every gamma and a linear sensor among them, is exact.
+class camera_response {
+ public:
+  /// Values at the counts k c / n of the largest count c, k = 1 ... n. Throws gonio::error for less than two values,
+  /// ones that fall or are not finite, and a largest count below n.
+  camera_response(std::uint16_t largest_count, Eigen::VectorXd log_exposures)
+      : largest_(largest_count), values_(std::move(log_exposures)) {
+    if (values_.size() < 2) throw error("a camera's response needs at least two values");
+    if (values_.size() > largest_)
+      throw error("a camera of " + std::to_string(largest_) + " counts has no response of " +
+                  std::to_string(values_.size()) + " values");
+    if (!values_.allFinite()) throw error("a camera's response must be finite");
+    for (Eigen::Index k = 1; k < values_.size(); ++k)
+      if (values_[k] < values_[k - 1])
+        throw error("a camera's response falls from value " + std::to_string(k) +
+                    " to the next: more light cannot "
+                    "give less counts");
+    values_.array() -= log_exposure(largest_ / 2.0);
+  }
+
+  /// A sensor whose counts are proportional to the exposure, or to its 1/gamma-th power.
+  [[nodiscard]] static camera_response power_law(std::uint16_t largest_count, double gamma = 1.0) {
+    const Eigen::Index knots = std::min<Eigen::Index>(largest_count, most_knots);
+    return {largest_count, gamma * Eigen::VectorXd::LinSpaced(knots, 1.0, static_cast<double>(knots)).array().log()};
+  }
+
+  [[nodiscard]] std::uint16_t largest_count() const noexcept { return largest_; }
+  /// The values at the knots.
+  [[nodiscard]] const Eigen::VectorXd& log_exposures() const noexcept { return values_; }
+
+  /// ln X of a count, which need not be whole. Below the first knot its first line goes on; 0 counts are -infinity.
+  [[nodiscard]] double log_exposure(double count) const noexcept {
+    const auto [left, share] = place_of(count);
+    return values_[left] + share * (values_[left + 1] - values_[left]);
+  }
+  [[nodiscard]] double exposure(double count) const noexcept { return std::exp(log_exposure(count)); }
+
+  /// d ln X / d count: what an error of one count does to the logarithm of exposure.
+  [[nodiscard]] double slope(double count) const noexcept {
+    const Eigen::Index left = place_of(count).first;
+    return (values_[left + 1] - values_[left]) / (std::log1p(1.0 / static_cast<double>(left + 1)) * count);
+  }
+
+  /// The count, not rounded, of an exposure; more than the largest count's gives that. The least of several.
+  [[nodiscard]] double count(double exposure) const noexcept {
+    if (!(exposure > 0.0)) return 0.0;
+    const double wanted = std::log(exposure);
+    if (wanted >= values_[values_.size() - 1]) return largest_;
+    const auto above = std::lower_bound(values_.begin(), values_.end(), wanted) - values_.begin();
+    const Eigen::Index left = std::max<Eigen::Index>(above - 1, 0);
+    const double rise = values_[left + 1] - values_[left];
+    if (!(rise > 0.0)) return 0.0;  // the first line is flat: what is darker than it has no count
+    const double log_ratio = std::log1p(1.0 / static_cast<double>(left + 1));
+    return spacing() * static_cast<double>(left + 1) * std::exp((wanted - values_[left]) / rise * log_ratio);
+  }
+
+  /// Where a count lies: the knot on its left, counted from 0, and how far it is on the way to the next, in the
+  /// logarithm of the count: less than 0 below the first knot.
+  [[nodiscard]] std::pair<Eigen::Index, double> place_of(double count) const noexcept {
+    return place_of(count, spacing(), values_.size());
+  }
+  [[nodiscard]] static std::pair<Eigen::Index, double> place_of(double count, double spacing,
+                                                                Eigen::Index knots) noexcept {
+    const double position = count / spacing;
+    const Eigen::Index left = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(position) - 1, 0, knots - 2);
+    const auto knot = static_cast<double>(left + 1);
+    return {left, std::log(position / knot) / std::log1p(1.0 / knot)};
+  }
+
+  /// As many values as tell the cameras of 8 bits everything.
+  static constexpr Eigen::Index most_knots = 64;
+
+ private:
+  [[nodiscard]] double spacing() const noexcept { return largest_ / static_cast<double>(values_.size()); }
+
+  std::uint16_t largest_ = 0;
+  Eigen::VectorXd values_;
+};
+
+/// Counts of some pixels, one row each, at some exposure times, one column each.
+using exposure_counts = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic>;
+
+struct response_options {
+  /// Weight of the smoothness against the data, of which the mean square counts.
+  double smoothness = 1e-5;
+  /// From this count on a pixel is saturated; 0 stands for the largest count.
+  std::uint16_t saturation = 0;
+};
+
+namespace detail {
+
+/// 0 at both ends of a camera's range, 1 in its middle (Debevec and Malik 1997, Eq. 4).
+[[nodiscard]] inline double hat(double count, double saturation) noexcept {
+  return std::max(0.0, 1.0 - std::abs(2.0 * count / saturation - 1.0));
+}
+
+/// The response at the knots, but for a constant, is G s, and its slopes by the logarithm of the count are S s, where s
+/// is the first slope and then one bend for each knot but the ends, of which the sum of squares is the integral that
+/// smoothness weighs. In these unknowns it is a multiple of the identity, and the problem well-conditioned.
+struct response_basis {
+  Eigen::MatrixXd values, slopes;  ///< G: knots x (knots - 1), S: (knots - 1) x (knots - 1)
+
+  explicit response_basis(Eigen::Index knots)
+      : values(Eigen::MatrixXd::Zero(knots, knots - 1)), slopes(Eigen::MatrixXd::Zero(knots - 1, knots - 1)) {
+    const auto width = [](Eigen::Index interval) { return std::log1p(1.0 / static_cast<double>(interval + 1)); };
+    // Sensors bend where they begin to saturate.
+    const auto shoulder = [&](Eigen::Index k) {
+      return std::pow(std::min(1.0, 2.0 * (1.0 - static_cast<double>(k + 1) / static_cast<double>(knots))), 2);
+    };
+    slopes.col(0).setOnes();
+    for (Eigen::Index k = 1; k < knots - 1; ++k)
+      slopes.col(k).tail(knots - 1 - k).setConstant(std::sqrt((width(k - 1) + width(k)) / 2.0) / shoulder(k));
+    for (Eigen::Index k = 1; k < knots; ++k) values.row(k) = values.row(k - 1) + width(k - 1) * slopes.row(k - 1);
+  }
+};
+
+/// Takes away what rounding lets a value fall by.
+[[nodiscard]] inline Eigen::VectorXd never_falling(Eigen::VectorXd values) {
+  for (Eigen::Index k = 1; k < values.size(); ++k) values[k] = std::max(values[k], values[k - 1]);
+  return values;
+}
+
+}  // namespace detail
+
+/// The response of a camera whose pixels were exposed for several times each: the g that minimises
+///
+///   sum w(Z_ij)^2 (g(Z_ij) - ln E_i - ln t_j)^2 / sum w^2 + smoothness * integral of (v(Z) d^2 g / d(ln Z)^2)^2
+///
+/// over g and the pixels' unknown E_i (Debevec and Malik 1997, Eq. 3), with their hat for w. Two things differ from the
+/// paper. Smooth is what is close to a power law, where the paper's second difference by Z bends every camera at its
+/// low counts; v is 1 in the lower half of the counts and the square of the hat above, where sensors bend. And g never
+/// falls, by a linear constraint on its slopes.
+///
+/// Throws gonio::error unless there are two times, all positive and finite, a pixel, and pixels that tell two
+/// exposures apart: neither dark nor saturated in at least two. O(pixels times + knots^3).
+[[nodiscard]] inline camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
+                                                       std::uint16_t largest_count,
+                                                       const response_options& options = {}) {
+  if (counts.cols() != std::ssize(times) || times.size() < 2)
+    throw error("a camera's response needs two exposure times or more, and counts for each: not " +
+                std::to_string(times.size()) + " and " + std::to_string(counts.cols()));
+  for (const double time : times)
+    if (!(time > 0.0 && std::isfinite(time)))
+      throw error("an exposure time must be positive, not " + std::to_string(time));
+  if (largest_count < 3) throw error("a camera of " + std::to_string(largest_count) + " counts has no response");
+  if (counts.size() > 0 && counts.maxCoeff() > largest_count)
+    throw error("a pixel has " + std::to_string(counts.maxCoeff()) + " counts: the largest is " +
+                std::to_string(largest_count));
+
+  const Eigen::Index knots = std::min<Eigen::Index>(largest_count, camera_response::most_knots);
+  const double spacing = largest_count / static_cast<double>(knots);
+  const double saturation = options.saturation > 0 ? options.saturation : largest_count;
+  // By pixel the unknown ln E_i is the weighted mean of what its rows say: without it, the normal equations of g alone.
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(knots, knots);
+  Eigen::VectorXd moment = Eigen::VectorXd::Zero(knots);
+  double total = 0.0;
+  for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) {
+    Eigen::VectorXd mean = Eigen::VectorXd::Zero(knots);
+    double weights = 0.0, mean_time = 0.0;
+    std::vector<std::pair<Eigen::Index, double>> places;
+    for (Eigen::Index j = 0; j < counts.cols(); ++j) {
+      const double weight = std::pow(detail::hat(counts(pixel, j), saturation), 2);
+      if (!(weight > 0.0)) continue;
+      const auto [left, share] = camera_response::place_of(counts(pixel, j), spacing, knots);
+      const double log_time = std::log(times[static_cast<std::size_t>(j)]);
+      const Eigen::Vector2d row(1.0 - share, share);
+      gram.block<2, 2>(left, left) += weight * row * row.transpose();
+      moment.segment<2>(left) += weight * log_time * row;
+      mean.segment<2>(left) += weight * row;
+      mean_time += weight * log_time;
+      weights += weight;
+      places.emplace_back(left, share);
+    }
+    if (!(weights > 0.0)) continue;
+    gram.selfadjointView<Eigen::Lower>().rankUpdate(mean, -1.0 / weights);
+    moment -= mean_time / weights * mean;
+    if (places.size() > 1) total += weights;
+  }
+  if (!(total > 0.0))
+    throw error("no pixel is neither dark nor saturated in two exposures: a camera's response needs such");
+  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+  const detail::response_basis basis(knots);
+  gram = basis.values.transpose() * gram * basis.values / total;
+  gram.diagonal().tail(knots - 2).array() += options.smoothness;
+  const linear_constraints never_falls{-basis.slopes, Eigen::VectorXd::Zero(knots - 1)};
+  const solution found = quadratic_program(never_falls)
+                             .solve(normal_equations(std::move(gram), basis.values.transpose() * moment / total));
+  return {largest_count, detail::never_falling(basis.values * found.weights.col(0))};
+}
+
+}  // namespace gonio
