@@ -43,8 +43,8 @@ struct measured_radiance {
 
 /// The radiance of a pixel from its counts at several exposure times: the mean of what each exposure says, with the
 /// inverse of its variance for weight. The variances are those of the counts that the mean predicts: those of the
-/// counts themselves would favour what noise made darker. Counts of 0 and from `saturation` on (0 stands for the
-/// largest count) take no part.
+/// counts themselves would favour what noise made darker, and let through of what saturates the dark half. Counts of 0
+/// and from `saturation` on (0 stands for the largest count) take no part.
 ///
 /// Throws gonio::error unless there are as many times as counts, at least one, all positive and finite. O(times).
 [[nodiscard]] inline measured_radiance merge_exposures(std::span<const std::uint16_t> counts,
@@ -65,6 +65,7 @@ struct measured_radiance {
       if (counts[j] == 0 || counts[j] >= limit) continue;
       const double radiance = response.exposure(counts[j]) / times[j];
       const double expected = count_of(j), predicted = response.exposure(expected) / times[j];
+      if (expected >= limit) continue;  // noise made it darker than what saturates
       const double weight = 1.0 / (predicted * predicted * noise.relative_variance(response, expected));
       weights += weight;
       sum += weight * radiance;
@@ -79,10 +80,11 @@ struct measured_radiance {
     return {response.exposure(limit) / shortest, std::numeric_limits<double>::infinity(), true, false};
   }
   for (int pass = 0; pass < 2; ++pass) {
-    const auto predicted = [&, expected = value](std::size_t j) {
-      return std::clamp(response.count(expected * times[j]), 0.5, static_cast<double>(limit));
-    };
-    std::tie(value, weights) = mean(predicted);
+    const auto [better, certainty] =
+        mean([&](std::size_t j) { return std::max(response.count(value * times[j]), 0.5); });
+    if (!(certainty > 0.0)) break;
+    value = better;
+    weights = certainty;
   }
   return {value, 1.0 / std::sqrt(weights), false, false};
 }
