@@ -11,9 +11,12 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>
+#include <gonio/capture/camera_response.hpp>
 #include <gonio/capture/colour_clusters.hpp>
+#include <gonio/capture/high_dynamic_range.hpp>
 #include <gonio/capture/k_means.hpp>
 #include <gonio/capture/near_field_image.hpp>
+#include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>

@@ -1,3 +1,4 @@
+#include "note_times.hpp"
 #include <gonio/capture/camera_response.hpp>
 
 #include <doctest/doctest.h>
@@ -12,9 +13,6 @@ using gonio::estimate_response;
 using gonio::exposure_counts;
 
 namespace {
-
-/// The exposure times of the note on relative BRDF measurement, in seconds.
-constexpr std::array note_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
 /// The share of the largest count that an exposure from 0 to 1 gives.
 using curve = std::function<double(double)>;

@@ -1,3 +1,4 @@
+#include "note_times.hpp"
 #include <gonio/capture/high_dynamic_range.hpp>
 
 #include <doctest/doctest.h>
@@ -11,8 +12,6 @@ using gonio::merge_exposures;
 using gonio::sensor_noise;
 
 namespace {
-
-constexpr std::array note_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
 /// What a camera of a power law counts of a radiance at the note's times.
 std::vector<std::uint16_t> expose(double radiance, double gamma, double largest, const sensor_noise& noise,
