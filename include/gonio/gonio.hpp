@@ -15,6 +15,7 @@
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/capture/high_dynamic_range.hpp>
 #include <gonio/capture/k_means.hpp>
+#include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/core/assertion.hpp>
