@@ -18,6 +18,7 @@
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
+#include <gonio/capture/trajectory.hpp>
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/direction.hpp>

@@ -1,0 +1,168 @@
+#pragma once
+/// Where a robot takes a camera around a sample that an arc of lamps lights (Nielsen's thesis 2016, note on the
+/// gonioreflectometer: Eq. 1-5 and Table 1).
+
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// A camera that looks at the middle of a sphere from a place on it, as a robot takes it: angles in the robot's axes.
+struct camera_pose {
+  Eigen::Vector3d position;  ///< in mm
+  double pitch = 0.0;        ///< beta of Eq. 4, about the y axis
+  double yaw = 0.0;          ///< gamma of Eq. 5, about the z axis
+
+  /// Turns the tool's axes to the robot's: first by the pitch, then by the yaw. The camera looks along the tool's x.
+  [[nodiscard]] Eigen::Quaterniond orientation() const {
+    return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
+  }
+  [[nodiscard]] direction looks_along() const { return orientation() * Eigen::Vector3d::UnitX(); }
+};
+
+/// The sphere on which the camera moves, and how its axes lie in the robot's.
+struct camera_sphere {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< of the sample, in mm
+  double radius = 350.0;                             ///< in mm
+  /// The azimuth of the arc's plane in the robot's axes: the note's arc lies along the robot's y axis.
+  double arc_azimuth = std::numbers::pi / 2.0;
+
+  /// Throws gonio::error unless the radius is positive and all is finite.
+  void require_usable() const {
+    if (!(radius > 0.0) || !std::isfinite(radius) || !centre.allFinite() || !std::isfinite(arc_azimuth))
+      throw error("a camera's sphere needs a positive radius and finite numbers");
+  }
+
+  /// The pose from which a sample is seen along a direction in the sample's axes: z is its normal, the arc lies above x
+  /// (Eq. 1-5).
+  [[nodiscard]] camera_pose towards(const direction& wo) const {
+    const double theta = polar_angle(wo), phi = azimuth(wo) + arc_azimuth;
+    return {centre + radius * spherical_direction(theta, phi), std::numbers::pi / 2.0 + theta, phi};
+  }
+
+  /// The direction in the sample's axes from which a pose sees it: the inverse of `towards`.
+  [[nodiscard]] direction seen_from(const camera_pose& pose) const {
+    return turned_about_normal((pose.position - centre).normalized(), -arc_azimuth);
+  }
+};
+
+/// Every n-th of a right angle, in radians: 7.5 degrees in the note.
+struct angular_grid {
+  double step = radians(7.5);
+
+  /// Throws gonio::error unless the step divides 90 degrees.
+  [[nodiscard]] int steps_to_horizon() const {
+    const double steps = std::numbers::pi / 2.0 / step;
+    if (!(step > 0.0) || !(steps >= 1.0) || std::abs(steps - std::round(steps)) > 1e-9)
+      throw error("steps of " + std::to_string(degrees(step)) + " degrees do not divide a right angle");
+    return static_cast<int>(std::lround(steps));
+  }
+};
+
+/// Directions towards an arc's lamps in the sample's axes, from one end of the arc to the other, without the two at the
+/// horizon, which light nothing.
+[[nodiscard]] inline std::vector<direction> arc_lamps(const angular_grid& grid = {}) {
+  const int steps = grid.steps_to_horizon();
+  std::vector<direction> lamps;
+  for (int i = 1 - steps; i < steps; ++i)
+    lamps.push_back(spherical_direction(std::abs(i) * grid.step, i < 0 ? std::numbers::pi : 0.0));
+  return lamps;
+}
+
+/// Directions from which the camera sees the sample: rows of equal elevation from one step above the horizon up, each
+/// from azimuth 0 to 180 degrees, and last the one from right above. What lies on the other side of the arc's plane is
+/// the same by symmetry.
+[[nodiscard]] inline std::vector<direction> half_hemisphere(const angular_grid& grid = {}) {
+  const int steps = grid.steps_to_horizon();
+  std::vector<direction> seen;
+  for (int row = steps - 1; row > 0; --row)
+    for (int column = 0; column <= 2 * steps; ++column)
+      seen.push_back(spherical_direction(row * grid.step, column * grid.step));
+  seen.push_back(spherical_direction(0.0, 0.0));
+  return seen;
+}
+
+/// A pair of directions as the arc measures it: both turned about the normal until the light lies above the arc's
+/// x axis, and the viewer, if need be, mirrored at the arc's plane to azimuths from 0 to 180 degrees. An isotropic
+/// material has the same BRDF there. A light right above leaves the viewer above the x axis.
+[[nodiscard]] inline direction_pair above_arc(const direction_pair& pair) {
+  const double turn = polar_angle(pair.wi) > 0.0 ? azimuth(pair.wi) : azimuth(pair.wo);
+  direction_pair turned{turned_about_normal(pair.wi, -turn), turned_about_normal(pair.wo, -turn)};
+  turned.wo.y() = std::abs(turned.wo.y());
+  return turned;
+}
+
+/// The angle in radians between two directions: the way between two poses along their sphere, in radii. The camera
+/// moves along the sphere, so that it never comes close to the sample.
+[[nodiscard]] inline double angle_between(const direction& a, const direction& b) noexcept {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The way through directions in an order, in radians.
+[[nodiscard]] inline double length_of_way(const std::vector<direction>& directions,
+                                          const std::vector<std::size_t>& order) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    length += angle_between(directions[order[i - 1]], directions[order[i]]);
+  return length;
+}
+
+/// A short way through all of some directions: from the first always to the nearest that is left, then, until none
+/// shortens the way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958). The way starts at the
+/// first direction and does not return. O(n^2) for each improvement's sweep; the result depends on nothing but the
+/// input.
+[[nodiscard]] inline std::vector<std::size_t> short_way(const std::vector<direction>& directions) {
+  std::vector<std::size_t> order(directions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto between = [&](std::size_t i, std::size_t j) {
+    return angle_between(directions[order[i]], directions[order[j]]);
+  };
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    std::size_t nearest = i;
+    for (std::size_t j = i + 1; j < order.size(); ++j)
+      if (between(i - 1, j) < between(i - 1, nearest)) nearest = j;
+    std::swap(order[i], order[nearest]);
+  }
+  constexpr double gain_worth_turning = 1e-9;
+  for (bool improved = true; improved;) {
+    improved = false;
+    for (std::size_t i = 1; i + 1 < order.size(); ++i)
+      for (std::size_t j = i + 1; j < order.size(); ++j) {
+        const double after = j + 1 < order.size() ? between(j, j + 1) - between(i, j + 1) : 0.0;
+        if (between(i - 1, i) - between(i - 1, j) + after <= gain_worth_turning) continue;
+        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
+                     order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        improved = true;
+      }
+  }
+  return order;
+}
+
+/// What a scan spends its time on.
+struct scan_pace {
+  double radians_per_second = radians(5.0);
+  double settling = 2.0;                                ///< seconds at each pose before the first picture
+  double exposure = 0.0125 + 0.025 + 0.05 + 0.1 + 0.2;  ///< seconds of all pictures under one lamp
+  double switching = 1.0;  ///< seconds for each lamp: on, off, and reading the pictures out
+};
+
+/// Seconds that a scan takes in which every pose takes pictures under every one of some lamps, one after the other.
+/// Throws gonio::error for a speed that is not positive.
+[[nodiscard]] inline double duration_of_scan(const std::vector<direction>& directions,
+                                             const std::vector<std::size_t>& order, std::size_t lamps,
+                                             const scan_pace& pace = {}) {
+  if (!(pace.radians_per_second > 0.0)) throw error("a robot's speed must be positive");
+  const double each = pace.settling + static_cast<double>(lamps) * (pace.exposure + pace.switching);
+  return length_of_way(directions, order) / pace.radians_per_second + static_cast<double>(order.size()) * each;
+}
+
+}  // namespace gonio
