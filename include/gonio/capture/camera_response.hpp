@@ -138,6 +138,51 @@ struct response_basis {
   }
 };
 
+/// The normal equations of what the counts say of the response at its knots. Of each pixel, the unknown ln E is the
+/// weighted mean of what its rows say, so that only the response is left.
+class response_equations {
+ public:
+  response_equations(Eigen::Index knots, double spacing, double saturation)
+      : gram_(Eigen::MatrixXd::Zero(knots, knots)),
+        moment_(Eigen::VectorXd::Zero(knots)),
+        spacing_(spacing),
+        saturation_(saturation) {}
+
+  /// A pixel's counts, one for each time.
+  template <class Counts>
+  void add(const Counts& counts, const Eigen::VectorXd& log_times) {
+    Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(moment_.size());
+    double weights = 0.0, time_sum = 0.0;
+    int rows = 0;
+    for (Eigen::Index j = 0; j < counts.size(); ++j) {
+      const double weight = std::pow(hat(counts[j], saturation_), 2);
+      if (!(weight > 0.0)) continue;
+      const auto [left, share] = camera_response::place_of(counts[j], spacing_, moment_.size());
+      const Eigen::Vector2d row(1.0 - share, share);
+      gram_.block<2, 2>(left, left) += weight * row * row.transpose();
+      moment_.segment<2>(left) += weight * log_times[j] * row;
+      row_sum.segment<2>(left) += weight * row;
+      time_sum += weight * log_times[j];
+      weights += weight;
+      ++rows;
+    }
+    if (rows == 0) return;
+    gram_ -= row_sum * row_sum.transpose() / weights;
+    moment_ -= time_sum / weights * row_sum;
+    if (rows > 1) weight_ += weights;
+  }
+
+  [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
+  [[nodiscard]] const Eigen::VectorXd& moment() const noexcept { return moment_; }
+  /// Of all rows of pixels that have two or more: one alone says nothing.
+  [[nodiscard]] double weight() const noexcept { return weight_; }
+
+ private:
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd moment_;
+  double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
+};
+
 /// Takes away what rounding lets a value fall by.
 [[nodiscard]] inline Eigen::VectorXd never_falling(Eigen::VectorXd values) {
   for (Eigen::Index k = 1; k < values.size(); ++k) values[k] = std::max(values[k], values[k - 1]);
@@ -156,7 +201,7 @@ struct response_basis {
 /// falls, by a linear constraint on its slopes.
 ///
 /// Throws gonio::error unless there are two times, all positive and finite, a pixel, and pixels that tell two
-/// exposures apart: neither dark nor saturated in at least two. O(pixels times + knots^3).
+/// exposures apart: neither dark nor saturated in at least two. O(pixels (times + knots^2) + knots^3).
 [[nodiscard]] inline camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                        std::uint16_t largest_count,
                                                        const response_options& options = {}) {
@@ -172,43 +217,22 @@ struct response_basis {
                 std::to_string(largest_count));
 
   const Eigen::Index knots = std::min<Eigen::Index>(largest_count, camera_response::most_knots);
-  const double spacing = largest_count / static_cast<double>(knots);
-  const double saturation = options.saturation > 0 ? options.saturation : largest_count;
-  // By pixel the unknown ln E_i is the weighted mean of what its rows say: without it, the normal equations of g alone.
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(knots, knots);
-  Eigen::VectorXd moment = Eigen::VectorXd::Zero(knots);
-  double total = 0.0;
-  for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) {
-    Eigen::VectorXd mean = Eigen::VectorXd::Zero(knots);
-    double weights = 0.0, mean_time = 0.0;
-    std::vector<std::pair<Eigen::Index, double>> places;
-    for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-      const double weight = std::pow(detail::hat(counts(pixel, j), saturation), 2);
-      if (!(weight > 0.0)) continue;
-      const auto [left, share] = camera_response::place_of(counts(pixel, j), spacing, knots);
-      const double log_time = std::log(times[static_cast<std::size_t>(j)]);
-      const Eigen::Vector2d row(1.0 - share, share);
-      gram.block<2, 2>(left, left) += weight * row * row.transpose();
-      moment.segment<2>(left) += weight * log_time * row;
-      mean.segment<2>(left) += weight * row;
-      mean_time += weight * log_time;
-      weights += weight;
-      places.emplace_back(left, share);
-    }
-    if (!(weights > 0.0)) continue;
-    gram.selfadjointView<Eigen::Lower>().rankUpdate(mean, -1.0 / weights);
-    moment -= mean_time / weights * mean;
-    if (places.size() > 1) total += weights;
-  }
+  detail::response_equations equations(knots, largest_count / static_cast<double>(knots),
+                                       options.saturation > 0 ? options.saturation : largest_count);
+  const Eigen::VectorXd log_times =
+      Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)).array().log().matrix();
+  for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) equations.add(counts.row(pixel), log_times);
+  const double total = equations.weight();
   if (!(total > 0.0))
     throw error("no pixel is neither dark nor saturated in two exposures: a camera's response needs such");
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
+
   const detail::response_basis basis(knots);
-  gram = basis.values.transpose() * gram * basis.values / total;
+  Eigen::MatrixXd gram = basis.values.transpose() * equations.gram() * basis.values / total;
   gram.diagonal().tail(knots - 2).array() += options.smoothness;
   const linear_constraints never_falls{-basis.slopes, Eigen::VectorXd::Zero(knots - 1)};
-  const solution found = quadratic_program(never_falls)
-                             .solve(normal_equations(std::move(gram), basis.values.transpose() * moment / total));
+  const solution found =
+      quadratic_program(never_falls)
+          .solve(normal_equations(std::move(gram), basis.values.transpose() * equations.moment() / total));
   return {largest_count, detail::never_falling(basis.values * found.weights.col(0))};
 }
 

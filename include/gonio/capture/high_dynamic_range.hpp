@@ -4,8 +4,13 @@
 
 #include <gonio/capture/camera_response.hpp>
 
-#include <array>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
+#include <utility>
 
 namespace gonio {
 

@@ -112,15 +112,9 @@ struct unwrap_options {
   int samples = 3;           ///< directions across a pixel of the map, of which the mean is taken
 };
 
-/// The light around a mirror sphere as a latitude-longitude picture with the conventions of render/environment_map.hpp,
-/// from a square picture that the sphere fills. For each direction of the map the picture is read, between its pixels,
-/// where it shows that light; not beside the sphere and not closer to its rim than a pixel and a half. What the sphere
-/// hides, right behind it, is filled with what is seen at the rim on that side.
-///
-/// Throws gonio::error unless the picture is square, of at least 8 pixels a side, finite and not negative, and the
-/// options are positive, the reflectance at most 1. O(rows^2 samples^2).
-[[nodiscard]] inline image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
-                                  thread_count threads = {}) {
+namespace detail {
+
+inline void require_usable(const image& probe, const unwrap_options& options) {
   const std::size_t pixels = probe.shape(0);
   if (probe.shape(1) != pixels || probe.shape(2) != 3 || pixels < 8)
     throw error("a picture of a mirror sphere must be square and have 8 pixels a side or more, not " +
@@ -132,25 +126,41 @@ struct unwrap_options {
     throw error("an unwrapped map needs rows, and directions across each pixel");
   if (!(options.reflectance > 0.0 && options.reflectance <= 1.0))
     throw error("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
+}
 
-  const double half = static_cast<double>(pixels) / 2.0, rim = 1.0 - 1.5 / half;
-  const auto read = [&](const Eigen::Vector2d& place) -> rgb {
-    const double radius = place.norm();
-    const Eigen::Vector2d inside = radius > rim ? Eigen::Vector2d(place * (rim / radius)) : place;
-    const double column = half * (1.0 + inside.x()) - 0.5, row = half * (1.0 - inside.y()) - 0.5;
-    const auto left = static_cast<std::size_t>(column), top = static_cast<std::size_t>(row);
-    const double right_share = column - std::floor(column), lower_share = row - std::floor(row);
-    return (1.0 - lower_share) *
-               ((1.0 - right_share) * pixel(probe, top, left) + right_share * pixel(probe, top, left + 1)) +
-           lower_share *
-               ((1.0 - right_share) * pixel(probe, top + 1, left) + right_share * pixel(probe, top + 1, left + 1));
+/// The colour at a place of the sphere's picture, between its pixels, no closer to the rim than a pixel and a half:
+/// what lies beside the sphere takes no part.
+[[nodiscard]] inline rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept {
+  const double half = static_cast<double>(probe.shape(0)) / 2.0, rim = 1.0 - 1.5 / half, radius = place.norm();
+  const Eigen::Vector2d inside = radius > rim ? Eigen::Vector2d(place * (rim / radius)) : place;
+  const double column = half * (1.0 + inside.x()) - 0.5, row = half * (1.0 - inside.y()) - 0.5;
+  const auto left = static_cast<std::size_t>(column), top = static_cast<std::size_t>(row);
+  const double right_share = column - std::floor(column), lower_share = row - std::floor(row);
+  const auto across = [&](std::size_t at) -> rgb {
+    return (1.0 - right_share) * pixel(probe, at, left) + right_share * pixel(probe, at, left + 1);
   };
+  return (1.0 - lower_share) * across(top) + lower_share * across(top + 1);
+}
+
+}  // namespace detail
+
+/// The light around a mirror sphere as a latitude-longitude picture with the conventions of render/environment_map.hpp,
+/// from a square picture that the sphere fills. For each direction of the map the picture is read, between its pixels,
+/// where it shows that light; not beside the sphere and not closer to its rim than a pixel and a half. What the sphere
+/// hides, right behind it, is filled with what is seen at the rim on that side.
+///
+/// Throws gonio::error unless the picture is square, of at least 8 pixels a side, finite and not negative, and the
+/// options are positive, the reflectance at most 1. O(rows^2 samples^2).
+[[nodiscard]] inline image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
+                                  thread_count threads = {}) {
+  detail::require_usable(probe, options);
   const auto light_from = [&](double polar, double longitude) -> rgb {
     const direction towards{std::sin(polar) * std::sin(longitude), std::cos(polar),
                             -std::sin(polar) * std::cos(longitude)};
-    if (const auto place = sphere.place_of(towards)) return read(*place);
+    if (const auto place = sphere.place_of(towards)) return detail::read_probe(probe, *place);
     const double across = std::hypot(towards.x(), towards.y());
-    return read(across > 0.0 ? Eigen::Vector2d(towards.x() / across, towards.y() / across) : Eigen::Vector2d(1.0, 0.0));
+    return detail::read_probe(
+        probe, across > 0.0 ? Eigen::Vector2d(towards.x() / across, towards.y() / across) : Eigen::Vector2d(1.0, 0.0));
   };
 
   image map({options.rows, 2 * options.rows, std::size_t{3}});
