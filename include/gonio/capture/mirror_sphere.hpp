@@ -114,7 +114,7 @@ struct unwrap_options {
 
 namespace detail {
 
-inline void require_usable(const image& probe, const unwrap_options& options) {
+inline void require_unwrappable(const image& probe, const unwrap_options& options) {
   const std::size_t pixels = probe.shape(0);
   if (probe.shape(1) != pixels || probe.shape(2) != 3 || pixels < 8)
     throw error("a picture of a mirror sphere must be square and have 8 pixels a side or more, not " +
@@ -153,7 +153,7 @@ inline void require_usable(const image& probe, const unwrap_options& options) {
 /// options are positive, the reflectance at most 1. O(rows^2 samples^2).
 [[nodiscard]] inline image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
                                   thread_count threads = {}) {
-  detail::require_usable(probe, options);
+  detail::require_unwrappable(probe, options);
   const auto light_from = [&](double polar, double longitude) -> rgb {
     const direction towards{std::sin(polar) * std::sin(longitude), std::cos(polar),
                             -std::sin(polar) * std::cos(longitude)};
