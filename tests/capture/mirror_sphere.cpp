@@ -89,6 +89,16 @@ TEST_CASE("mirror sphere: a map, its picture in the sphere, and back") {
   CHECK(bright(10, 10, 1) == doctest::Approx(2.0 * unwrap(probe, sphere, {.rows = 32})(10, 10, 1)));
 }
 
+TEST_CASE("mirror sphere: nothing beside the sphere is read, up to its rim") {
+  const mirror_sphere sphere;
+  for (const std::size_t pixels : {8u, 9u, 64u, 101u}) {
+    const auto white = [](const gonio::direction&) { return gonio::rgb(1.0, 1.0, 1.0); };
+    const auto map = unwrap(lab::photograph(sphere, white, pixels), sphere, {.rows = 32});
+    CHECK(*std::min_element(map.begin(), map.end()) == 1.0f);
+    CHECK(*std::max_element(map.begin(), map.end()) == 1.0f);
+  }
+}
+
 TEST_CASE("mirror sphere: bad input is refused") {
   using doctest::Contains;
   CHECK_THROWS_WITH_AS(mirror_sphere(1.0), Contains("outside the mirror sphere"), gonio::error);

@@ -128,26 +128,32 @@ inline void require_unwrappable(const image& probe, const unwrap_options& option
     throw error("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
 }
 
-/// The colour at a place of the sphere's picture, between its pixels, no closer to the rim than a pixel and a half:
-/// what lies beside the sphere takes no part.
+/// The colour at a place of the sphere's picture: the mean of the four pixels around it by how close they are, without
+/// those that lie partly beside the sphere. Places within three quarters of a pixel of the rim are moved there, so that
+/// the pixel towards the middle is always whole.
 [[nodiscard]] inline rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept {
-  const double half = static_cast<double>(probe.shape(0)) / 2.0, rim = 1.0 - 1.5 / half, radius = place.norm();
+  const double half = static_cast<double>(probe.shape(0)) / 2.0;
+  const double rim = 1.0 - 0.75 / half, whole = 1.0 - std::sqrt(0.5) / half, radius = place.norm();
   const Eigen::Vector2d inside = radius > rim ? Eigen::Vector2d(place * (rim / radius)) : place;
   const double column = half * (1.0 + inside.x()) - 0.5, row = half * (1.0 - inside.y()) - 0.5;
-  const auto left = static_cast<std::size_t>(column), top = static_cast<std::size_t>(row);
-  const double right_share = column - std::floor(column), lower_share = row - std::floor(row);
-  const auto across = [&](std::size_t at) -> rgb {
-    return (1.0 - right_share) * pixel(probe, at, left) + right_share * pixel(probe, at, left + 1);
-  };
-  return (1.0 - lower_share) * across(top) + lower_share * across(top + 1);
+  rgb sum = rgb::Zero();
+  double weights = 0.0;
+  for (const double r : {std::floor(row), std::floor(row) + 1.0})
+    for (const double c : {std::floor(column), std::floor(column) + 1.0}) {
+      const double weight = (1.0 - std::abs(row - r)) * (1.0 - std::abs(column - c));
+      if (!(weight > 0.0) || std::hypot((c + 0.5) / half - 1.0, (r + 0.5) / half - 1.0) > whole) continue;
+      sum += weight * pixel(probe, static_cast<std::size_t>(r), static_cast<std::size_t>(c));
+      weights += weight;
+    }
+  return sum / weights;
 }
 
 }  // namespace detail
 
 /// The light around a mirror sphere as a latitude-longitude picture with the conventions of render/environment_map.hpp,
 /// from a square picture that the sphere fills. For each direction of the map the picture is read, between its pixels,
-/// where it shows that light; not beside the sphere and not closer to its rim than a pixel and a half. What the sphere
-/// hides, right behind it, is filled with what is seen at the rim on that side.
+/// where it shows that light, without pixels that lie partly beside the sphere. What the sphere hides, right behind it,
+/// is filled with what is seen at the rim on that side.
 ///
 /// Throws gonio::error unless the picture is square, of at least 8 pixels a side, finite and not negative, and the
 /// options are positive, the reflectance at most 1. O(rows^2 samples^2).
