@@ -101,13 +101,8 @@ struct angular_grid {
   return turned;
 }
 
-/// The angle in radians between two directions: the way between two poses along their sphere, in radii. The camera
-/// moves along the sphere, so that it never comes close to the sample.
-[[nodiscard]] inline double angle_between(const direction& a, const direction& b) noexcept {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
-/// The way through directions in an order, in radians.
+/// The way through directions in an order, in radians: the camera moves along its sphere, so that it never comes close
+/// to the sample.
 [[nodiscard]] inline double length_of_way(const std::vector<direction>& directions,
                                           const std::vector<std::size_t>& order) {
   double length = 0.0;

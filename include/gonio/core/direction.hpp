@@ -58,6 +58,12 @@ struct cosine_pair {
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
+/// The angle in radians between two directions of any length but zero, exact for small ones, too.
+[[nodiscard]] inline double angle_between(const direction& a, const direction& b) noexcept {
+  const direction u = a.normalized(), v = b.normalized();
+  return 2.0 * std::atan2((u - v).norm(), (u + v).norm());
+}
+
 /// A direction turned about the normal by an azimuth, in radians.
 [[nodiscard]] inline direction turned_about_normal(const direction& w, double azimuth) noexcept {
   const double c = std::cos(azimuth), s = std::sin(azimuth);

@@ -45,7 +45,7 @@ struct capture_constraint {
   [[nodiscard]] bool operator()(const direction_pair& pair) const {
     const double theta_i = polar_angle(pair.wi), theta_o = polar_angle(pair.wo);
     if (!light.contains(theta_i) || !viewer.contains(theta_o)) return false;
-    if (std::atan2(pair.wi.cross(pair.wo).norm(), pair.wi.dot(pair.wo)) < smallest_separation) return false;
+    if (angle_between(pair.wi, pair.wo) < smallest_separation) return false;
     if (light_step > 0.0 && std::abs(theta_i - light_step * std::round(theta_i / light_step)) > light_tolerance)
       return false;
     return std::ranges::none_of(forbidden, [&](const forbidden_zone& zone) {
