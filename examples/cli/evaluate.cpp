@@ -24,6 +24,7 @@ void add_evaluate(CLI::App& app) {
   add_models(*command);
   add_model_properties(*command);
   add_model_recovery(*command);
+  add_laboratory(*command);
 }
 
 }  // namespace cli

@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   cli::add_compare(app);
   cli::add_render(app);
   cli::add_info(app);
+  cli::add_lab(app);
   cli::add_evaluate(app);
   try {
     app.parse(argc, argv);

@@ -100,9 +100,10 @@ TEST_CASE("trajectory: the note's scan takes about its three hours") {
   std::vector<std::size_t> as_listed(seen.size());
   std::iota(as_listed.begin(), as_listed.end(), std::size_t{0});
   CHECK(gonio::length_of_way(seen, order) < 0.85 * gonio::length_of_way(seen, as_listed));
-  const double hours = gonio::duration_of_scan(seen, order, gonio::arc_lamps().size()) / 3600.0;
+  const double hours =
+      gonio::duration_of_scan(gonio::length_of_way(seen, order), seen.size(), gonio::arc_lamps().size()) / 3600.0;
   CHECK(hours > 2.0);
   CHECK(hours < 3.5);
-  CHECK_THROWS_WITH_AS((void)gonio::duration_of_scan(seen, order, 23, {.radians_per_second = 0.0}),
+  CHECK_THROWS_WITH_AS((void)gonio::duration_of_scan(1.0, 1, 23, {.radians_per_second = 0.0}),
                        doctest::Contains("speed"), gonio::error);
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,8 +28,9 @@ class camera_response {
  public:
   /// Values at the counts k c / n of the largest count c, k = 1 ... n. Throws gonio::error for less than two values,
   /// ones that fall or are not finite, and a largest count below n.
-  camera_response(std::uint16_t largest_count, Eigen::VectorXd log_exposures)
-      : largest_(largest_count), values_(std::move(log_exposures)) {
+  /// What is below the first knot, and below `smallest_known_count`, is a guess.
+  camera_response(std::uint16_t largest_count, Eigen::VectorXd log_exposures, double smallest_known_count = 0.0)
+      : largest_(largest_count), smallest_known_(smallest_known_count), values_(std::move(log_exposures)) {
     if (values_.size() < 2) throw error("a camera's response needs at least two values");
     if (values_.size() > largest_)
       throw error("a camera of " + std::to_string(largest_) + " counts has no response of " +
@@ -40,6 +42,7 @@ class camera_response {
                     " to the next: more light cannot "
                     "give less counts");
     values_.array() -= log_exposure(largest_ / 2.0);
+    smallest_known_ = std::max(smallest_known_, spacing());
   }
 
   /// A sensor whose counts are proportional to the exposure, or to its 1/gamma-th power.
@@ -49,6 +52,8 @@ class camera_response {
   }
 
   [[nodiscard]] std::uint16_t largest_count() const noexcept { return largest_; }
+  /// Below it, exposures are extrapolated.
+  [[nodiscard]] double smallest_known_count() const noexcept { return smallest_known_; }
   /// The values at the knots.
   [[nodiscard]] const Eigen::VectorXd& log_exposures() const noexcept { return values_; }
 
@@ -98,11 +103,13 @@ class camera_response {
   [[nodiscard]] double spacing() const noexcept { return largest_ / static_cast<double>(values_.size()); }
 
   std::uint16_t largest_ = 0;
+  double smallest_known_ = 0.0;
   Eigen::VectorXd values_;
 };
 
-/// Counts of some pixels, one row each, at some exposure times, one column each.
-using exposure_counts = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic>;
+/// Counts of some pixels, one row each, at some exposure times, one column each. Means of several pixels need not be
+/// whole numbers.
+using exposure_counts = Eigen::ArrayXXd;
 
 struct response_options {
   /// Weight of the smoothness against the data, of which the mean square counts.
@@ -152,7 +159,7 @@ class response_equations {
   template <class Counts>
   void add(const Counts& counts, const Eigen::VectorXd& log_times) {
     Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(moment_.size());
-    double weights = 0.0, time_sum = 0.0;
+    double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
     int rows = 0;
     for (Eigen::Index j = 0; j < counts.size(); ++j) {
       const double weight = std::pow(hat(counts[j], saturation_), 2);
@@ -161,6 +168,7 @@ class response_equations {
       const Eigen::Vector2d row(1.0 - share, share);
       gram_.block<2, 2>(left, left) += weight * row * row.transpose();
       moment_.segment<2>(left) += weight * log_times[j] * row;
+      darkest = std::min(darkest, static_cast<double>(counts[j]));
       row_sum.segment<2>(left) += weight * row;
       time_sum += weight * log_times[j];
       weights += weight;
@@ -169,18 +177,23 @@ class response_equations {
     if (rows == 0) return;
     gram_ -= row_sum * row_sum.transpose() / weights;
     moment_ -= time_sum / weights * row_sum;
-    if (rows > 1) weight_ += weights;
+    if (rows < 2) return;
+    weight_ += weights;
+    smallest_count_ = darkest;
   }
 
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
   [[nodiscard]] const Eigen::VectorXd& moment() const noexcept { return moment_; }
   /// Of all rows of pixels that have two or more: one alone says nothing.
   [[nodiscard]] double weight() const noexcept { return weight_; }
+  /// Of the same rows.
+  [[nodiscard]] double smallest_count() const noexcept { return smallest_count_; }
 
  private:
   Eigen::MatrixXd gram_;
   Eigen::VectorXd moment_;
   double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
+  double smallest_count_ = std::numeric_limits<double>::infinity();
 };
 
 /// Takes away what rounding lets a value fall by.
@@ -212,9 +225,10 @@ class response_equations {
     if (!(time > 0.0 && std::isfinite(time)))
       throw error("an exposure time must be positive, not " + std::to_string(time));
   if (largest_count < 3) throw error("a camera of " + std::to_string(largest_count) + " counts has no response");
-  if (counts.size() > 0 && counts.maxCoeff() > largest_count)
-    throw error("a pixel has " + std::to_string(counts.maxCoeff()) + " counts: the largest is " +
-                std::to_string(largest_count));
+  for (const double count : counts.reshaped())
+    if (!(count >= 0.0 && count <= largest_count))
+      throw error("a pixel's count is " + std::to_string(count) + ", expected from 0 to " +
+                  std::to_string(largest_count));
 
   const Eigen::Index knots = std::min<Eigen::Index>(largest_count, camera_response::most_knots);
   detail::response_equations equations(knots, largest_count / static_cast<double>(knots),
@@ -233,7 +247,7 @@ class response_equations {
   const solution found =
       quadratic_program(never_falls)
           .solve(normal_equations(std::move(gram), basis.values.transpose() * equations.moment() / total));
-  return {largest_count, detail::never_falling(basis.values * found.weights.col(0))};
+  return {largest_count, detail::never_falling(basis.values * found.weights.col(0)), equations.smallest_count()};
 }
 
 }  // namespace gonio

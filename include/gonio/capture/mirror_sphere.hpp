@@ -109,7 +109,15 @@ class mirror_sphere {
 struct unwrap_options {
   std::size_t rows = 256;    ///< of the map, which is twice as wide
   double reflectance = 1.0;  ///< of the mirror
-  int samples = 3;           ///< directions across a pixel of the map, of which the mean is taken
+  int samples = 0;  ///< directions across a pixel of the map, of which the mean is taken; 0: as its light needs
+
+  /// As many as it takes not to step over a pixel of the middle of a picture that is some pixels wide, where one shows
+  /// 4 / pixels of light's angle.
+  [[nodiscard]] int samples_for(std::size_t pixels) const noexcept {
+    if (samples > 0) return samples;
+    const double needed = std::numbers::pi * static_cast<double>(pixels) / (4.0 * static_cast<double>(rows));
+    return std::clamp(static_cast<int>(std::ceil(needed)), 2, 32);
+  }
 };
 
 namespace detail {
@@ -122,8 +130,8 @@ inline void require_unwrappable(const image& probe, const unwrap_options& option
   if (!std::all_of(probe.data(), probe.data() + probe.size(),
                    [](float value) { return std::isfinite(value) && value >= 0.0f; }))
     throw error("a picture of a mirror sphere must be finite and not negative");
-  if (options.rows == 0 || options.samples < 1)
-    throw error("an unwrapped map needs rows, and directions across each pixel");
+  if (options.rows == 0 || options.samples < 0)
+    throw error("an unwrapped map needs rows, and no negative number of directions across each pixel");
   if (!(options.reflectance > 0.0 && options.reflectance <= 1.0))
     throw error("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
 }
@@ -169,6 +177,7 @@ inline void require_unwrappable(const image& probe, const unwrap_options& option
         probe, across > 0.0 ? Eigen::Vector2d(towards.x() / across, towards.y() / across) : Eigen::Vector2d(1.0, 0.0));
   };
 
+  const int samples = options.samples_for(probe.shape(0));
   image map({options.rows, 2 * options.rows, std::size_t{3}});
   const double step = std::numbers::pi / static_cast<double>(options.rows);
   for_each_block(
@@ -177,13 +186,13 @@ inline void require_unwrappable(const image& probe, const unwrap_options& option
         for (std::size_t row = rows.begin; row < rows.end; ++row)
           for (std::size_t column = 0; column < 2 * options.rows; ++column) {
             rgb sum = rgb::Zero();
-            for (int i = 0; i < options.samples; ++i)
-              for (int j = 0; j < options.samples; ++j) {
-                const double down = (i + 0.5) / options.samples, across = (j + 0.5) / options.samples;
+            for (int i = 0; i < samples; ++i)
+              for (int j = 0; j < samples; ++j) {
+                const double down = (i + 0.5) / samples, across = (j + 0.5) / samples;
                 sum += light_from(step * (static_cast<double>(row) + down),
                                   step * (static_cast<double>(column) + across) - std::numbers::pi);
               }
-            set_pixel(map, row, column, sum / (options.samples * options.samples * options.reflectance));
+            set_pixel(map, row, column, sum / (samples * samples * options.reflectance));
           }
       },
       threads);

@@ -101,45 +101,49 @@ struct angular_grid {
   return turned;
 }
 
-/// The way through directions in an order, in radians: the camera moves along its sphere, so that it never comes close
-/// to the sample.
-[[nodiscard]] inline double length_of_way(const std::vector<direction>& directions,
-                                          const std::vector<std::size_t>& order) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < order.size(); ++i)
-    length += angle_between(directions[order[i - 1]], directions[order[i]]);
-  return length;
-}
-
-/// A short way through all of some directions: from the first always to the nearest that is left, then, until none
-/// shortens the way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958). The way starts at the
-/// first direction and does not return. O(n^2) for each improvement's sweep; the result depends on nothing but the
-/// input.
-[[nodiscard]] inline std::vector<std::size_t> short_way(const std::vector<direction>& directions) {
-  std::vector<std::size_t> order(directions.size());
+/// A short way through some places: from the first always to the nearest that is left, then, until none shortens the
+/// way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958). `between(i, j)` is the way between
+/// two places, the same both ways. The way starts at the first place and does not return. O(count^2) for each
+/// improvement's sweep; the result depends on nothing but the input.
+template <class Between>
+[[nodiscard]] std::vector<std::size_t> short_way(std::size_t count, const Between& between) {
+  std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto between = [&](std::size_t i, std::size_t j) {
-    return angle_between(directions[order[i]], directions[order[j]]);
-  };
-  for (std::size_t i = 1; i < order.size(); ++i) {
+  const auto step = [&](std::size_t i, std::size_t j) { return between(order[i], order[j]); };
+  for (std::size_t i = 1; i < count; ++i) {
     std::size_t nearest = i;
-    for (std::size_t j = i + 1; j < order.size(); ++j)
-      if (between(i - 1, j) < between(i - 1, nearest)) nearest = j;
+    for (std::size_t j = i + 1; j < count; ++j)
+      if (step(i - 1, j) < step(i - 1, nearest)) nearest = j;
     std::swap(order[i], order[nearest]);
   }
   constexpr double gain_worth_turning = 1e-9;
   for (bool improved = true; improved;) {
     improved = false;
-    for (std::size_t i = 1; i + 1 < order.size(); ++i)
-      for (std::size_t j = i + 1; j < order.size(); ++j) {
-        const double after = j + 1 < order.size() ? between(j, j + 1) - between(i, j + 1) : 0.0;
-        if (between(i - 1, i) - between(i - 1, j) + after <= gain_worth_turning) continue;
+    for (std::size_t i = 1; i + 1 < count; ++i)
+      for (std::size_t j = i + 1; j < count; ++j) {
+        const double after = j + 1 < count ? step(j, j + 1) - step(i, j + 1) : 0.0;
+        if (step(i - 1, i) - step(i - 1, j) + after <= gain_worth_turning) continue;
         std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
                      order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
         improved = true;
       }
   }
   return order;
+}
+
+/// The way through directions: the camera moves along its sphere, so that it never comes close to the sample.
+[[nodiscard]] inline std::vector<std::size_t> short_way(const std::vector<direction>& directions) {
+  return short_way(directions.size(),
+                   [&](std::size_t i, std::size_t j) { return angle_between(directions[i], directions[j]); });
+}
+
+/// The length in radians of the way through directions in an order.
+[[nodiscard]] inline double length_of_way(const std::vector<direction>& directions,
+                                          const std::vector<std::size_t>& order) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < order.size(); ++i)
+    length += angle_between(directions[order[i - 1]], directions[order[i]]);
+  return length;
 }
 
 /// What a scan spends its time on.
@@ -150,14 +154,13 @@ struct scan_pace {
   double switching = 1.0;  ///< seconds for each lamp: on, off, and reading the pictures out
 };
 
-/// Seconds that a scan takes in which every pose takes pictures under every one of some lamps, one after the other.
-/// Throws gonio::error for a speed that is not positive.
-[[nodiscard]] inline double duration_of_scan(const std::vector<direction>& directions,
-                                             const std::vector<std::size_t>& order, std::size_t lamps,
+/// Seconds that a scan takes along a way, in radians, with some stops, at each of which pictures are taken under some
+/// lamps, one after the other. Throws gonio::error for a speed that is not positive.
+[[nodiscard]] inline double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
                                              const scan_pace& pace = {}) {
   if (!(pace.radians_per_second > 0.0)) throw error("a robot's speed must be positive");
   const double each = pace.settling + static_cast<double>(lamps) * (pace.exposure + pace.switching);
-  return length_of_way(directions, order) / pace.radians_per_second + static_cast<double>(order.size()) * each;
+  return length_of_way / pace.radians_per_second + static_cast<double>(stops) * each;
 }
 
 }  // namespace gonio

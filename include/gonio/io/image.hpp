@@ -255,6 +255,41 @@ struct stb_extents {
   return picture;
 }
 
+/// What a PNG stores, before any meaning is given to it: the counts of a camera that writes such files.
+struct stored_codes {
+  std::size_t rows = 0, columns = 0;
+  std::uint16_t largest = 255;        ///< 65535 of a file of 16 bits
+  std::vector<std::uint16_t> values;  ///< row by row, red, green and blue of a pixel adjacent
+
+  [[nodiscard]] std::uint16_t at(std::size_t row, std::size_t column, std::size_t channel) const {
+    return values[3 * (row * columns + column) + channel];
+  }
+};
+
+/// Reads the codes of a PNG of 8 or 16 bits as they are: grey becomes three equal channels, alpha is dropped.
+[[nodiscard]] inline stored_codes read_png_codes(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  const std::string name = path.string();
+  detail::check_png(bytes, name);
+  const stbi_uc* data = detail::stb_bytes(bytes);
+  const int size = detail::stb_size(bytes, name);
+  int columns = 0, rows = 0, channels = 0;
+  stored_codes codes;
+  const auto keep = [&](const auto& pixels) {
+    if (!pixels) detail::refuse_by_stb(name);
+    codes.rows = static_cast<std::size_t>(rows);
+    codes.columns = static_cast<std::size_t>(columns);
+    codes.values.assign(pixels.get(), pixels.get() + 3 * codes.rows * codes.columns);
+  };
+  if (stbi_is_16_bit_from_memory(data, size) != 0) {
+    codes.largest = 65535;
+    keep(detail::stb_pixels<stbi_us>(stbi_load_16_from_memory(data, size, &columns, &rows, &channels, 3)));
+  } else {
+    keep(detail::stb_pixels<stbi_uc>(stbi_load_from_memory(data, size, &columns, &rows, &channels, 3)));
+  }
+  return codes;
+}
+
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
 inline void write_png(const std::filesystem::path& path, const image& picture) {
   const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), path.string());

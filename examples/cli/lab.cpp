@@ -1,0 +1,20 @@
+/// gonio lab: from directions to samples, step by step, in a simulated laboratory or with the frames of a real one.
+
+#include "lab.hpp"
+
+#include "command.hpp"
+
+namespace cli {
+
+void add_lab(CLI::App& app) {
+  auto* lab = app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes (docs/tutorial-laboratory.md)");
+  lab->require_subcommand(1);
+  add_lab_plan(*lab);
+  add_lab_scan(*lab);
+  add_lab_replay(*lab);
+  add_lab_calibrate(*lab);
+  add_lab_probe(*lab);
+  add_lab_unwrap(*lab);
+}
+
+}  // namespace cli

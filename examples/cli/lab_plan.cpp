@@ -1,0 +1,85 @@
+/// gonio lab plan: which directions a machine can measure, in which order, and how long that takes.
+
+#include "lab.hpp"
+#include <gonio/capture/scan.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct plan_command {
+  std::filesystem::path directions, output;
+  machine_choice machine;
+  bool whole = false;
+};
+
+/// A plan, and how many lamps burn one after the other at each stop.
+struct timed_plan {
+  gonio::scan_plan plan;
+  std::size_t stops = 0, lamps = 1;
+};
+
+/// The note's whole scan: the camera at every pose of the half hemisphere, under every lamp.
+timed_plan whole_hemisphere(const lab::robot& machine) {
+  const auto seen = gonio::half_hemisphere();
+  const auto order = gonio::short_way(seen);
+  timed_plan result{{}, seen.size(), machine.arc().lamps()};
+  result.plan.length = gonio::length_of_way(seen, order);
+  std::size_t number = 0;
+  for (const std::size_t i : order)
+    for (std::size_t lamp = 0; lamp < machine.arc().lamps(); ++lamp, ++number) {
+      const gonio::placement found = machine.place({machine.arc().towards(lamp), seen[i]});
+      if (found.is_reachable())
+        result.plan.poses.push_back(found.at);
+      else
+        result.plan.unreachable.push_back({number, found.obstacle});
+    }
+  return result;
+}
+
+timed_plan plan_of(const plan_command& options) {
+  lab::dark_room room(lab::white(), {}, {});
+  if (options.whole) {
+    if (options.machine.name != "robot") throw gonio::error("--whole is the scan of --machine robot");
+    return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
+  }
+  const auto pairs = gonio::io::read_direction_pairs(options.directions);
+  timed_plan result;
+  result.plan =
+      with_machine(options.machine, room, [&](const auto& machine) { return gonio::plan_scan(machine, pairs); });
+  for (const auto& [number, reason] : result.plan.unreachable)
+    std::cout << "not measured: " << number + 1 << ", " << in_degrees(pairs[number]) << ": " << reason << '\n';
+  result.stops = result.plan.poses.size();
+  return result;
+}
+
+void run(const plan_command& options) {
+  const auto [plan, stops, lamps] = plan_of(options);
+  if (plan.poses.empty()) throw gonio::error("the machine can measure none of the directions");
+  gonio::io::write_direction_pairs(options.output, plan.poses);
+  const double minutes = gonio::duration_of_scan(plan.length, stops, lamps) / 60.0;
+  std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the way is "
+            << fixed(gonio::degrees(plan.length), 0) << " degrees long, and a scan takes about " << fixed(minutes, 1)
+            << " minutes\n";
+}
+
+}  // namespace
+
+void add_lab_plan(CLI::App& lab) {
+  auto* command = lab.add_subcommand("plan", "Directions as poses of a machine, in the order of a short way");
+  const auto options = std::make_shared<plan_command>();
+  auto* what = command->add_option_group("what", "What to measure (one of)");
+  what->add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
+  what->add_flag("--whole", options->whole,
+                 "Every camera pose of the half hemisphere under every lamp of the robot's arc");
+  what->require_option(1);
+  add_machine_options(*command, options->machine);
+  command->add_option("-o,--output", options->output, "Poses to write (.csv)")->required();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,122 @@
+/// gonio lab probe, gonio lab unwrap: an environment's picture in a mirror sphere, and back.
+
+#include "../lab/mirror_sphere_lab.hpp"
+#include "lab.hpp"
+#include <gonio/capture/mirror_sphere.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/render/environment_map.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct probe_command {
+  std::filesystem::path input, output, truth;
+  double distance = 0.0;  ///< in radii of the sphere; 0: far away
+  std::size_t pixels = 1024;
+  gonio::unwrap_options unwrapping;
+  gonio::thread_count threads;
+};
+
+gonio::mirror_sphere sphere_of(const probe_command& options) {
+  return options.distance > 0.0 ? gonio::mirror_sphere(options.distance) : gonio::mirror_sphere();
+}
+
+void photograph(const probe_command& options) {
+  const gonio::environment_map around(gonio::io::read_hdr(options.input));
+  const auto radiance = [&](const gonio::direction& towards) { return around(towards); };
+  gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
+}
+
+/// A map of fewer rows, each pixel the mean of those that it stands for.
+gonio::image averaged(const gonio::image& map, std::size_t rows, const std::filesystem::path& file) {
+  const std::size_t factor = map.shape(0) / rows;
+  if (factor * rows != map.shape(0) || map.shape(1) != 2 * map.shape(0))
+    throw gonio::error(file.string() + ": a map of " + std::to_string(map.shape(0)) + " rows and " +
+                       std::to_string(map.shape(1)) + " columns cannot be compared with one of " +
+                       std::to_string(rows) + " rows");
+  gonio::image means = gonio::uniform_image(rows, 2 * rows);
+  for (std::size_t row = 0; row < map.shape(0); ++row)
+    for (std::size_t column = 0; column < map.shape(1); ++column) {
+      const gonio::rgb sum = gonio::pixel(means, row / factor, column / factor) +
+                             gonio::pixel(map, row, column) / static_cast<double>(factor * factor);
+      gonio::set_pixel(means, row / factor, column / factor, sum);
+    }
+  return means;
+}
+
+/// The mean relative error of a map, by solid angle, of all but the 10 degrees around what the sphere hides. Pixels in
+/// which the truth is black do not count.
+double relative_error(const gonio::image& map, const gonio::environment_map& truth, double largest_polar_angle) {
+  double sum = 0.0, weights = 0.0;
+  for (std::size_t row = 0; row < truth.rows(); ++row)
+    for (std::size_t column = 0; column < truth.columns(); ++column) {
+      const gonio::rgb expected = gonio::pixel(truth.picture(), row, column);
+      if (std::acos(truth.towards(row, column).z()) > largest_polar_angle - gonio::radians(10.0)) continue;
+      if (!(expected > 0.0).all()) continue;
+      const gonio::rgb off = (gonio::pixel(map, row, column) - expected).abs() / expected;
+      sum += truth.solid_angle(row) * off.mean();
+      weights += truth.solid_angle(row);
+    }
+  return sum / weights;
+}
+
+void unwrap(const probe_command& options) {
+  const gonio::mirror_sphere sphere = sphere_of(options);
+  const gonio::image probe = gonio::io::read_hdr(options.input);
+  const auto map = [&] {
+    try {
+      return gonio::unwrap(probe, sphere, options.unwrapping, options.threads);
+    } catch (const gonio::error& refusal) {
+      throw gonio::error(options.input.string() + ": " + refusal.what());
+    }
+  }();
+  gonio::io::write_hdr(options.output, map);
+  if (options.truth.empty()) return;
+  const gonio::environment_map truth(
+      averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
+  std::cout << "mean relative error " << fixed(100.0 * relative_error(map, truth, sphere.largest_polar_angle()), 2)
+            << " % outside the 10 degrees around what the sphere hides\n";
+}
+
+void add_distance_option(CLI::App& command, double& distance) {
+  command
+      .add_option("--distance", distance,
+                  "From the sphere's centre to the camera, in radii of the sphere; far away if it is not given")
+      ->check(CLI::Range(1.001, 1e6));
+}
+
+}  // namespace
+
+void add_lab_probe(CLI::App& lab) {
+  auto* command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
+  const auto options = std::make_shared<probe_command>();
+  command->add_option("environment", options->input, "Light all around, latitude-longitude (.hdr)")->required();
+  add_distance_option(*command, options->distance);
+  command->add_option("--size", options->pixels, "Pixels of the picture each way")
+      ->check(CLI::Range(8, 8192))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "Picture to write, filled by the sphere (.hdr)")->required();
+  command->callback([options] { photograph(*options); });
+}
+
+void add_lab_unwrap(CLI::App& lab) {
+  auto* command = lab.add_subcommand("unwrap", "Turn a picture of a mirror sphere into the light all around");
+  const auto options = std::make_shared<probe_command>();
+  command->add_option("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
+      ->required();
+  add_distance_option(*command, options->distance);
+  command->add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
+      ->check(CLI::Range(1, 8192))
+      ->capture_default_str();
+  command->add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror")->capture_default_str();
+  command->add_option("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
+  add_threads_option(*command, options->threads);
+  command->add_option("-o,--output", options->output, "Map to write, latitude-longitude (.hdr)")->required();
+  command->callback([options] { unwrap(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,131 @@
+/// gonio lab scan, gonio lab replay: readings of a machine, or of frames recorded earlier, kept one by one in a
+/// journal.
+
+#include "../lab/recorded_frames.hpp"
+#include "lab.hpp"
+#include "progress_bar.hpp"
+#include <gonio/capture/scan.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/scan_journal.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+namespace cli {
+
+namespace {
+
+struct scan_command {
+  std::filesystem::path plan, material, output;
+  machine_choice machine;
+  bool white = false, ideal = false;
+  std::string camera = "linear";
+  double reflectance = 0.99, misalignment = 0.5, outliers = 0.0, noise = 1.0;
+  std::uint64_t room_seed = 1, seed = 1;
+};
+
+struct replay_command {
+  std::filesystem::path manifest, output;
+};
+
+lab::response_curve curve_named(const std::string& name) {
+  if (name == "gamma") return lab::response_curve::gamma;
+  return name == "s-shaped" ? lab::response_curve::s_shaped : lab::response_curve::linear;
+}
+
+lab::surface surface_of(const scan_command& options) {
+  if (options.white) return lab::white(options.reflectance);
+  return [table = gonio::io::read_merl_any(options.material)](const gonio::direction& wi, const gonio::direction& wo) {
+    return table(wi, wo);
+  };
+}
+
+/// The laboratory that the options describe.
+lab::dark_room room_of(const scan_command& options) {
+  lab::sensor chip{.curve = curve_named(options.camera)};
+  lab::defects wrong;
+  if (!options.ideal) {
+    chip = lab::sensor::usual(curve_named(options.camera));
+    chip.read_noise *= options.noise;
+    chip.full_well /= options.noise * options.noise;
+    wrong = lab::defects::usual();
+    wrong.flicker *= options.noise;
+    wrong.misalignment = gonio::radians(options.misalignment);
+  }
+  wrong.outliers = options.outliers;
+  // The reference and the material are laid down apart.
+  return {surface_of(options), chip, wrong, options.room_seed, 2 * options.seed + (options.white ? 1 : 0)};
+}
+
+/// Scans what the journal does not have yet. Throws where poses stay missing.
+template <class Machine>
+void scan_into(const std::filesystem::path& output, Machine& machine, const std::vector<gonio::direction_pair>& poses) {
+  gonio::io::scan_journal journal(output, poses, machine.largest_count());
+  progress_bar bar;
+  const gonio::scan_outcome outcome = gonio::scan(machine, poses, journal, {}, bar.listener());
+  bar.wipe();
+  for (const auto& [number, reason] : outcome.missing)
+    std::cout << "missing: pose " << number + 1 << ", " << in_degrees(poses[number]) << ": " << reason << '\n';
+  std::cout << outcome.measured << " poses measured, " << outcome.kept_before << " were there already\n";
+  if (outcome.is_complete()) return;
+  throw std::runtime_error(output.string() + ": " + std::to_string(poses.size() - journal.scan().measured()) + " of " +
+                           std::to_string(poses.size()) + " poses are missing: the same command tries them again");
+}
+
+void run(const scan_command& options) {
+  const auto poses = gonio::io::read_direction_pairs(options.plan);
+  lab::dark_room room = room_of(options);
+  with_machine(options.machine, room, [&](auto& machine) { scan_into(options.output, machine, poses); });
+}
+
+void run(const replay_command& options) {
+  lab::recorded_frames recorded(options.manifest);
+  scan_into(options.output, recorded, recorded.poses());
+}
+
+}  // namespace
+
+void add_lab_scan(CLI::App& lab) {
+  auto* command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
+  const auto options = std::make_shared<scan_command>();
+  command->add_option("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)")->required();
+  auto* what = command->add_option_group("what", "What lies in the machine (one of)");
+  what->add_option("--material", options->material, "A material's table (.binary or .binary.gz)");
+  what->add_flag("--white", options->white, "The white reference");
+  what->require_option(1);
+  command->add_option("--reflectance", options->reflectance, "Of the white reference")
+      ->check(CLI::Range(0.01, 1.0))
+      ->capture_default_str();
+  add_machine_options(*command, options->machine);
+  command->add_option("--camera", options->camera, "The camera's response")
+      ->check(CLI::IsMember({"linear", "gamma", "s-shaped"}))
+      ->capture_default_str();
+  command->add_flag("--ideal", options->ideal,
+                    "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
+  command->add_option("--noise", options->noise, "Factor of all noise")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  command->add_option("--misaligned", options->misalignment, "Degrees by which lamps, camera and sample are off")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str();
+  command->add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)")->required();
+  command->callback([options] { run(*options); });
+}
+
+void add_lab_replay(CLI::App& lab) {
+  auto* command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
+  const auto options = std::make_shared<replay_command>();
+  command->add_option("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)")->required();
+  command->add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)")->required();
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,153 @@
+#pragma once
+/// Frames that a real laboratory recorded, as a goniometer: a folder of PNG files and a manifest that says which was
+/// taken where (JSON; docs/formats.md). What was recorded elsewhere goes through the same path as what a machine
+/// measures now.
+
+#include <gonio/capture/device.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/text.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lab {
+
+class recorded_frames {
+ public:
+  /// Reads the manifest; the frames are read when they are measured. Throws gonio::error naming the manifest and the
+  /// frame of it that is not what it should be.
+  explicit recorded_frames(const std::filesystem::path& manifest)
+      : folder_(manifest.parent_path()), name_(manifest.string()) {
+    const auto bytes = gonio::io::read_bytes(manifest);
+    const auto text = nlohmann::json::parse(gonio::io::detail::as_text(bytes), nullptr, false);
+    if (!text.is_object()) throw gonio::error(name_ + ": is not a JSON object");
+    largest_count_ = static_cast<std::uint16_t>(whole(text, "largest_count", 65535));
+    if (largest_count_ == 0) throw gonio::error(name_ + ": 'largest_count' must be positive");
+    if (text.contains("window")) window_ = parse_window(text["window"]);
+    if (!text.contains("frames") || !text["frames"].is_array() || text["frames"].empty())
+      throw gonio::error(name_ + ": 'frames' must be a list with a frame at least");
+    for (const auto& each : text["frames"]) add(each);
+  }
+
+  /// All pairs that were recorded, in the manifest's order.
+  [[nodiscard]] std::vector<gonio::direction_pair> poses() const {
+    std::vector<gonio::direction_pair> all;
+    for (const recorded_pose& each : recorded_) all.push_back(each.at);
+    return all;
+  }
+
+  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+    return {pair, find(pair) ? "" : "no frame was recorded there"};
+  }
+  [[nodiscard]] double travel(const gonio::direction_pair&, const gonio::direction_pair&) const { return 0.0; }
+  [[nodiscard]] std::uint16_t largest_count() const { return largest_count_; }
+
+  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+    const recorded_pose* found = find(pair);
+    if (found == nullptr) throw gonio::device_failure("no frame was recorded there");
+    gonio::reading taken;
+    for (const auto& [seconds, file] : found->frames) {
+      taken.times.push_back(seconds);
+      taken.frames.push_back(read_frame(folder_ / file));
+    }
+    return taken;
+  }
+
+ private:
+  struct recorded_pose {
+    gonio::direction_pair at;
+    std::vector<std::pair<double, std::string>> frames;  ///< seconds of exposure, and the file
+  };
+  struct window {
+    std::size_t column, row, columns, rows;
+  };
+
+  [[nodiscard]] double number(const nlohmann::json& object, std::string_view key) const {
+    if (!object.contains(key) || !object[key].is_number())
+      throw gonio::error(name_ + ": '" + std::string(key) + "' is missing or no number in " + shown(object));
+    return object[key].get<double>();
+  }
+  [[nodiscard]] std::size_t whole(const nlohmann::json& object, std::string_view key, double most) const {
+    const double value = number(object, key);
+    if (!(value >= 0.0 && value <= most && value == std::floor(value)))
+      throw gonio::error(name_ + ": '" + std::string(key) + "' must be a whole number up to " + std::to_string(most));
+    return static_cast<std::size_t>(value);
+  }
+  /// The beginning of what is not what it should be.
+  [[nodiscard]] static std::string shown(const nlohmann::json& object) {
+    return object.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, 120);
+  }
+
+  [[nodiscard]] window parse_window(const nlohmann::json& given) const {
+    if (!given.is_object()) throw gonio::error(name_ + ": 'window' must have column, row, columns and rows");
+    const window parsed{whole(given, "column", 1e6), whole(given, "row", 1e6), whole(given, "columns", 1e6),
+                        whole(given, "rows", 1e6)};
+    if (parsed.columns == 0 || parsed.rows == 0) throw gonio::error(name_ + ": 'window' has no pixel");
+    return parsed;
+  }
+
+  [[nodiscard]] gonio::direction towards(const nlohmann::json& frame, std::string_view theta,
+                                         std::string_view phi) const {
+    const double polar = number(frame, theta), azimuth = number(frame, phi);
+    if (!(polar >= 0.0 && polar < 90.0 && std::abs(azimuth) <= 360.0))
+      throw gonio::error(name_ + ": '" + std::string(theta) + "' and '" + std::string(phi) +
+                         "' must be degrees above the horizon in " + shown(frame));
+    return gonio::spherical_direction(gonio::radians(polar), gonio::radians(azimuth));
+  }
+
+  void add(const nlohmann::json& frame) {
+    if (!frame.is_object()) throw gonio::error(name_ + ": " + shown(frame) + " is no frame");
+    const gonio::direction_pair at{towards(frame, "theta_i", "phi_i"), towards(frame, "theta_o", "phi_o")};
+    const double seconds = number(frame, "seconds");
+    if (!(seconds > 0.0)) throw gonio::error(name_ + ": 'seconds' must be positive in " + shown(frame));
+    if (!frame.contains("file") || !frame["file"].is_string())
+      throw gonio::error(name_ + ": 'file' is missing or no text in " + shown(frame));
+    recorded_pose* known = find(at);
+    if (known == nullptr) known = &recorded_.emplace_back(recorded_pose{at, {}});
+    known->frames.emplace_back(seconds, frame["file"].get<std::string>());
+  }
+
+  [[nodiscard]] const recorded_pose* find(const gonio::direction_pair& pair) const {
+    for (const recorded_pose& each : recorded_)
+      if (each.at.wi.isApprox(pair.wi, 1e-9) && each.at.wo.isApprox(pair.wo, 1e-9)) return &each;
+    return nullptr;
+  }
+  [[nodiscard]] recorded_pose* find(const gonio::direction_pair& pair) {
+    return const_cast<recorded_pose*>(std::as_const(*this).find(pair));
+  }
+
+  /// A file that is missing or damaged is a frame that did not arrive.
+  [[nodiscard]] gonio::camera_frame read_frame(const std::filesystem::path& file) const try {
+    const gonio::io::stored_codes codes = gonio::io::read_png_codes(file);
+    const window seen = window_.value_or(window{0, 0, codes.columns, codes.rows});
+    if (seen.column + seen.columns > codes.columns || seen.row + seen.rows > codes.rows)
+      throw gonio::device_failure(file.string() + ": the window ends outside the picture of " +
+                                  std::to_string(codes.columns) + " x " + std::to_string(codes.rows) + " pixels");
+    gonio::camera_frame counts(static_cast<Eigen::Index>(seen.rows * seen.columns), 3);
+    for (std::size_t row = 0; row < seen.rows; ++row)
+      for (std::size_t column = 0; column < seen.columns; ++column)
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          counts(static_cast<Eigen::Index>(row * seen.columns + column), static_cast<Eigen::Index>(channel)) =
+              codes.at(seen.row + row, seen.column + column, channel);
+    return counts;
+  } catch (const gonio::error& refusal) {
+    throw gonio::device_failure(refusal.what());
+  }
+
+  std::filesystem::path folder_;
+  std::string name_;
+  std::uint16_t largest_count_ = 0;
+  std::optional<window> window_;
+  std::vector<recorded_pose> recorded_;
+};
+static_assert(gonio::goniometer<recorded_frames>);
+
+}  // namespace lab

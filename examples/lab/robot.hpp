@@ -1,0 +1,115 @@
+#pragma once
+/// A simulated robot that carries a camera about a sample under an arc of fixed lamps (Nielsen's thesis 2016, note on
+/// the gonioreflectometer).
+
+#include "dark_room.hpp"
+#include <gonio/capture/trajectory.hpp>
+
+namespace lab {
+
+/// The arc: lamps every 7.5 degrees at 1000 mm, one of which burns.
+class lamp_arc {
+ public:
+  explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::arc_lamps()) {}
+
+  [[nodiscard]] std::size_t lamps() const { return towards_.size(); }
+  void switch_on(std::size_t lamp) {
+    room_->place_lamp(radius * towards_.at(lamp));
+    room_->light(true);
+  }
+  void switch_off() { room_->light(false); }
+
+  /// In the sample's axes, in which the arc lies above x.
+  [[nodiscard]] const gonio::direction& towards(std::size_t lamp) const { return towards_[lamp]; }
+  [[nodiscard]] std::size_t nearest(const gonio::direction& w) const {
+    const auto off = [&](const gonio::direction& lamp) { return gonio::angle_between(lamp, w); };
+    return static_cast<std::size_t>(std::ranges::min_element(towards_, {}, off) - towards_.begin());
+  }
+
+  static constexpr double radius = 1000.0;
+
+ private:
+  dark_room* room_;
+  std::vector<gonio::direction> towards_;
+};
+static_assert(gonio::light_source<lamp_arc>);
+
+/// The six-axis robot with the camera in its hand. What it is told are positions and quaternions in its own axes, in
+/// which the arc lies above y.
+class robot_arm {
+ public:
+  explicit robot_arm(dark_room& room) : room_(&room) {}
+
+  [[nodiscard]] std::string obstacle(const gonio::direction& w) const {
+    if (gonio::polar_angle(w) <= lowest) return {};
+    return "the robot would touch the table below " + in_degrees(lowest) + ", this is " +
+           in_degrees(gonio::polar_angle(w));
+  }
+  void move_to(const gonio::direction& w) { obey(sphere_.towards(w)); }
+
+  [[nodiscard]] const gonio::camera_sphere& sphere() const { return sphere_; }
+
+ private:
+  /// As the robot's controller does: it goes where it is told, and the camera sees the sample if it looks there.
+  void obey(const gonio::camera_pose& pose) {
+    const gonio::direction to_sample = (sphere_.centre - pose.position).normalized();
+    if (gonio::angle_between(pose.looks_along(), to_sample) > gonio::radians(0.01))
+      throw gonio::device_failure("the robot's camera does not look at the sample");
+    room_->place_camera(sphere_.radius * sphere_.seen_from(pose));
+  }
+
+  static constexpr double lowest = 83.0 * std::numbers::pi / 180.0;
+
+  dark_room* room_;
+  gonio::camera_sphere sphere_;
+};
+static_assert(gonio::positioner<robot_arm>);
+
+/// Robot and arc. A light of which the nearest lamp is farther than `tolerance` cannot be had; else it is measured
+/// where that lamp is.
+class robot {
+ public:
+  explicit robot(dark_room& room, double tolerance = gonio::radians(0.5))
+      : room_(&room), arc_(room), arm_(room), camera_(room), tolerance_(tolerance) {}
+
+  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+    const bool is_above = std::abs(pair.wi.y()) < 1e-9 && pair.wo.y() > -1e-9;
+    const gonio::direction_pair turned = is_above ? pair : gonio::above_arc(pair);
+    const gonio::direction lamp = arc_.towards(arc_.nearest(turned.wi));
+    const gonio::placement at{{lamp, turned.wo}, arm_.obstacle(turned.wo)};
+    if (!at.is_reachable()) return at;
+    const double off = gonio::angle_between(lamp, turned.wi), apart = gonio::angle_between(lamp, turned.wo);
+    if (off > tolerance_ + 1e-9)
+      return {at.at, "the nearest lamp is " + in_degrees(off) + " away, allowed are " + in_degrees(tolerance_)};
+    if (apart < nearest())
+      return {at.at, "the camera hides the lamp up to " + in_degrees(nearest()) + ", this is " + in_degrees(apart)};
+    return at;
+  }
+  /// Only the camera moves.
+  [[nodiscard]] double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
+    return gonio::angle_between(from.wo, to.wo);
+  }
+  [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
+  [[nodiscard]] const lamp_arc& arc() const { return arc_; }
+
+  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+    room_->begin(pair);
+    arm_.move_to(pair.wo);
+    const lit burning(arc_, arc_.nearest(pair.wi));
+    return gonio::expose_bracket(camera_);
+  }
+
+ private:
+  [[nodiscard]] double nearest() const {
+    return smallest_separation(30.0, arm_.sphere().radius, 20.0, lamp_arc::radius);
+  }
+
+  dark_room* room_;
+  lamp_arc arc_;
+  robot_arm arm_;
+  room_camera camera_;
+  double tolerance_;
+};
+static_assert(gonio::goniometer<robot>);
+
+}  // namespace lab

@@ -1,0 +1,127 @@
+#pragma once
+/// Readings of a material and of a white reference as samples of the BRDF, each with its uncertainty (Nielsen's thesis
+/// 2016, note on relative BRDF measurement, Sec. 3 and 4).
+
+#include <gonio/capture/high_dynamic_range.hpp>
+#include <gonio/capture/relative_reflectance.hpp>
+#include <gonio/core/rgb.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// What is known of a camera and of the white reference.
+struct calibration {
+  std::array<camera_response, 3> responses;  ///< of red, green and blue
+  sensor_noise noise = {};
+  double reflectance = 0.99;     ///< of the reference: Spectralon's
+  std::uint16_t saturation = 0;  ///< from this count on a pixel is saturated; 0 stands for the largest count
+};
+
+namespace detail {
+
+/// The exposure times that all readings have, each once.
+[[nodiscard]] inline std::vector<double> times_in_common(std::span<const reading> readings) {
+  std::vector<double> times = readings.front().times;
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::erase_if(times, [&](double time) {
+    return std::ranges::any_of(readings, [&](const reading& each) { return !std::ranges::count(each.times, time); });
+  });
+  return times;
+}
+
+/// The mean count of each reading's pixels at these times, or the largest if a pixel is saturated: their noise would
+/// weigh a pixel's brighter exposures more than its darker ones.
+[[nodiscard]] inline exposure_counts mean_counts(std::span<const reading> readings, std::span<const double> times,
+                                                 Eigen::Index channel, std::uint16_t largest_count) {
+  exposure_counts counts(std::ssize(readings), std::ssize(times));
+  for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+    const reading& each = readings[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < counts.cols(); ++j) {
+      const auto at = std::ranges::find(each.times, times[static_cast<std::size_t>(j)]) - each.times.begin();
+      const auto pixels = each.frames[static_cast<std::size_t>(at)].col(channel);
+      counts(i, j) = pixels.maxCoeff() >= largest_count ? largest_count : pixels.cast<double>().mean();
+    }
+  }
+  return counts;
+}
+
+}  // namespace detail
+
+/// The responses of a camera's three channels from readings of anything that does not move meanwhile: of each, the
+/// mean over the pixels at the times that all readings have.
+///
+/// Throws gonio::error if there is no reading, if they have less than two times in common, or as estimate_response
+/// does.
+[[nodiscard]] inline std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
+                                                                       std::uint16_t largest_count,
+                                                                       const response_options& options = {}) {
+  if (readings.empty()) throw error("a camera's response needs readings, and there is none");
+  const std::vector<double> times = detail::times_in_common(readings);
+  if (times.size() < 2)
+    throw error("a camera's response needs readings with two exposure times or more in common, not " +
+                std::to_string(times.size()));
+  const auto response_of = [&](Eigen::Index channel) {
+    return estimate_response(detail::mean_counts(readings, times, channel, largest_count), times, largest_count,
+                             options);
+  };
+  return {response_of(0), response_of(1), response_of(2)};
+}
+
+/// A BRDF's value in sr^-1 at a pair of directions, with the standard deviation of each channel.
+struct measured_reflectance {
+  direction_pair at;
+  rgb value = rgb::Zero(), deviation = rgb::Zero();
+  std::string doubt{};  ///< why the value means nothing; empty if it means something
+
+  [[nodiscard]] bool is_usable() const noexcept { return doubt.empty(); }
+
+  /// Of the sum of the channels: a colour in which the material is black need not be known well.
+  [[nodiscard]] double relative_deviation() const noexcept {
+    return deviation.matrix().norm() / std::max(value.sum(), 0.0);
+  }
+
+  /// The sample that estimators take, with the weight of its deviation. Not for values that mean nothing.
+  [[nodiscard]] sample as_sample() const {
+    return {to_half_difference(at.wi, at.wo), value, weight_of(relative_deviation())};
+  }
+};
+
+/// The BRDF of a material from a reading of it and one of the reference at the same pair of directions (Eq. 18), by
+/// the radiances of all pixels on average. A channel that is dark in every exposure has the value 0. `illumination`
+/// says where the surfaces lay, if not in the same place (Eq. 22).
+///
+/// Throws gonio::error as merge_exposures, reference_light and reference_light::brdf do.
+[[nodiscard]] inline measured_reflectance measure_reflectance(const reading& material, const reading& reference,
+                                                              const direction_pair& at, const calibration& known,
+                                                              const illumination& material_at = {},
+                                                              const illumination& reference_at = {}) {
+  measured_reflectance result{at};
+  bool is_dark = true;
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const camera_response& response = known.responses[static_cast<std::size_t>(channel)];
+    const auto radiance = [&](const reading& taken) {
+      return merge_exposures(taken, channel, response, known.noise, known.saturation);
+    };
+    const measured_radiance white = radiance(reference), seen = radiance(material);
+    if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
+    if (seen.saturated) result.doubt = "saturated in every exposure";
+    if (!result.is_usable()) return result;
+    const reference_light light({white.value, white.deviation}, known.reflectance, reference_at);
+    const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
+    result.value[channel] = f.value;
+    result.deviation[channel] = f.deviation;
+    is_dark = is_dark && seen.dark;
+  }
+  if (is_dark) result.doubt = "dark in every exposure";
+  return result;
+}
+
+}  // namespace gonio

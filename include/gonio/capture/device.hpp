@@ -1,0 +1,178 @@
+#pragma once
+/// What a laboratory must offer: concepts of light sources, positioners, cameras and the goniometers that are built of
+/// them. The library has no drivers; examples/lab/ has models of each, which are simulations.
+///
+/// A call to a device blocks until the device has done what it was asked: arms are at rest, a lamp's light is steady, a
+/// picture is read out. What a device cannot do it says with device_failure, at once or after a time-out of its own,
+/// and stays usable: whoever called may try again.
+
+#include <gonio/core/direction.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Thrown by a device that did not do what it was asked. The message names the device and what went wrong.
+class device_failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Counts of the pixels that see the sample, a row for each pixel; the columns are red, green and blue.
+using camera_frame = Eigen::Array<std::uint16_t, Eigen::Dynamic, 3>;
+
+/// Pictures of one pair of directions.
+struct reading {
+  std::vector<double> times;         ///< seconds of exposure of each frame
+  std::vector<camera_frame> frames;  ///< all with the same pixels
+};
+
+/// Where a goniometer would measure a pair of directions, or why it cannot.
+struct placement {
+  direction_pair at;     ///< in the sample's axes; not quite what was asked where lamps stand still
+  std::string obstacle;  ///< empty if the machine can measure there
+
+  [[nodiscard]] bool is_reachable() const noexcept { return obstacle.empty(); }
+};
+
+/// One lamp or several, of which one burns at a time.
+///
+/// A driver's author guarantees: `switch_on(lamp)`, with lamp < lamps(), returns when that lamp's light is steady and
+/// all others are off; `switch_off()` may be called at any time, also twice.
+/// ```cpp
+/// struct torch {
+///   std::size_t lamps() const { return 1; }
+///   void switch_on(std::size_t) {}
+///   void switch_off() {}
+/// };
+/// static_assert(gonio::light_source<torch>);
+/// ```
+template <class L>
+concept light_source = requires(L& lights, const L& same, std::size_t lamp) {
+  { same.lamps() } -> std::convertible_to<std::size_t>;
+  lights.switch_on(lamp);
+  lights.switch_off();
+};
+
+/// An arm or a robot that brings a lamp or a camera to a direction, as seen from the sample.
+///
+/// A driver's author guarantees: `obstacle(w)` says in a few words why the direction w (a unit vector in the sample's
+/// axes) cannot be reached, or nothing if it can, without moving; `move_to(w)` returns with the arm at rest, within the
+/// machine's own precision, and throws device_failure instead of stopping half-way unnoticed; it is only called where
+/// there is no obstacle.
+/// ```cpp
+/// struct bent_wire {
+///   std::string obstacle(const gonio::direction& w) const { return w.z() > 0.5 ? "" : "the wire is too short"; }
+///   void move_to(const gonio::direction&) {}
+/// };
+/// static_assert(gonio::positioner<bent_wire>);
+/// ```
+template <class P>
+concept positioner = requires(P& arm, const P& same, const direction& w) {
+  { same.obstacle(w) } -> std::convertible_to<std::string>;
+  arm.move_to(w);
+};
+
+/// A camera that looks at the sample.
+///
+/// A driver's author guarantees: `expose(seconds)`, for a time from shortest_time() to longest_time(), returns the
+/// counts of the same pixels every time, from 0 to largest_count(), without gamma correction that changes from picture
+/// to picture, automatic gain or white balance. A picture that did not arrive is a device_failure.
+/// ```cpp
+/// struct photodiode {
+///   std::uint16_t largest_count() const { return 255; }
+///   double shortest_time() const { return 0.001; }
+///   double longest_time() const { return 1.0; }
+///   gonio::camera_frame expose(double seconds) {
+///     return gonio::camera_frame::Constant(1, 3, static_cast<std::uint16_t>(255 * seconds));
+///   }
+/// };
+/// static_assert(gonio::camera<photodiode>);
+/// ```
+template <class C>
+concept camera = requires(C& eye, const C& same, double seconds) {
+  { same.largest_count() } -> std::convertible_to<std::uint16_t>;
+  { same.shortest_time() } -> std::convertible_to<double>;
+  { same.longest_time() } -> std::convertible_to<double>;
+  { eye.expose(seconds) } -> std::convertible_to<camera_frame>;
+};
+
+/// A machine that measures pairs of directions.
+///
+/// A driver's author guarantees: `place(pair)` says where the machine would measure that pair of unit vectors, or why
+/// it cannot, without moving; light and viewer hiding one another is such an obstacle. `travel(from, to)` is the
+/// largest angle in radians by which a part of it turns between two pairs. `measure(pair)`, for a pair that place()
+/// returned, takes pictures there; it leaves the lamps off, also when it throws device_failure.
+/// ```cpp
+/// struct open_hand {
+///   gonio::placement place(const gonio::direction_pair& pair) const { return {pair, ""}; }
+///   double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
+///     return gonio::angle_between(from.wi, to.wi);
+///   }
+///   std::uint16_t largest_count() const { return 255; }
+///   gonio::reading measure(const gonio::direction_pair&) { return {{0.1}, {gonio::camera_frame::Constant(1, 3, 7)}}; }
+/// };
+/// static_assert(gonio::goniometer<open_hand>);
+/// ```
+template <class G>
+concept goniometer = requires(G& machine, const G& same, const direction_pair& pair) {
+  { same.place(pair) } -> std::convertible_to<placement>;
+  { same.travel(pair, pair) } -> std::convertible_to<double>;
+  { same.largest_count() } -> std::convertible_to<std::uint16_t>;
+  { machine.measure(pair) } -> std::convertible_to<reading>;
+};
+
+/// The exposure times of the thesis's note on relative BRDF measurement (Sec. 3), in seconds.
+inline constexpr std::array<double, 5> note_exposure_times{0.0125, 0.025, 0.05, 0.1, 0.2};
+
+/// Takes pictures at some times, and at others where these do not show all: ever shorter ones while a pixel is
+/// saturated in the shortest, longer ones while a colour has no count above an eighth of the largest in the longest, by
+/// factors of 4 as far as the camera goes. Times beyond the camera's are brought to its own. The given times come
+/// first, in their order; there is at least one.
+template <camera Camera>
+[[nodiscard]] reading expose_bracket(Camera& eye, std::span<const double> times = note_exposure_times) {
+  constexpr double factor = 4.0;
+  const std::uint16_t largest = eye.largest_count();
+  const double shortest = eye.shortest_time(), longest = eye.longest_time();
+  reading taken;
+  const auto expose = [&](double time) {
+    taken.times.push_back(std::clamp(time, shortest, longest));
+    taken.frames.push_back(eye.expose(taken.times.back()));
+  };
+  for (const double time : times) expose(time);
+  const auto [first, last] = std::ranges::minmax_element(taken.times);
+  const auto extend = [&](double time, const camera_frame& at_time, const auto& next, const auto& is_enough) {
+    bool done = is_enough(at_time);
+    while (!done && next(time) != time) {
+      expose(time = next(time));
+      done = is_enough(taken.frames.back());
+    }
+  };
+  const auto at = [&](auto which) {
+    return camera_frame(taken.frames[static_cast<std::size_t>(which - taken.times.begin())]);
+  };
+  const auto [darkest_time, brightest_time] = std::pair(*first, *last);
+  const camera_frame darkest = at(first), brightest = at(last);
+  extend(
+      darkest_time, darkest, [&](double time) { return std::max(shortest, time / factor); },
+      [&](const camera_frame& each) { return each.size() == 0 || each.maxCoeff() < largest; });
+  extend(
+      brightest_time, brightest, [&](double time) { return std::min(longest, time * factor); },
+      [&](const camera_frame& each) {
+        return each.size() == 0 || each.colwise().maxCoeff().minCoeff() >= largest / 8;
+      });
+  return taken;
+}
+
+}  // namespace gonio

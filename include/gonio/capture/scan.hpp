@@ -1,0 +1,154 @@
+#pragma once
+/// Many pairs of directions measured one after the other, whatever happens to the machine meanwhile: planned, checked,
+/// ordered, and measured so that each reading is kept as soon as there is one (Nielsen's thesis 2016, note on the
+/// gonioreflectometer, Table 1).
+
+#include <gonio/capture/device.hpp>
+#include <gonio/capture/trajectory.hpp>
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/progress.hpp>
+
+#include <concepts>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A pose that a scan goes without, counted from 0, and why.
+struct missing_pose {
+  std::size_t number = 0;
+  std::string reason;
+};
+
+/// The way of a machine through pairs of directions.
+struct scan_plan {
+  std::vector<direction_pair> poses;      ///< in the order in which they are measured
+  std::vector<missing_pose> unreachable;  ///< numbered as the pairs that were asked for
+  double length = 0.0;                    ///< radians from the first pose to the last
+};
+
+/// Where a machine can measure a pair: as it is, or by reciprocity with light and viewer in each other's place. If
+/// neither, what hinders the pair as it is.
+template <goniometer Machine>
+[[nodiscard]] placement place_either_way(const Machine& machine, const direction_pair& pair) {
+  placement as_asked = machine.place(pair);
+  if (as_asked.is_reachable()) return as_asked;
+  placement exchanged = machine.place({pair.wo, pair.wi});
+  return exchanged.is_reachable() ? exchanged : as_asked;
+}
+
+/// A short way through all pairs that a machine can measure; those it cannot are named.
+template <goniometer Machine>
+[[nodiscard]] scan_plan plan_scan(const Machine& machine, std::span<const direction_pair> pairs) {
+  scan_plan plan;
+  std::vector<direction_pair> reachable;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const placement found = place_either_way(machine, pairs[i]);
+    if (found.is_reachable())
+      reachable.push_back(found.at);
+    else
+      plan.unreachable.push_back({i, found.obstacle});
+  }
+  const auto order = short_way(
+      reachable.size(), [&](std::size_t i, std::size_t j) { return machine.travel(reachable[i], reachable[j]); });
+  for (const std::size_t i : order) plan.poses.push_back(reachable[i]);
+  for (std::size_t i = 1; i < plan.poses.size(); ++i) plan.length += machine.travel(plan.poses[i - 1], plan.poses[i]);
+  return plan;
+}
+
+/// A place where a scan keeps its readings. `has(pose)`: is the reading of the pose with this number kept? `add(pose,
+/// reading)` keeps it, and returns when nothing that happens to this process can lose it.
+template <class J>
+concept scan_record = requires(J& record, const J& same, std::size_t pose, const reading& taken) {
+  { same.has(pose) } -> std::convertible_to<bool>;
+  record.add(pose, taken);
+};
+
+struct scan_options {
+  int attempts = 2;           ///< at each pose, before the scan goes on without it
+  int failures_in_a_row = 3;  ///< poses that fail one after the other, after which the machine is taken to be broken
+};
+
+/// What a scan did.
+struct scan_outcome {
+  std::size_t measured = 0, kept_before = 0;
+  std::vector<missing_pose> missing;  ///< to be tried by the next scan of the same record
+  bool is_broken_off = false;         ///< too many failures in a row: not all poses were tried
+
+  [[nodiscard]] bool is_complete() const noexcept { return missing.empty() && !is_broken_off; }
+};
+
+namespace detail {
+
+/// Why a reading is none; empty if it is one.
+[[nodiscard]] inline std::string fault_of(const reading& taken, std::uint16_t largest_count) {
+  if (taken.frames.empty()) return "the camera gave no frame";
+  if (taken.frames.size() != taken.times.size())
+    return "the camera gave " + std::to_string(taken.frames.size()) + " frames for " +
+           std::to_string(taken.times.size()) + " exposures";
+  for (const camera_frame& each : taken.frames) {
+    if (each.rows() == 0 || each.rows() != taken.frames.front().rows())
+      return "a frame has " + std::to_string(each.rows()) + " pixels, the first " +
+             std::to_string(taken.frames.front().rows());
+    if (each.maxCoeff() > largest_count)
+      return "a pixel has " + std::to_string(each.maxCoeff()) + " counts, the largest is " +
+             std::to_string(largest_count);
+  }
+  return {};
+}
+
+/// Tries a pose until it is measured. Nothing, and why, if it fails every time.
+template <goniometer Machine>
+[[nodiscard]] std::pair<std::optional<reading>, std::string> try_to_measure(Machine& machine,
+                                                                            const direction_pair& pose, int attempts) {
+  std::string reason;
+  for (int attempt = 0; attempt < attempts; ++attempt) try {
+      reading taken = machine.measure(pose);
+      reason = fault_of(taken, machine.largest_count());
+      if (reason.empty()) return {std::move(taken), {}};
+    } catch (const device_failure& failure) {
+      reason = failure.what();
+    }
+  return {std::nullopt, reason};
+}
+
+}  // namespace detail
+
+/// Measures the poses that a record does not have yet, in their order, and keeps each reading before the machine moves
+/// on. A pose that cannot be reached, or at which a device fails as often as it may, is left for another time. Other
+/// exceptions than device_failure pass; what was kept stays kept.
+template <goniometer Machine, scan_record Record>
+scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Record& record,
+                  const scan_options& options = {}, const progress& listener = {}) {
+  GONIO_ASSERT(options.attempts > 0 && options.failures_in_a_row > 0);
+  scan_outcome outcome;
+  int failures = 0;
+  for (std::size_t number = 0; number < poses.size(); ++number) {
+    report(listener, "scanning", static_cast<double>(number) / static_cast<double>(poses.size()));
+    if (record.has(number)) {
+      ++outcome.kept_before;
+      continue;
+    }
+    if (const placement found = machine.place(poses[number]); !found.is_reachable()) {
+      outcome.missing.push_back({number, found.obstacle});
+      continue;
+    }
+    const auto [taken, reason] = detail::try_to_measure(machine, poses[number], options.attempts);
+    if (taken) {
+      record.add(number, *taken);
+      ++outcome.measured;
+      failures = 0;
+      continue;
+    }
+    outcome.missing.push_back({number, reason});
+    if (++failures < options.failures_in_a_row) continue;
+    outcome.is_broken_off = true;
+    break;
+  }
+  return outcome;
+}
+
+}  // namespace gonio

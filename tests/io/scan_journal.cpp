@@ -1,0 +1,156 @@
+#include "scratch.hpp"
+#include <gonio/io/scan_journal.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <random>
+
+using doctest::Contains;
+using gonio::direction_pair;
+using gonio::reading;
+using gonio::io::scan_journal;
+namespace io = gonio::io;
+
+namespace {
+
+std::vector<direction_pair> poses(std::size_t count) {
+  std::vector<direction_pair> all;
+  for (std::size_t i = 0; i < count; ++i)
+    all.push_back(
+        {gonio::spherical_direction(0.3, 0.0), gonio::spherical_direction(0.1 + 0.1 * static_cast<double>(i), 2.0)});
+  return all;
+}
+
+reading random_reading(std::size_t frames, Eigen::Index pixels, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  std::uniform_int_distribution<int> count(0, 4095);
+  reading taken;
+  for (std::size_t i = 0; i < frames; ++i) {
+    taken.times.push_back(0.0125 * std::pow(2.0, static_cast<double>(i)) / 3.0);
+    taken.frames.push_back(gonio::camera_frame::NullaryExpr(
+        pixels, 3, [&](Eigen::Index, Eigen::Index) { return static_cast<std::uint16_t>(count(generator)); }));
+  }
+  return taken;
+}
+
+bool same(const reading& a, const reading& b) {
+  return a.times == b.times &&
+         std::ranges::equal(a.frames, b.frames, [](const auto& x, const auto& y) { return (x == y).all(); });
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  const auto bytes = io::read_bytes(path);
+  return std::string(io::detail::as_text(bytes));
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  io::write_atomically(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+TEST_CASE("scan journal: what is added is there when it is read or gone on with") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  rc::check("readings of any size come back", [&] {
+    std::filesystem::remove(path);
+    const auto count = *rc::gen::inRange<std::size_t>(1, 6);
+    const auto frames = *rc::gen::inRange<std::size_t>(1, 5);
+    const auto pixels = *rc::gen::inRange<Eigen::Index>(1, 5);
+    const auto seed = *rc::gen::arbitrary<unsigned>();
+    for (std::size_t i = count; i-- > 0;) {  // each by another journal, in an order that is not that of the poses
+      scan_journal journal(path, poses(count), 4095);
+      RC_ASSERT(journal.scan().measured() == count - 1 - i);
+      RC_ASSERT(!journal.has(i));
+      journal.add(i, random_reading(frames, pixels, seed + static_cast<unsigned>(i)));
+      RC_ASSERT(journal.has(i));
+    }
+    const io::recorded_scan read = io::read_scan(path);
+    RC_ASSERT(read.largest_count == 4095);
+    RC_ASSERT(read.poses.size() == count);
+    for (std::size_t i = 0; i < count; ++i) {
+      RC_ASSERT(read.poses[i].wi == poses(count)[i].wi);
+      RC_ASSERT(read.poses[i].wo == poses(count)[i].wo);
+      RC_ASSERT(read.readings[i].has_value());
+      RC_ASSERT(same(*read.readings[i], random_reading(frames, pixels, seed + static_cast<unsigned>(i))));
+    }
+  });
+}
+
+TEST_CASE("scan journal: wherever its last line was cut off, all the lines before it are kept, and it goes on") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  {
+    scan_journal journal(path, poses(3), 4095);
+    journal.add(0, random_reading(2, 2, 1));
+  }
+  const std::string before = text_of(path);
+  {
+    scan_journal journal(path, poses(3), 4095);
+    journal.add(1, random_reading(2, 2, 2));
+  }
+  const std::string whole = text_of(path);
+  REQUIRE(whole.size() > before.size());
+  for (std::size_t size = before.size(); size < whole.size(); ++size) {
+    write(path, whole.substr(0, size));
+    CHECK(io::read_scan(path).measured() == 1u);
+    scan_journal journal(path, poses(3), 4095);
+    CHECK(text_of(path) == before);
+    journal.add(1, random_reading(2, 2, 2));
+    CHECK(text_of(path) == whole);
+  }
+  // A machine that lost its power may have written a line's end, but not all that is before it.
+  std::string holed = whole;
+  holed.replace(holed.size() - 12, 4, 4, '\0');
+  write(path, holed);
+  CHECK(io::read_scan(path).measured() == 1u);
+}
+
+TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left as it is") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  {
+    scan_journal journal(path, poses(3), 4095);
+    journal.add(0, random_reading(1, 1, 1));
+    journal.add(1, random_reading(1, 1, 2));
+    CHECK_THROWS_WITH_AS(journal.add(1, random_reading(1, 1, 3)), Contains("pose 1 is read already"), gonio::error);
+    CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 4095), Contains("another process"), gonio::error);
+  }
+  const std::string whole = text_of(path);
+  const auto refuses = [&](const std::string& text, const char* message) {
+    write(path, text);
+    CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains(message), gonio::error);
+    CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 4095), Contains(message), gonio::error);
+    CHECK(text_of(path) == text);
+  };
+  const std::size_t first = whole.find("reading 0");
+  std::string damaged = whole;
+  damaged[first + 12] = damaged[first + 12] == '1' ? '2' : '1';
+  refuses(damaged, "line 6: the checksum is wrong");
+  const std::string second = whole.substr(whole.find("reading 1"));
+  refuses(whole + second, "pose 1 is read a second time");
+  refuses(whole + "pose 1 0 0 0 0 1\n", "a pose after the first reading");
+  refuses(whole + "temperature 3\n", "'temperature' is unknown");
+  refuses("", "largest_count is missing");
+  refuses("largest_count 70000\n", "is 70000");
+  refuses("largest_count 255\n", "there is no pose");
+  refuses("largest_count 255\npose 0 0 2 0 0 1\n", "two unit vectors");
+  refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 1 1 0.1 1 3 3 3") + "# end\n",
+          "pose 1 of 1");
+  refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 0 1 0.1 1 3 3") + "# end\n",
+          "has 2 counts, expected 3");
+  refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 0 1 0.1 1 3 3 256") + "# end\n",
+          "a count is 256");
+  refuses("largest_count 255\npose 0 0 1 0 0 1\n" + io::detail::with_checksum("reading 0 900 0.1") + "# end\n",
+          "ends after");
+
+  write(path, whole);
+  CHECK_THROWS_WITH_AS(scan_journal(path, poses(2), 4095), Contains("3 other poses, expected the 2"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 255), Contains("4095 counts, not 255"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, {}, 4095), Contains("needs a pose"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(scratch.path() / "no folder" / "a.scan", poses(1), 4095),
+                       Contains("cannot be written"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(scratch.path(), poses(1), 4095), Contains("cannot be written"), gonio::error);
+  CHECK(text_of(path) == whole);
+}
