@@ -12,6 +12,7 @@
 #include <array>
 #include <iostream>
 #include <memory>
+#include <random>
 
 namespace cli {
 
@@ -73,20 +74,34 @@ std::vector<gonio::direction_pair> random_poses(const laboratory_options& option
   return reachable(options, pairs, count);
 }
 
-/// Samples of a table as this laboratory measures it.
-gonio::sample_set measure(const laboratory_options& options, const laboratory& where, const gonio::brdf_table& table,
-                          const std::vector<gonio::direction_pair>& poses, std::uint64_t seed) {
+/// What this laboratory measures of a table.
+std::vector<gonio::measured_reflectance> measure(const laboratory_options& options, const laboratory& where,
+                                                 const gonio::brdf_table& table,
+                                                 const std::vector<gonio::direction_pair>& poses, std::uint64_t seed) {
   const lab::surface surface = [&](const gonio::direction& wi, const gonio::direction& wo) { return table(wi, wo); };
   lab::dark_room reference(lab::white(), where.chip, where.wrong, seed, 2 * seed + 1);
   lab::dark_room material(surface, where.chip, where.wrong, seed, 2 * seed);
   const auto scan = [&](lab::dark_room& room) {
     return with_machine(options.machine, room, [&](auto& machine) { return lab::measure_all(machine, poses); });
   };
-  gonio::sample_set samples;
-  for (const auto& found : lab::calibrate(scan(material), scan(reference), poses, where.chip, where.noise))
-    if (found.is_usable()) samples.push_back(found.as_sample());
-  return samples;
+  auto measured = lab::calibrate(scan(material), scan(reference), poses, where.chip, where.noise);
+  std::erase_if(measured, [](const auto& each) { return !each.is_usable(); });
+  return measured;
 }
+
+/// How samples differ from the table that was measured.
+struct sample_errors {
+  std::vector<double> relative;  ///< of the sum over the channels
+  double within = 0.0;           ///< channels of which the 95 % interval holds the truth
+  double channels = 0.0;
+
+  void add(const gonio::measured_reflectance& found, const gonio::brdf_table& truth) {
+    const gonio::rgb expected = truth(found.at.wi, found.at.wo), off = found.value - expected;
+    relative.push_back(std::abs(off.sum() / expected.sum()));
+    for (Eigen::Index channel = 0; channel < 3; ++channel, ++channels)
+      if (std::abs(off[channel]) < 1.96 * found.deviation[channel]) ++within;
+  }
+};
 
 using method_of = reconstruction (*)(const reconstruct_options&, const gonio::sample_set&);
 
@@ -98,26 +113,39 @@ json errors_of(const laboratory_options& options, const laboratory& where, const
   how.materials.prior = options.prior;
   how.threads = options.threads;
   std::vector<gonio::material_result> results;
-  std::size_t samples = 0;
+  sample_errors of_samples;
   for (std::size_t r = 0; r < repetitions; ++r) {
-    const auto measured = measure(options, where, truth, poses, options.seed + r);
-    samples += measured.size();
-    const auto estimate = gonio::resample(method(how, measured).table, truth.cells(), options.threads);
+    gonio::sample_set samples;
+    for (const auto& found : measure(options, where, truth, poses, options.seed + r)) {
+      samples.push_back(found.as_sample());
+      of_samples.add(found, truth);
+    }
+    const auto estimate = gonio::resample(method(how, samples).table, truth.cells(), options.threads);
     results.push_back({"", gonio::compare(estimate, truth, prior.metric(), judge, options.threads)});
   }
   json errors = mean_errors(results);
-  errors["samples"] = static_cast<double>(samples) / static_cast<double>(repetitions);
+  const distribution relative(of_samples.relative);
+  errors["samples"] = of_samples.relative.size() / repetitions;
+  errors["sample_error_median"] = relative.median;
+  errors["sample_error_worst"] = relative.worst;
+  // Without noise there is no interval.
+  if (where.noise.relative > 0.0) errors["within_95"] = of_samples.within / of_samples.channels;
   return errors;
 }
 
 void print(const json& result) {
-  std::cout << "| material | samples | what is wrong | mapped rms | Delta E env | Delta E lights | peak ratio "
-               "|\n|---|---|---|---|---|---|---|\n";
+  std::cout << "| material | samples | what is wrong | their error, % (median, worst) | 95 % intervals hold, % | "
+               "mapped rms | Delta E env | Delta E lights | peak ratio "
+               "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const json& line : result)
-    std::cout << "| " << line["material"].get<std::string>() << " | " << fixed(line["errors"]["samples"], 0) << " by "
+    std::cout << "| " << line["material"].get<std::string>() << " | " << line["errors"]["samples"] << " by "
               << line["method"].get<std::string>() << " | " << line["wrong"].get<std::string>() << " | "
-              << fixed(line["errors"]["mapped_rms"], 3) << " | " << fixed(line["errors"]["delta_e_env"], 2) << " | "
-              << fixed(line["errors"]["delta_e_lights"], 2) << " | " << fixed(line["errors"]["peak_ratio"], 2)
+              << fixed(100.0 * line["errors"]["sample_error_median"].get<double>(), 3) << ", "
+              << fixed(100.0 * line["errors"]["sample_error_worst"].get<double>(), 3) << " | "
+              << (line["errors"].contains("within_95") ? fixed(100.0 * line["errors"]["within_95"].get<double>(), 0)
+                                                       : "")
+              << " | " << fixed(line["errors"]["mapped_rms"], 3) << " | " << fixed(line["errors"]["delta_e_env"], 2)
+              << " | " << fixed(line["errors"]["delta_e_lights"], 2) << " | " << fixed(line["errors"]["peak_ratio"], 2)
               << " |\n";
 }
 

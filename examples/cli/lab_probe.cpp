@@ -5,16 +5,20 @@
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/environment_map.hpp>
+#include <gonio/render/image.hpp>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
+#include <numeric>
 
 namespace cli {
 
 namespace {
 
 struct probe_command {
-  std::filesystem::path input, output, truth;
+  std::filesystem::path input, output, truth, picture;
   double distance = 0.0;  ///< in radii of the sphere; 0: far away
   std::size_t pixels = 1024;
   gonio::unwrap_options unwrapping;
@@ -31,21 +35,32 @@ void photograph(const probe_command& options) {
   gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
 
-/// A map of fewer rows, each pixel the mean of those that it stands for.
-gonio::image averaged(const gonio::image& map, std::size_t rows, const std::filesystem::path& file) {
-  const std::size_t factor = map.shape(0) / rows;
-  if (factor * rows != map.shape(0) || map.shape(1) != 2 * map.shape(0))
-    throw gonio::error(file.string() + ": a map of " + std::to_string(map.shape(0)) + " rows and " +
-                       std::to_string(map.shape(1)) + " columns cannot be compared with one of " +
+/// A picture of fewer rows, each pixel the mean of those that it stands for.
+gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::filesystem::path& file) {
+  const std::size_t factor = picture.shape(0) / rows;
+  if (factor * rows != picture.shape(0) || picture.shape(1) % factor != 0)
+    throw gonio::error(file.string() + ": a picture of " + std::to_string(picture.shape(0)) + " rows and " +
+                       std::to_string(picture.shape(1)) + " columns cannot be shown in, or compared with, one of " +
                        std::to_string(rows) + " rows");
-  gonio::image means = gonio::uniform_image(rows, 2 * rows);
-  for (std::size_t row = 0; row < map.shape(0); ++row)
-    for (std::size_t column = 0; column < map.shape(1); ++column) {
+  gonio::image means = gonio::uniform_image(rows, picture.shape(1) / factor);
+  for (std::size_t row = 0; row < picture.shape(0); ++row)
+    for (std::size_t column = 0; column < picture.shape(1); ++column) {
       const gonio::rgb sum = gonio::pixel(means, row / factor, column / factor) +
-                             gonio::pixel(map, row, column) / static_cast<double>(factor * factor);
+                             gonio::pixel(picture, row, column) / static_cast<double>(factor * factor);
       gonio::set_pixel(means, row / factor, column / factor, sum);
     }
   return means;
+}
+
+/// The probe beside the map, exposed so that the map's mean is a middle grey; highlights are clipped.
+gonio::image picture_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
+  const std::array both{averaged(probe, map.shape(0), file), map};
+  gonio::image picture = gonio::side_by_side(both, 4);
+  const double mean = std::accumulate(map.data(), map.data() + map.size(), 0.0) / static_cast<double>(map.size());
+  const auto exposure = static_cast<float>(mean > 0.0 ? 0.18 / mean : 1.0);
+  std::transform(picture.data(), picture.data() + picture.size(), picture.data(),
+                 [=](float value) { return exposure * value; });
+  return picture;
 }
 
 /// The mean relative error of a map, by solid angle, of all but the 10 degrees around what the sphere hides. Pixels in
@@ -75,6 +90,7 @@ void unwrap(const probe_command& options) {
     }
   }();
   gonio::io::write_hdr(options.output, map);
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, picture_of(probe, map, options.input));
   if (options.truth.empty()) return;
   const gonio::environment_map truth(
       averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
@@ -114,6 +130,7 @@ void add_lab_unwrap(CLI::App& lab) {
       ->capture_default_str();
   command->add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror")->capture_default_str();
   command->add_option("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
+  command->add_option("--image", options->picture, "The picture beside the map, to look at (.png)");
   add_threads_option(*command, options->threads);
   command->add_option("-o,--output", options->output, "Map to write, latitude-longitude (.hdr)")->required();
   command->callback([options] { unwrap(*options); });

@@ -2,10 +2,9 @@
 /// A simulated laboratory: a flat sample in a dark room, a lamp and a camera, and all that is wrong with them. The
 /// devices of the other files move lamp and camera about in it. Lengths are in mm.
 
+#include "random_turn.hpp"
 #include <gonio/capture/device.hpp>
 #include <gonio/core/rgb.hpp>
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,8 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace lab {
 
@@ -91,9 +92,9 @@ class dark_room {
             std::uint64_t sample_seed = 0)
       : sample_(std::move(sample)), chip_(chip), wrong_(wrong), seed_(sample_seed) {
     std::mt19937_64 of_room(room_seed), of_sample(sample_seed);
-    turn_lamp_ = random_turn(of_room);
-    turn_camera_ = random_turn(of_room);
-    turn_sample_ = random_turn(of_sample);
+    turn_lamp_ = random_turn(wrong.misalignment, of_room);
+    turn_camera_ = random_turn(wrong.misalignment, of_room);
+    turn_sample_ = random_turn(wrong.misalignment, of_sample);
   }
 
   [[nodiscard]] const sensor& chip() const noexcept { return chip_; }
@@ -132,14 +133,6 @@ class dark_room {
   }
 
  private:
-  /// A turn about an axis that is uniform on the sphere.
-  [[nodiscard]] Eigen::Matrix3d random_turn(std::mt19937_64& generator) const {
-    std::uniform_real_distribution<double> height(-1.0, 1.0), azimuth(0.0, 2.0 * std::numbers::pi);
-    const double z = height(generator);
-    const gonio::direction axis = gonio::spherical_direction(std::acos(z), azimuth(generator));
-    return Eigen::AngleAxisd(wrong_.misalignment, axis).toRotationMatrix();
-  }
-
   /// The radiance at a place of the picture; 1 / pi of a perfect white under a lamp right above at its usual distance.
   [[nodiscard]] gonio::rgb radiance(double x, double y) const {
     // In the sample's own axes, where all that is turned is turned back.

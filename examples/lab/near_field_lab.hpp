@@ -2,13 +2,12 @@
 /// A simulated laboratory for pictures from close by: a flat disc of a known material, a distant light and a pinhole
 /// camera, with noise, and with light and camera not quite where they are said to be.
 
+#include "random_turn.hpp"
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/core/brdf.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 
 namespace lab {
@@ -22,18 +21,6 @@ struct near_field_defects {
   double misalignment = 0.0;
 };
 
-namespace detail {
-
-/// A turn by an angle about an axis that is uniform on the sphere.
-[[nodiscard]] inline Eigen::Matrix3d random_turn(double angle, std::mt19937_64& generator) {
-  std::uniform_real_distribution<double> height(-1.0, 1.0), azimuth(0.0, 2.0 * std::numbers::pi);
-  const double z = height(generator);
-  const gonio::direction axis = gonio::spherical_direction(std::acos(z), azimuth(generator));
-  return Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
-}  // namespace detail
-
 /// A picture of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
 /// below the horizon. The defects come from the seed alone; the set-up is what the experimenter believes.
 template <gonio::brdf Brdf>
@@ -41,8 +28,8 @@ template <gonio::brdf Brdf>
                                       const gonio::near_field_setup& setup, const near_field_defects& defects = {},
                                       std::uint64_t seed = 0) {
   std::mt19937_64 generator(seed);
-  const Eigen::Matrix3d turn_light = detail::random_turn(defects.misalignment, generator);
-  const Eigen::Matrix3d turn_camera = detail::random_turn(defects.misalignment, generator);
+  const Eigen::Matrix3d turn_light = random_turn(defects.misalignment, generator);
+  const Eigen::Matrix3d turn_camera = random_turn(defects.misalignment, generator);
   const gonio::direction light = turn_light * setup.light.towards;
   const gonio::pinhole_camera camera(setup.camera.intrinsics(), setup.camera.rotation() * turn_camera.transpose(),
                                      turn_camera * setup.camera.position());

@@ -109,6 +109,27 @@ TEST_CASE("grey, palette, alpha, 16 bits and interlaced PNGs are read") {
   CHECK(is_white(read(png(png_header(2, 2, 8, 0, 1), "\0\xFF\0\xFF\0\xFF\xFF"s))));
 }
 
+TEST_CASE("the codes of a PNG are those of the file, with 8 bits and with 16") {
+  const scratch::folder here;
+  using namespace std::string_literals;
+  scratch::put(here / "a.png", png(png_header(2, 1, 16, 2), "\0\x12\x34\0\1\xFF\xFF\0\0\x0F\xA0\x80\0"s));
+  const auto deep = gonio::io::read_png_codes(here / "a.png");
+  CHECK(deep.largest == 65535);
+  CHECK((deep.rows == 1 && deep.columns == 2));
+  CHECK(deep.values == std::vector<std::uint16_t>{0x1234, 1, 0xFFFF, 0, 0x0FA0, 0x8000});
+  CHECK(deep.at(0, 1, 2) == 0x8000);
+  scratch::put(here / "a.png", png(png_header(2, 1, 16, 0), "\0\x12\x34\0\1"s));
+  CHECK(gonio::io::read_png_codes(here / "a.png").values ==
+        std::vector<std::uint16_t>{0x1234, 0x1234, 0x1234, 1, 1, 1});
+  scratch::put(here / "a.png", png(png_header(1, 2), "\0\1\2\3\0\xFD\xFE\xFF"s));
+  const auto shallow = gonio::io::read_png_codes(here / "a.png");
+  CHECK(shallow.largest == 255);
+  CHECK(shallow.values == std::vector<std::uint16_t>{1, 2, 3, 253, 254, 255});
+  scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_png_codes(path); });
+  scratch::put(here / "a.png", "plain text");
+  check_refused([&] { return gonio::io::read_png_codes(here / "a.png"); }, {"a.png: ", "not a PNG"});
+}
+
 TEST_CASE("bad PNG files are refused") {
   const scratch::folder here;
   scratch::check_refuses_non_files([](const auto& path) { return read_png(path); });

@@ -73,6 +73,17 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 
+# gonio.hpp is the one that has everything, but for what needs stb.
+if(EXISTS "${ROOT}/gonio.hpp")
+  file(READ "${ROOT}/gonio.hpp" everything)
+  foreach(header IN LISTS headers)
+    string(FIND "${everything}" "<gonio/${header}>" place)
+    if(place EQUAL -1 AND NOT header MATCHES "^(gonio|render|io/image)\\.hpp$")
+      message(FATAL_ERROR "gonio.hpp does not include ${header}")
+    endif()
+  endforeach()
+endif()
+
 if(violations GREATER 0)
   message(FATAL_ERROR "layering: ${violations} forbidden includes")
 endif()

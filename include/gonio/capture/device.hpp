@@ -18,7 +18,6 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -151,27 +150,18 @@ template <camera Camera>
     taken.frames.push_back(eye.expose(taken.times.back()));
   };
   for (const double time : times) expose(time);
-  const auto [first, last] = std::ranges::minmax_element(taken.times);
-  const auto extend = [&](double time, const camera_frame& at_time, const auto& next, const auto& is_enough) {
-    bool done = is_enough(at_time);
-    while (!done && next(time) != time) {
-      expose(time = next(time));
-      done = is_enough(taken.frames.back());
-    }
+  const auto [least, most] = std::ranges::minmax_element(taken.times);
+  const auto darkest = static_cast<std::size_t>(least - taken.times.begin());
+  const auto brightest = static_cast<std::size_t>(most - taken.times.begin());
+  // A frame without pixels is for whoever checks the reading.
+  const auto is_saturated = [&](const camera_frame& each) { return each.rows() > 0 && each.maxCoeff() >= largest; };
+  const auto is_dim = [&](const camera_frame& each) {
+    return each.rows() > 0 && each.colwise().maxCoeff().minCoeff() < largest / 8;
   };
-  const auto at = [&](auto which) {
-    return camera_frame(taken.frames[static_cast<std::size_t>(which - taken.times.begin())]);
-  };
-  const auto [darkest_time, brightest_time] = std::pair(*first, *last);
-  const camera_frame darkest = at(first), brightest = at(last);
-  extend(
-      darkest_time, darkest, [&](double time) { return std::max(shortest, time / factor); },
-      [&](const camera_frame& each) { return each.size() == 0 || each.maxCoeff() < largest; });
-  extend(
-      brightest_time, brightest, [&](double time) { return std::min(longest, time * factor); },
-      [&](const camera_frame& each) {
-        return each.size() == 0 || each.colwise().maxCoeff().minCoeff() >= largest / 8;
-      });
+  for (auto at = darkest; is_saturated(taken.frames[at]) && taken.times[at] > shortest; at = taken.frames.size() - 1)
+    expose(taken.times[at] / factor);
+  for (auto at = brightest; is_dim(taken.frames[at]) && taken.times[at] < longest; at = taken.frames.size() - 1)
+    expose(taken.times[at] * factor);
   return taken;
 }
 

@@ -1,0 +1,184 @@
+/// gonio lab: from directions to samples, and from a light probe to the light all around.
+
+#include "../io/scratch.hpp"
+#include "tool.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/merl.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/scan_journal.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <stb/stb_image_write.h>
+
+#include <cmath>
+#include <string>
+
+namespace {
+
+const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
+
+std::string run(const std::string& arguments) {
+  const auto result = gonio_tool(arguments);
+  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
+  return result.output;
+}
+
+void refuses(const std::string& arguments, const std::string& words, int code = 2) {
+  const auto result = gonio_tool(arguments);
+  CAPTURE(arguments);
+  CAPTURE(result.output);
+  CHECK(result.exit_code == code);
+  CHECK(result.output.find(words) != std::string::npos);
+}
+
+/// A table in a folder, and what is made of it there.
+struct laboratory {
+  laboratory() { run("expand --formula red-paint -o " + at("truth.binary")); }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
+
+  scratch::folder folder;
+  std::string material = " --material " + at("truth.binary") + " ";
+};
+
+}  // namespace
+
+TEST_CASE("lab: without defects both machines' samples are the table's values") {
+  const laboratory room;
+  const gonio::brdf_table truth = gonio::io::read_merl(room.at("truth.binary"));
+  for (const std::string machine : {" --machine gantry ", " --machine robot --lamp-tolerance 4 "}) {
+    const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");
+    for (const std::string& journal : {white, paint}) std::filesystem::remove(journal);
+    CHECK(run("lab plan " + directions + machine + "-o " + plan).find("20 poses, 0 cannot be reached") !=
+          std::string::npos);
+    CHECK(run("lab scan " + plan + machine + "--ideal --white -o " + white) ==
+          "20 poses measured, 0 were there already\n");
+    run("lab scan " + plan + machine + "--ideal" + room.material + "-o " + paint);
+    run("lab calibrate " + paint + " --reference " + white +
+        " --gamma 1 --read-noise 0 --shot-noise 0 --flicker 0 -o " + room.at("samples.csv"));
+    const auto samples = gonio::io::read_samples(room.at("samples.csv"));
+    REQUIRE(samples.size() == 20);
+    for (const gonio::sample& each : samples) {
+      const auto [wi, wo] = gonio::to_directions(each.angles);
+      const gonio::rgb expected = truth(wi, wo);
+      CHECK(((each.value - expected).abs() < 1e-3 * expected).all());
+    }
+  }
+}
+
+TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on where it was stopped") {
+  const laboratory room;
+  const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");
+  run("lab plan " + directions + " -o " + plan);
+  run("lab scan " + plan + " --camera gamma --white -o " + white);
+  run("lab scan " + plan + " --camera gamma" + room.material + "-o " + paint);
+  const std::string whole = scratch::get(paint);
+  // As a process that was killed leaves it.
+  scratch::put(paint, whole.substr(0, whole.size() - 5000));
+  const std::string resumed = run("lab scan " + plan + " --camera gamma" + room.material + "-o " + paint);
+  CHECK(resumed.find(" were there already") != std::string::npos);
+  CHECK(resumed.find("20 poses measured") == std::string::npos);
+  CHECK(scratch::get(paint) == whole);
+
+  const std::string told = run("lab calibrate " + paint + " --reference " + white + " --response " +
+                               room.at("response.csv") + " -o " + room.at("samples.csv"));
+  CHECK(told.find("20 samples, each known to ") == 0);
+  CHECK(scratch::get(room.at("response.csv")).starts_with("count,log_exposure_r,log_exposure_g,log_exposure_b\n"));
+  const gonio::brdf_table truth = gonio::io::read_merl(room.at("truth.binary"));
+  double worst = 0.0;
+  for (const gonio::sample& each : gonio::io::read_samples(room.at("samples.csv"))) {
+    const auto [wi, wo] = gonio::to_directions(each.angles);
+    worst = std::max(worst, std::abs(each.value.sum() / truth(wi, wo).sum() - 1.0));
+    CHECK(each.weight > 0.1);
+  }
+  CHECK(worst > 0.001);  // half a degree at grazing angles, and noise
+  CHECK(worst < 0.5);
+
+  // The whole way: what comes out is near what was in the machine.
+  run("reconstruct " + room.at("samples.csv") + " -o " + room.at("estimate.binary"));
+  const auto errors =
+      nlohmann::json::parse(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
+  CHECK(errors["delta_e_env"].get<double>() < 10.0);
+}
+
+TEST_CASE("lab: a plan names what cannot be reached") {
+  const scratch::folder folder;
+  scratch::put(folder / "two.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,30,2\n20,0,50,100\n");
+  const std::string out = " -o " + (folder / "plan.csv").string();
+  const std::string told = run("lab plan " + (folder / "two.csv").string() + out);
+  CHECK(told.find("not measured: 1, light at 30.0, 0.0, viewer at 30.0, 2.0: the camera hides the lamp") == 0);
+  CHECK(told.find("1 poses, 1 cannot be reached") != std::string::npos);
+  CHECK(run("lab plan --whole --machine robot" + out).find("160.5 minutes") != std::string::npos);
+  refuses("lab plan --whole --machine gantry" + out, "--machine robot");
+  scratch::put(folder / "two.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,30,2\n");
+  refuses("lab plan " + (folder / "two.csv").string() + out, "can measure none");
+}
+
+TEST_CASE("lab: frames of a real laboratory go the same way, and those that are missing are named") {
+  const scratch::folder folder;
+  nlohmann::json manifest{{"largest_count", 255}, {"frames", nlohmann::json::array()}};
+  for (const double theta : {10.0, 40.0})
+    for (const double seconds : {0.1, 0.2}) {
+      const std::string file = std::to_string(manifest["frames"].size()) + ".png";
+      const std::vector<unsigned char> codes(12, static_cast<unsigned char>(seconds * 1000.0 * std::cos(theta / 57.3)));
+      REQUIRE(stbi_write_png((folder / file).c_str(), 2, 2, 3, codes.data(), 6) != 0);
+      manifest["frames"].push_back(
+          {{"theta_i", theta}, {"phi_i", 0}, {"theta_o", 20}, {"phi_o", 180}, {"seconds", seconds}, {"file", file}});
+    }
+  scratch::put(folder / "manifest.json", manifest.dump());
+  const std::string replay =
+      "lab replay " + (folder / "manifest.json").string() + " -o " + (folder / "a.scan").string();
+  std::filesystem::rename(folder / "3.png", folder / "lost.png");
+  refuses(replay, "1 of 2 poses are missing", 1);
+  CHECK(gonio::io::read_scan(folder / "a.scan").measured() == 1u);
+  std::filesystem::rename(folder / "lost.png", folder / "3.png");
+  CHECK(run(replay) == "1 poses measured, 1 were there already\n");
+  run("lab calibrate " + (folder / "a.scan").string() + " --reference " + (folder / "a.scan").string() +
+      " --gamma 1 -o " + (folder / "samples.csv").string());
+  const auto samples = gonio::io::read_samples(folder / "samples.csv");
+  REQUIRE(samples.size() == 2u);
+  CHECK(samples[0].value.x() == doctest::Approx(0.99 / std::numbers::pi));
+}
+
+TEST_CASE("lab: a light probe is photographed and unwrapped") {
+  const scratch::folder folder;
+  gonio::image sky = gonio::uniform_image(64, 128);
+  for (std::size_t row = 0; row < 64; ++row)
+    for (std::size_t column = 0; column < 128; ++column)
+      gonio::set_pixel(sky, row, column,
+                       gonio::rgb(1.0, 2.0, 3.0) * (1.5 + std::sin(0.05 * static_cast<double>(row + column))));
+  const auto at = [&](const char* name) { return (folder / name).string(); };
+  gonio::io::write_hdr(folder / "sky.hdr", sky);
+  run("lab probe " + at("sky.hdr") + " --size 256 --distance 5 -o " + at("probe.hdr"));
+  const std::string told = run("lab unwrap " + at("probe.hdr") + " --distance 5 --rows 16 --truth " + at("sky.hdr") +
+                               " -o " + at("map.hdr"));
+  CHECK(told.find("mean relative error 0.") == 0);
+  const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
+  CHECK(map.shape(0) == 16u);
+  CHECK(map.shape(1) == 32u);
+  refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
+          "sky.hdr: a picture of a mirror sphere must be square");
+  refuses("lab unwrap " + at("probe.hdr") + " --rows 5 --truth " + at("sky.hdr") + " -o " + at("map.hdr"),
+          "compared with, one of 5 rows");
+}
+
+TEST_CASE("lab: bad input is refused") {
+  const laboratory room;
+  const std::string plan = room.at("plan.csv"), scan = room.at("a.scan");
+  run("lab plan " + directions + " -o " + plan);
+  refuses("lab", "");
+  refuses("lab scan " + plan + " -o " + scan, "");
+  refuses("lab scan " + plan + " --white" + room.material + "-o " + scan, "");
+  refuses("lab scan " + room.at("none.csv") + " --white -o " + scan, "cannot be read");
+  CHECK(!std::filesystem::exists(scan));
+  run("lab scan " + plan + " --ideal --white -o " + scan);
+  refuses("lab scan " + plan + " --white -o " + scan, "65535 counts, not 4095");
+  refuses("lab scan " + directions + " --ideal --white -o " + scan, "other poses");
+  run("lab scan " + directions + " --ideal --white -o " + room.at("b.scan"));
+  refuses("lab calibrate " + scan + " --reference " + room.at("b.scan") + " -o " + room.at("s.csv"), "the same poses");
+  refuses("lab calibrate " + plan + " --reference " + scan + " -o " + room.at("s.csv"), "plan.csv, line 1");
+  refuses("lab replay " + plan + " -o " + room.at("c.scan"), "is not a JSON object");
+  CHECK(!std::filesystem::exists(room.at("s.csv")));
+}
