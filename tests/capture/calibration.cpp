@@ -8,11 +8,11 @@ using gonio::reading;
 
 namespace {
 
-const std::array linear{camera_response::power_law(4095), camera_response::power_law(4095),
-                        camera_response::power_law(4095)};
+const std::array linear_cameras{camera_response::power_law(4095), camera_response::power_law(4095),
+                                camera_response::power_law(4095)};
 
 /// What a linear camera of 12 bits counts of counts per second, at the note's times and four pixels.
-reading expose(const gonio::rgb& per_second) {
+reading photographed(const gonio::rgb& per_second) {
   reading taken;
   for (const double time : gonio::note_exposure_times) {
     gonio::camera_frame counts(4, 3);
@@ -26,13 +26,13 @@ reading expose(const gonio::rgb& per_second) {
 }
 
 const gonio::direction_pair somewhere{gonio::spherical_direction(0.4, 0.0), gonio::spherical_direction(0.7, 2.0)};
-const gonio::calibration known{linear, {.read = 1.0, .shot = 0.0, .relative = 0.01}, 0.99};
+const gonio::calibration known{linear_cameras, {.read = 1.0, .shot = 0.0, .relative = 0.01}, 0.99};
 
 }  // namespace
 
 TEST_CASE("calibration: the ratio to the white reference is the BRDF") {
-  const auto found =
-      measure_reflectance(expose({10'000, 20'000, 40'000}), expose({20'000, 20'000, 20'000}), somewhere, known);
+  const auto found = measure_reflectance(photographed({10'000, 20'000, 40'000}), photographed({20'000, 20'000, 20'000}),
+                                         somewhere, known);
   REQUIRE(found.is_usable());
   const gonio::rgb expected = gonio::rgb(0.5, 1.0, 2.0) * 0.99 / std::numbers::pi;
   CHECK(((found.value - expected).abs() < 2e-3 * expected).all());
@@ -46,22 +46,24 @@ TEST_CASE("calibration: the ratio to the white reference is the BRDF") {
 
 TEST_CASE("calibration: surfaces at other places are corrected for") {
   // Half as steep and twice as far: an eighth of the light.
-  const auto found = measure_reflectance(expose({2'000, 2'000, 2'000}), expose({16'000, 16'000, 16'000}), somewhere,
-                                         known, {.cosine = 0.5, .distance = 2.0}, {.cosine = 1.0, .distance = 1.0});
+  const auto found =
+      measure_reflectance(photographed({2'000, 2'000, 2'000}), photographed({16'000, 16'000, 16'000}), somewhere, known,
+                          {.cosine = 0.5, .distance = 2.0}, {.cosine = 1.0, .distance = 1.0});
   REQUIRE(found.is_usable());
   CHECK(found.value.x() == doctest::Approx(0.99 / std::numbers::pi).epsilon(2e-3));
 }
 
 TEST_CASE("calibration: what means nothing says why") {
-  const reading white = expose({20'000, 20'000, 20'000}), black = expose({0, 0, 0}), bright = expose({1e6, 1e6, 1e6});
+  const reading white = photographed({20'000, 20'000, 20'000}), black = photographed({0, 0, 0}),
+                bright = photographed({1e6, 1e6, 1e6});
   CHECK(measure_reflectance(bright, white, somewhere, known).doubt == "saturated in every exposure");
-  CHECK(measure_reflectance(expose({10'000, 10'000, 1e6}), white, somewhere, known).doubt ==
+  CHECK(measure_reflectance(photographed({10'000, 10'000, 1e6}), white, somewhere, known).doubt ==
         "saturated in every exposure");
   CHECK(measure_reflectance(black, white, somewhere, known).doubt == "dark in every exposure");
   CHECK(measure_reflectance(white, black, somewhere, known).doubt == "the reference is dark");
   CHECK(measure_reflectance(white, bright, somewhere, known).doubt == "the reference is saturated");
   // Black in one colour is a colour.
-  const auto yellow = measure_reflectance(expose({10'000, 10'000, 0}), white, somewhere, known);
+  const auto yellow = measure_reflectance(photographed({10'000, 10'000, 0}), white, somewhere, known);
   CHECK(yellow.is_usable());
   CHECK(yellow.value.z() == 0.0);
   CHECK(yellow.deviation.z() > 0.0);
@@ -71,7 +73,7 @@ TEST_CASE("calibration: what means nothing says why") {
 TEST_CASE("calibration: the responses of the three colours come from the times that all readings share") {
   std::vector<reading> readings;
   for (const double brightness : {300.0, 900.0, 2'500.0, 7'000.0, 20'000.0, 50'000.0, 120'000.0})
-    readings.push_back(expose({brightness, 0.5 * brightness, 0.2 * brightness}));
+    readings.push_back(photographed({brightness, 0.5 * brightness, 0.2 * brightness}));
   readings[1].times.push_back(0.8);
   readings[1].frames.push_back(gonio::camera_frame::Constant(4, 3, 4095));
   for (const camera_response& each : gonio::estimate_responses(readings, 4095))
@@ -85,11 +87,11 @@ TEST_CASE("calibration: the responses of the three colours come from the times t
 }
 
 TEST_CASE("calibration: frames that saturate in a pixel take no part, nor do those of which the response is a guess") {
-  reading uneven = expose({10'000, 10'000, 10'000});
+  reading uneven = photographed({10'000, 10'000, 10'000});
   uneven.frames[4](2, 0) = 4095;            // of 0.2 s: the mean of the others would be another
   uneven.frames[0].col(1) = 0;              // of 12.5 ms: wrong, and not seen, as it is dark
   uneven.frames[0].col(2).setConstant(20);  // below the first knot
-  const auto found = measure_reflectance(uneven, expose({20'000, 20'000, 20'000}), somewhere, known);
+  const auto found = measure_reflectance(uneven, photographed({20'000, 20'000, 20'000}), somewhere, known);
   REQUIRE(found.is_usable());
   INFO((found.value * std::numbers::pi / 0.99).transpose());
   CHECK(((found.value * std::numbers::pi / 0.99 - 0.5).abs() < 2e-3).all());
