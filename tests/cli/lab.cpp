@@ -153,8 +153,9 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   gonio::io::write_hdr(folder / "sky.hdr", sky);
   run("lab probe " + at("sky.hdr") + " --size 256 --distance 5 -o " + at("probe.hdr"));
   const std::string told = run("lab unwrap " + at("probe.hdr") + " --distance 5 --rows 16 --truth " + at("sky.hdr") +
-                               " -o " + at("map.hdr"));
+                               " --image " + at("look.png") + " -o " + at("map.hdr"));
   CHECK(told.find("mean relative error 0.") == 0);
+  CHECK(gonio::io::read_png(folder / "look.png").shape(1) == 16u + 32u + 3u * 4u);  // with margins
   const gonio::image map = gonio::io::read_hdr(folder / "map.hdr");
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
