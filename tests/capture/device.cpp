@@ -90,6 +90,10 @@ TEST_CASE("device: a bracket takes the note's times first, and others where thes
   CHECK(bright.times.back() == 0.001);  // the camera's shortest
   CHECK(bright.frames.back()(0, 0) == 100);
 
+  eye.red_per_second = 19'000.0;  // 237 of 255 counts in the note's shortest time
+  eye.blue = 0.3;
+  CHECK(gonio::expose_bracket(eye).times.back() == doctest::Approx(0.003125));
+
   eye.red_per_second = 1000.0;
   eye.blue = 0.05;  // 10 counts in 0.2 s: a colour of its own
   const gonio::reading dim = gonio::expose_bracket(eye);

@@ -64,7 +64,7 @@ TEST_CASE("lab: with noise the 95 % intervals hold 90 to 99 %") {
       worst = std::max(worst, ((found.value - truth) / truth).abs().maxCoeff());
       ++count;
     }
-    MESSAGE("curve " << static_cast<int>(curve) << ": " << within[0] / count << ' ' << within[1] / count << ' '
+    MESSAGE("curve " << static_cast<int>(curve) << ": " << within[0] / count << " " << within[1] / count << ' '
                      << within[2] / count << " of " << count << ", worst " << worst);
     for (const double each : within) {
       CHECK(each / count >= 0.90);

@@ -135,10 +135,10 @@ concept goniometer = requires(G& machine, const G& same, const direction_pair& p
 /// The exposure times of the thesis's note on relative BRDF measurement (Sec. 3), in seconds.
 inline constexpr std::array<double, 5> note_exposure_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
-/// Takes pictures at some times, and at others where these do not show all: ever shorter ones while a pixel is
-/// saturated in the shortest, longer ones while a colour has no count above an eighth of the largest in the longest, by
-/// factors of 4 as far as the camera goes. Times beyond the camera's are brought to its own. The given times come
-/// first, in their order; there is at least one.
+/// Takes pictures at some times, and at others where these do not show all: ever shorter ones while a pixel of the
+/// shortest is in the uppermost eighth of the counts, where chips saturate, longer ones while a colour of the longest
+/// has no count above the lowest eighth, by factors of 4 as far as the camera goes. Times beyond the camera's are
+/// brought to its own. The given times come first, in their order; there is at least one.
 template <camera Camera>
 [[nodiscard]] reading expose_bracket(Camera& eye, std::span<const double> times = note_exposure_times) {
   constexpr double factor = 4.0;
@@ -154,11 +154,13 @@ template <camera Camera>
   const auto darkest = static_cast<std::size_t>(least - taken.times.begin());
   const auto brightest = static_cast<std::size_t>(most - taken.times.begin());
   // A frame without pixels is for whoever checks the reading.
-  const auto is_saturated = [&](const camera_frame& each) { return each.rows() > 0 && each.maxCoeff() >= largest; };
+  const auto is_bright = [&](const camera_frame& each) {
+    return each.rows() > 0 && each.maxCoeff() >= largest - largest / 8;
+  };
   const auto is_dim = [&](const camera_frame& each) {
     return each.rows() > 0 && each.colwise().maxCoeff().minCoeff() < largest / 8;
   };
-  for (auto at = darkest; is_saturated(taken.frames[at]) && taken.times[at] > shortest; at = taken.frames.size() - 1)
+  for (auto at = darkest; is_bright(taken.frames[at]) && taken.times[at] > shortest; at = taken.frames.size() - 1)
     expose(taken.times[at] / factor);
   for (auto at = brightest; is_dim(taken.frames[at]) && taken.times[at] < longest; at = taken.frames.size() - 1)
     expose(taken.times[at] * factor);
