@@ -54,15 +54,17 @@ void write_responses(const std::filesystem::path& path, const gonio::calibration
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
-void require_same_poses(const gonio::io::recorded_scan& material, const gonio::io::recorded_scan& reference) {
+void require_same_poses(const calibrate_command& options, const gonio::io::recorded_scan& material,
+                        const gonio::io::recorded_scan& reference) {
   const auto same = [](const auto& a, const auto& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (material.largest_count != reference.largest_count || !std::ranges::equal(material.poses, reference.poses, same))
-    throw gonio::error("material and reference must be scans of the same poses by the same camera");
+    throw gonio::error(options.material.string() + " and " + options.reference.string() +
+                       ": expected scans of the same poses by the same camera");
 }
 
 void run(const calibrate_command& options) {
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
-  require_same_poses(material, reference);
+  require_same_poses(options, material, reference);
   const gonio::calibration known = calibration_of(options, material, reference);
   gonio::sample_set samples;
   std::vector<double> deviations;

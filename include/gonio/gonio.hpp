@@ -119,6 +119,7 @@
 #include <gonio/model/sum_of_lobes.hpp>
 #include <gonio/model/torrance_sparrow.hpp>
 #include <gonio/model/ward.hpp>
+#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>

@@ -70,11 +70,21 @@ struct cosine_pair {
   return {c * w.x() - s * w.y(), s * w.x() + c * w.y(), w.z()};
 }
 
+namespace detail {
+
+/// Eigen's own is in its Geometry, which would double what this header costs to compile.
+[[nodiscard]] inline Eigen::Vector3d cross_product(const Eigen::Vector3d& a, const Eigen::Vector3d& b) noexcept {
+  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
+}
+
+}  // namespace detail
+
 /// A direction turned by an angle towards one of its sides, which `side` counts round it: 0 is a side parallel to the
 /// surface, unless the direction is near the normal. All in radians.
 [[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {
-  const direction beside = w.cross(std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX()).normalized();
-  const direction towards = std::cos(side) * beside + std::sin(side) * w.cross(beside);
+  const direction beside =
+      detail::cross_product(w, std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX()).normalized();
+  const direction towards = std::cos(side) * beside + std::sin(side) * detail::cross_product(w, beside);
   return std::cos(angle) * w + std::sin(angle) * towards;
 }
 
