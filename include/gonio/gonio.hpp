@@ -122,6 +122,7 @@
 #include <gonio/render/cell_finder.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/false_colour.hpp>
+#include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
 #include <gonio/render/slice.hpp>
