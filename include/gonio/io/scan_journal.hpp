@@ -122,14 +122,15 @@ class number_reader {
   return pose;
 }
 
-inline void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan) {
+/// `has_reading`: was there one in a line before?
+inline void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, bool& has_reading) {
   const text_rule rule = parse_rule(line, place);
   number_reader numbers(rule, place);
   if (rule.name == "largest_count") {
     require_numbers(rule, {1}, place);
     scan.largest_count = static_cast<std::uint16_t>(numbers.next_whole(65535, "the largest count"));
   } else if (rule.name == "pose") {
-    if (scan.measured() > 0) place.refuse("a pose after the first reading");
+    if (has_reading) place.refuse("a pose after the first reading");
     scan.poses.push_back(parse_pose(rule, place));
     scan.readings.emplace_back();
   } else if (rule.name == "reading") {
@@ -139,6 +140,7 @@ inline void apply_scan_line(std::string_view line, const text_place& place, reco
       place.refuse("pose " + std::to_string(pose) + " of " + std::to_string(scan.poses.size()));
     if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " is read a second time");
     scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
+    has_reading = true;
   } else {
     place.refuse(quoted(rule.name) + " is unknown, expected largest_count, pose or reading");
   }
@@ -160,8 +162,9 @@ inline void apply_scan_line(std::string_view line, const text_place& place, reco
 [[nodiscard]] inline recorded_scan parse_scan(std::string_view text, const std::string& name) {
   recorded_scan scan;
   detail::text_place place{name};
+  bool has_reading = false;
   detail::for_each_line(detail::whole_lines(text), place,
-                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan); });
+                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, has_reading); });
   if (scan.largest_count == 0) throw error(name + ": the line largest_count is missing");
   if (scan.poses.empty()) throw error(name + ": there is no pose");
   return scan;
