@@ -31,6 +31,7 @@
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/sampled_direction.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/design/capture_constraint.hpp>
 #include <gonio/design/capture_geometry.hpp>

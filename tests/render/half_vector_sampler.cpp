@@ -175,7 +175,7 @@ TEST_CASE("half-vector sampler: the albedo is that of quadrature, with much less
       });
       const moments by_cosine(40'000, [&] {
         return with_two_numbers([&](double u1, double u2) {
-          return f(gonio::detail::cosine_direction(u1, u2), wo).mean() * std::numbers::pi;
+          return f(gonio::cosine_weighted_direction(u1, u2), wo).mean() * std::numbers::pi;
         });
       });
       const double albedo = around_mirror(wo).integral(

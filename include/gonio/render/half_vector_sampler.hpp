@@ -6,8 +6,7 @@
 /// Rendering", 2023, Sec. 9.6 (densities of reflected directions).
 
 #include <gonio/core/brdf.hpp>
-#include <gonio/core/direction.hpp>
-#include <gonio/core/rgb.hpp>
+#include <gonio/core/sampled_direction.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,13 +16,6 @@
 #include <vector>
 
 namespace gonio {
-
-/// A direction towards the light that was drawn, f cos(theta_i) / pdf there, and the density pdf in sr^-1.
-struct sampled_direction {
-  direction wi = direction::UnitZ();
-  rgb weight = rgb::Zero();
-  double pdf = 0.0;
-};
 
 namespace detail {
 
@@ -79,12 +71,6 @@ class half_vector_distribution {
   std::vector<double> heights_, reached_, densities_;
 };
 
-/// The cosine-weighted direction of two numbers from 0 to 1.
-[[nodiscard]] inline direction cosine_direction(double u1, double u2) noexcept {
-  const double radius = std::sqrt(u1), azimuth = 2.0 * std::numbers::pi * u2;
-  return {radius * std::cos(azimuth), radius * std::sin(azimuth), std::sqrt(std::max(0.0, 1.0 - u1))};
-}
-
 }  // namespace detail
 
 /// Importance sampling of any isotropic BRDF. It holds the BRDF; give it a view where that is large.
@@ -113,7 +99,7 @@ class half_vector_sampler {
       const direction h = distribution_.sample(u1 / ratio, u2);
       drawn.wi = 2.0 * wo.dot(h) * h - wo;
     } else {
-      drawn.wi = detail::cosine_direction((u1 - ratio) / (1.0 - ratio), u2);
+      drawn.wi = cosine_weighted_direction((u1 - ratio) / (1.0 - ratio), u2);
     }
     drawn.pdf = pdf(drawn.wi, wo);
     if (drawn.wi.z() > 0.0 && drawn.pdf > 0.0) drawn.weight = f_(drawn.wi, wo) * (drawn.wi.z() / drawn.pdf);
@@ -124,7 +110,7 @@ class half_vector_sampler {
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
     if (!(wo.z() > 0.0)) return 0.0;
     const double ratio = ratio_of(wo);
-    return ratio * half_vector_pdf(wi, wo) + (1.0 - ratio) * cosine_pdf(wi);
+    return ratio * half_vector_pdf(wi, wo) + (1.0 - ratio) * cosine_weighted_pdf(wi);
   }
 
   /// The share of half vectors for a viewer.
@@ -135,10 +121,6 @@ class half_vector_sampler {
 
  private:
   static constexpr std::size_t rings = 90;
-
-  [[nodiscard]] static double cosine_pdf(const direction& wi) noexcept {
-    return std::max(wi.z(), 0.0) * std::numbers::inv_pi;
-  }
 
   [[nodiscard]] double half_vector_pdf(const direction& wi, const direction& wo) const noexcept {
     direction h = wi + wo;
@@ -183,9 +165,9 @@ class half_vector_sampler {
         for (const bool is_cosine : {false, true}) {
           const double u1 = (i + 0.5) / side, u2 = (j + 0.5) / side;
           const direction h = distribution_.sample(u1, u2);
-          const direction wi = is_cosine ? detail::cosine_direction(u1, u2) : direction(2.0 * wo.dot(h) * h - wo);
+          const direction wi = is_cosine ? cosine_weighted_direction(u1, u2) : direction(2.0 * wo.dot(h) * h - wo);
           if (!(wi.z() > 0.0)) continue;
-          const double by_half = half_vector_pdf(wi, wo), by_cosine = cosine_pdf(wi);
+          const double by_half = half_vector_pdf(wi, wo), by_cosine = cosine_weighted_pdf(wi);
           const double value = f_(wi, wo).mean() * wi.z(), drawn = 0.5 * (by_half + by_cosine);
           for (std::size_t r = 0; r < ratios.size(); ++r)
             second_moment[r] += value * value / (ratios[r] * by_half + (1.0 - ratios[r]) * by_cosine) / drawn;
