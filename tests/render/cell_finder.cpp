@@ -34,7 +34,7 @@ double outside(double coordinate, int cell) { return std::max({0.0, cell - coord
 template <class Real>
 void check_found(int pairs, double tolerance, const gonio::grid& cells) {
   const auto [theta_h, theta_d, phi_d] = cells.extents();
-  const cell_finder<Real> find(theta_h, theta_d, phi_d);
+  const cell_finder<Real> find(cells);
   std::mt19937_64 generator(7);
   double worst = 0.0;
   int neighbours = 0, missing = 0;

@@ -1,7 +1,10 @@
 #pragma once
 /// The one exception type of the library: bad input, refused at the edge.
 
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
+#include <string>
 
 namespace gonio {
 
@@ -12,5 +15,16 @@ class error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws gonio::error. In a program that is compiled without exceptions, as renderers may be, it prints the sentence
+/// to the standard error stream and aborts.
+[[noreturn]] inline void refuse(const std::string& sentence) {
+#if defined(__cpp_exceptions)
+  throw error(sentence);
+#else
+  std::fprintf(stderr, "gonio: %s\n", sentence.c_str());
+  std::abort();
+#endif
+}
 
 }  // namespace gonio

@@ -6,6 +6,8 @@
 /// An angle in a quadrant is told by its sine's share of sine plus cosine, s / (s + c), which rises from 0 to 1 nearly
 /// evenly, and whatever length both are multiplied by. The shares at the cells' borders are tabulated once.
 
+#include <gonio/table/grid.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -70,9 +72,12 @@ class border_counter {
 template <std::floating_point Real = float>
 class cell_finder {
  public:
-  /// Extents are positive and at most 4096.
-  explicit cell_finder(int theta_h = 90, int theta_d = 90, int phi_d = 180)
-      : rows_(static_cast<std::size_t>(theta_d)), columns_(static_cast<std::size_t>(phi_d)) {
+  /// Throws gonio::error unless the grid's values are at the centres of its cells.
+  explicit cell_finder(const grid& cells = grid())
+      : rows_(static_cast<std::size_t>(cells.extents().theta_d)),
+        columns_(static_cast<std::size_t>(cells.extents().phi_d)) {
+    if (cells.anchor() != cell_anchor::centre) refuse("a cell finder needs a grid with values at the cells' centres");
+    const auto [theta_h, theta_d, phi_d] = cells.extents();
     constexpr double half_pi = std::numbers::pi / 2.0;
     std::vector<double> h, d, phi;
     for (int k = 1; k < theta_h; ++k) {
@@ -92,6 +97,12 @@ class cell_finder {
   /// The number where there is no cell.
   static constexpr std::size_t none = SIZE_MAX;
 
+  /// The cell of a pair, and whether there is one.
+  struct place {
+    std::size_t theta_h = 0, theta_d = 0, phi_d = 0;
+    bool exists = false;
+  };
+
   /// The linear number of the cell, phi_d fastest and theta_h slowest; `none` if a direction is at or below the
   /// horizon, or not finite. Directions are anything with three components `[0]`, `[1]`, `[2]`.
   template <class Direction>
@@ -100,20 +111,23 @@ class cell_finder {
   }
 
   [[nodiscard]] std::size_t at(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
+    const place cell = find(ix, iy, iz, ox, oy, oz);
+    return cell.exists ? (cell.theta_h * rows_ + cell.theta_d) * columns_ + cell.phi_d : none;
+  }
+
+  [[nodiscard]] place find(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
     const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
     const Real across = sx * sx + sy * sy, sum = across + sz * sz, difference = dx * dx + dy * dy + dz * dz;
     // Also false for what is not a number.
-    if (!(iz > 0 && oz > 0 && sum + difference <= largest)) return none;
+    if (!(iz > 0 && oz > 0 && sum + difference <= largest)) return {};
     const Real length = std::sqrt(sum), radius = std::sqrt(across), apart = std::sqrt(difference);
     // The difference vector turned with the half vector to the pole, times the radius: on the axis it is not turned.
     const bool on_axis = !(across > 0);
     const Real along = sx * dx + sy * dy;
     const Real x = on_axis ? dx : (sz * along - across * dz) / length, y = on_axis ? dy : sx * dy - sy * dx;
-
-    const std::size_t h = theta_h_(std::sqrt(radius / (radius + sz)));
-    const std::size_t d = theta_d_(apart / (apart + length));
     const std::size_t phi = phi_d_(half_turn_share(x, y));
-    return (h * rows_ + d) * columns_ + (phi < columns_ ? phi : 0);
+    return {theta_h_(std::sqrt(radius / (radius + sz))), theta_d_(apart / (apart + length)), phi < columns_ ? phi : 0,
+            true};
   }
 
  private:

@@ -48,8 +48,8 @@ class grid {
       : extents_(extents), anchor_(anchor) {
     const auto ok = [](int extent) { return extent >= 1 && extent <= 4096; };
     if (!ok(extents.theta_h) || !ok(extents.theta_d) || !ok(extents.phi_d))
-      throw error("a grid of " + std::to_string(extents.theta_h) + " x " + std::to_string(extents.theta_d) + " x " +
-                  std::to_string(extents.phi_d) + " cells: every extent must be from 1 to 4096");
+      refuse("a grid of " + std::to_string(extents.theta_h) + " x " + std::to_string(extents.theta_d) + " x " +
+             std::to_string(extents.phi_d) + " cells: every extent must be from 1 to 4096");
   }
 
   [[nodiscard]] const grid_extents& extents() const noexcept { return extents_; }

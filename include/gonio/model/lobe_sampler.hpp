@@ -1,0 +1,202 @@
+#pragma once
+/// Directions for a renderer to follow, drawn where an analytic BRDF is bright: of a model, a sum of lobes or what a
+/// fit returned. Each lobe is drawn by its `techniques_of`, and the lobes are mixed by their albedos: E. Veach and L.
+/// J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
+
+#include <gonio/model/formula_materials.hpp>
+#include <gonio/model/sampling_techniques.hpp>
+#include <gonio/model/sum_of_lobes.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace gonio {
+
+namespace detail {
+
+/// A number for each of some intervals of cos(theta_o).
+using by_viewer = std::array<double, 32>;
+
+/// Densities, each with its share for every viewer; the shares sum to 1. Only its construction allocates.
+class direction_mixture {
+ public:
+  void add(const sampling_technique::density_type& density, const by_viewer& shares) {
+    entries_.push_back({density, shares});
+  }
+
+  [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
+    const std::size_t at = viewer(wo);
+    const entry* chosen = nullptr;
+    double share = 1.0;
+    for (const entry& e : entries_) {
+      if (!(e.shares[at] > 0.0)) continue;
+      if (chosen) u1 -= share;
+      chosen = &e;
+      share = e.shares[at];
+      if (u1 < share) break;
+    }
+    // What is left of u1 within the share of the chosen density is again a number from 0 up to 1.
+    const double u = std::clamp(u1 / share, 0.0, 1.0 - 0x1p-53);
+    return std::visit([&](const auto& density) { return density.sample(wo, u, u2); }, chosen->density);
+  }
+
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    const std::size_t at = viewer(wo);
+    double sum = 0.0;
+    for (const entry& e : entries_)
+      if (e.shares[at] > 0.0)
+        sum += e.shares[at] * std::visit([&](const auto& density) { return density.pdf(wi, wo); }, e.density);
+    return sum;
+  }
+
+  /// The cosine in the middle of an interval.
+  [[nodiscard]] static double cosine_of(std::size_t interval) {
+    return (static_cast<double>(interval) + 0.5) / static_cast<double>(by_viewer{}.size());
+  }
+
+ private:
+  struct entry {
+    sampling_technique::density_type density;
+    by_viewer shares;
+  };
+
+  [[nodiscard]] static std::size_t viewer(const direction& wo) noexcept {
+    constexpr std::size_t count = by_viewer{}.size();
+    return std::min(static_cast<std::size_t>(wo.z() * static_cast<double>(count)), count - 1);
+  }
+
+  std::vector<entry> entries_;
+};
+
+/// What a lobe is drawn by, and its albedo.
+struct weighed_lobe {
+  sampling_techniques techniques;
+  by_viewer albedo;
+};
+
+/// The albedo by a few directions of the lobe's own, each of another azimuth: an estimate will do, because the weights
+/// are right with any shares.
+template <class Lobe>
+[[nodiscard]] weighed_lobe weigh(const Lobe& f, const sampling_techniques& techniques) {
+  direction_mixture own;
+  for (const sampling_technique& technique : techniques) {
+    by_viewer share;
+    share.fill(technique.share);
+    own.add(technique.density, share);
+  }
+  constexpr int side = 12;
+  weighed_lobe weighed{techniques, {}};
+  for (std::size_t interval = 0; interval < weighed.albedo.size(); ++interval) {
+    double sum = 0.0;
+    for (int draw = 0; draw < side * side; ++draw) {
+      const direction wo = spherical_direction(std::acos(direction_mixture::cosine_of(interval)), 2.4 * draw);
+      const direction wi = own.sample(wo, (draw / side + 0.5) / side, (draw % side + 0.5) / side);
+      const double pdf = own.pdf(wi, wo);
+      if (wi.z() > 0.0 && pdf > 0.0) sum += rgb(f(wi, wo)).mean() * (wi.z() / pdf);
+    }
+    weighed.albedo[interval] = std::max(sum, 0.0) / (side * side);
+  }
+  return weighed;
+}
+
+template <class>
+inline constexpr bool is_sum_of_lobes = false;
+template <class... Lobes>
+inline constexpr bool is_sum_of_lobes<sum_of_lobes<Lobes...>> = true;
+
+/// Appends the lobes of a model.
+template <class Model>
+void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
+  if constexpr (std::same_as<Model, formula_brdf>) {
+    std::visit([&](const auto& model) { weigh_lobes(model, lobes); }, f.formula());
+  } else if constexpr (is_sum_of_lobes<Model>) {
+    std::apply([&](const auto&... lobe) { (weigh_lobes(lobe, lobes), ...); }, f.lobes());
+  } else if constexpr (std::same_as<Model, analytic_brdf>) {
+    for (const analytic_lobe& lobe : f.lobes()) lobes.push_back(weigh(analytic_brdf({lobe}), techniques_of(lobe)));
+  } else {
+    lobes.push_back(weigh(f, techniques_of(f)));
+  }
+}
+
+/// Each lobe as often as its albedo is of the sum's.
+[[nodiscard]] inline direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes) {
+  by_viewer sum{};
+  for (const weighed_lobe& lobe : lobes)
+    for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += lobe.albedo[at];
+  direction_mixture mixture;
+  by_viewer black{};  // what reflects nothing may be drawn anyhow
+  for (std::size_t at = 0; at < sum.size(); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
+  mixture.add(cosine_directions{}, black);
+  for (const weighed_lobe& lobe : lobes)
+    for (const sampling_technique& technique : lobe.techniques) {
+      by_viewer shares{};
+      for (std::size_t at = 0; at < sum.size(); ++at)
+        if (sum[at] > 0.0) shares[at] = technique.share * lobe.albedo[at] / sum[at];
+      mixture.add(technique.density, shares);
+    }
+  return mixture;
+}
+
+}  // namespace detail
+
+/// Importance sampling of an analytic BRDF, which it holds: of any lobe, `lambertian`, `ggx`, a `sum_of_lobes`, an
+/// `analytic_brdf` such as a fit returns, or a `formula_brdf`.
+/// ```cpp
+/// const gonio::lobe_sampler paint{gonio::sum_of_lobes{gonio::lambertian{}, gonio::ggx{}}};
+/// const auto drawn = paint.sample(wo, u1, u2);
+/// ```
+/// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
+/// sphere of directions. Some directions fall below the horizon: these have weight 0 and are counted by pdf.
+///
+/// Lobes whose weights are bounded by their form are drawn by their own density alone; the others (Ward, Ward-Duer,
+/// Phong-Blinn) and those that are wide have cosine-weighted directions among theirs. A sum draws each lobe as often as
+/// its albedo, for that viewer, is of the sum's; construction measures that by some 5,000 evaluations for each lobe.
+template <brdf Brdf>
+class lobe_sampler {
+ public:
+  explicit lobe_sampler(Brdf f) : f_(std::move(f)) {
+    std::vector<detail::weighed_lobe> lobes;
+    detail::weigh_lobes(f_, lobes);
+    mixture_ = detail::mixture_of(lobes);
+  }
+
+  [[nodiscard]] const Brdf& brdf() const noexcept { return f_; }
+
+  /// Draws a direction by two numbers from 0 up to 1. Zero weight and density if wo is not above the horizon.
+  [[nodiscard]] sampled_direction sample(const direction& wo, double u1, double u2) const noexcept {
+    if (!is_above_horizon(wo)) return {};
+    sampled_direction drawn;
+    drawn.wi = mixture_.sample(wo, u1, u2);
+    drawn.pdf = mixture_.pdf(drawn.wi, wo);
+    if (drawn.wi.z() > 0.0 && drawn.pdf > 0.0) drawn.weight = rgb(f_(drawn.wi, wo)) * (drawn.wi.z() / drawn.pdf);
+    return drawn;
+  }
+
+  /// The density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    return is_above_horizon(wo) ? mixture_.pdf(wi, wo) : 0.0;
+  }
+
+ private:
+  [[nodiscard]] static bool is_above_horizon(const direction& wo) noexcept { return wo.z() > 0.0 && wo.allFinite(); }
+
+  Brdf f_;
+  detail::direction_mixture mixture_;
+};
+
+static_assert(direction_sampler<lobe_sampler<lambertian>> && direction_sampler<lobe_sampler<ward>>);
+static_assert(direction_sampler<lobe_sampler<sum_of_lobes<lambertian, ggx>>>);
+
+/// What a renderer holds after a fit.
+using analytic_sampler = lobe_sampler<analytic_brdf>;
+
+static_assert(direction_sampler<analytic_sampler>);
+
+}  // namespace gonio

@@ -1,0 +1,276 @@
+#pragma once
+/// Densities in closed form by which directions are drawn where a lobe is bright, and which of them each lobe takes.
+/// B. Walter, "Notes on the Ward BRDF", Cornell PCG-05-06, 2005 (Gaussian slopes); B. Walter, S. R. Marschner, H. Li
+/// and K. E. Torrance, EGSR 2007, Eq. 14 (reflected half vectors); E. Heitz, "Sampling the GGX Distribution of Visible
+/// Normals", JCGT 2018; J. Dupuy and A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023; E. P. F.
+/// Lafortune, S.-C. Foo, K. E. Torrance and D. P. Greenberg, "Non-Linear Approximation of Reflectance Functions",
+/// SIGGRAPH 1997 (cosine lobes).
+
+#include <gonio/core/sampled_direction.hpp>
+#include <gonio/model/analytic_brdf.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <variant>
+#include <vector>
+
+namespace gonio {
+
+// ---- densities of directions: draw wi given wo above the horizon, and tell the density in sr^-1 ------------------
+
+namespace detail {
+
+/// The polar angle about which cos^exponent, normalised by (exponent + 1) / (2 pi), is below u of its integral.
+/// Accurate for large exponents, whose cosines are all near 1.
+[[nodiscard]] inline double power_cosine_angle(double exponent, double u) noexcept {
+  const double log_cosine = std::log1p(-u) / (exponent + 1.0);
+  return std::atan2(std::sqrt(-std::expm1(2.0 * log_cosine)), std::exp(log_cosine));
+}
+
+[[nodiscard]] inline double power_cosine_density(double exponent, double cosine) noexcept {
+  return (exponent + 1.0) * (0.5 * std::numbers::inv_pi) * cosine_power(cosine, exponent);
+}
+
+[[nodiscard]] inline direction reflected(const direction& wo, const direction& h) noexcept {
+  return (2.0 * wo.dot(h) * h - wo).normalized();
+}
+
+/// The density of wi whose half vector, the one above the horizon, has a density: dh / d wi = 1 / (4 |wo . h|), and
+/// |wo . h| is half the length of wi + wo. One wi, opposite to wo, is reflected by many half vectors; it counts as
+/// never drawn.
+template <class Density>
+[[nodiscard]] double reflected_density(const direction& wi, const direction& wo, const Density& of_half) noexcept {
+  const direction sum = wi + wo;
+  const double length = sum.norm();
+  if (!(length > 0.0 && sum.z() != 0.0)) return 0.0;
+  return of_half(direction(sum / std::copysign(length, sum.z()))) / (2.0 * length);
+}
+
+}  // namespace detail
+
+/// cos(theta_i) / pi.
+struct cosine_directions {
+  [[nodiscard]] direction sample(const direction& /*wo*/, double u1, double u2) const noexcept {
+    return cosine_weighted_direction(u1, u2);
+  }
+  [[nodiscard]] double pdf(const direction& wi, const direction& /*wo*/) const noexcept {
+    return cosine_weighted_pdf(wi);
+  }
+};
+
+/// (n + 1) / (2 pi) cos^n of the angle with M wo, M = diag(tangential, tangential, normal): Phong's lobe about the
+/// mirror direction, and Lafortune's.
+struct power_cosine_directions {
+  double exponent = 1.0;                   ///< n
+  double tangential = -1.0, normal = 1.0;  ///< of M: the mirror
+
+  [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
+    return turned(axis(wo), detail::power_cosine_angle(exponent, u1), 2.0 * std::numbers::pi * u2);
+  }
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    return detail::power_cosine_density(exponent, wi.dot(axis(wo)));
+  }
+
+ private:
+  [[nodiscard]] direction axis(const direction& wo) const noexcept {
+    const direction m(tangential * wo.x(), tangential * wo.y(), normal * wo.z());
+    const double length = m.norm();
+    return length > 0.0 ? direction(m / length) : direction(0.0, 0.0, 1.0);
+  }
+};
+
+/// Half vectors of density (n + 1) / (2 pi) (h . n)^n: Blinn-Phong's.
+struct power_cosine_half_vectors {
+  double exponent = 1.0;
+
+  [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
+    return detail::reflected(
+        wo, spherical_direction(detail::power_cosine_angle(exponent, u1), 2.0 * std::numbers::pi * u2));
+  }
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    return detail::reflected_density(wi, wo,
+                                     [&](const direction& h) { return detail::power_cosine_density(exponent, h.z()); });
+  }
+};
+
+/// Half vectors whose slopes are Gaussian: exp(-(h_x / alpha_x)^2 - (h_y / alpha_y)^2, both over h_z^2) over
+/// pi alpha_x alpha_y h_z^3. Walter 2005; of one alpha it is Beckmann's distribution times the cosine.
+struct gaussian_half_vectors {
+  double alpha_x = 0.2, alpha_y = 0.2;
+
+  [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
+    const double radius = std::sqrt(-std::log1p(-u1)), angle = 2.0 * std::numbers::pi * u2;
+    const direction h(alpha_x * radius * std::cos(angle), alpha_y * radius * std::sin(angle), 1.0);
+    return detail::reflected(wo, h.normalized());
+  }
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    return detail::reflected_density(wi, wo, [&](const direction& h) {
+      const double x = h.x() / (h.z() * alpha_x), y = h.y() / (h.z() * alpha_y), exponent = x * x + y * y;
+      if (!(exponent < 700.0)) return 0.0;
+      return std::exp(-exponent) * std::numbers::inv_pi / (alpha_x * alpha_y * h.z() * h.z() * h.z());
+    });
+  }
+};
+
+/// Half vectors of those GGX facets that wo sees: G1(wo) D(h) max(wo . h, 0) / cos(theta_o). Heitz 2018, drawn as Dupuy
+/// and Benyoub 2023.
+struct ggx_visible_normals {
+  double alpha = 0.2;
+
+  [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
+    // Stretch the viewer's direction so that the facets become a hemisphere.
+    const direction seen = direction(alpha * wo.x(), alpha * wo.y(), wo.z()).normalized();
+    // Reflections by the hemisphere fill a cap evenly: draw one, take its half vector, and undo the stretching.
+    const double z = (1.0 - u1) * (1.0 + seen.z()) - seen.z(), azimuth = 2.0 * std::numbers::pi * u2;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - z * z));
+    const direction half = direction(sine * std::cos(azimuth), sine * std::sin(azimuth), z) + seen;
+    return detail::reflected(wo, direction(alpha * half.x(), alpha * half.y(), half.z()).normalized());
+  }
+  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
+    // wo . h of the density cancels against that of the reflection.
+    const direction sum = wi + wo;
+    if (!(sum.z() > 0.0)) return 0.0;
+    return 0.5 * detail::ggx_distribution(sum.normalized(), alpha) *
+           detail::ggx_masking_over_twice_cosine(wo.z(), alpha);
+  }
+};
+
+// ---- which of them a lobe takes ----------------------------------------------------------------------------------
+
+/// One of the densities, and the share of a lobe's directions that are drawn by it.
+struct sampling_technique {
+  using density_type = std::variant<cosine_directions, power_cosine_directions, power_cosine_half_vectors,
+                                    gaussian_half_vectors, ggx_visible_normals>;
+  density_type density;
+  double share = 1.0;
+};
+
+/// A lobe's densities, whose shares sum to 1. A shape of yours gets its own by a function `techniques_of(shape)` in
+/// its namespace.
+using sampling_techniques = std::vector<sampling_technique>;
+
+namespace detail {
+
+/// A tenth of the directions cosine-weighted, for lobes whose weights have no bound of their own: so none exceeds
+/// 10 pi f.
+inline constexpr double defensive_share = 0.1;
+
+/// A wide lobe is like a diffuse one, a narrow one not at all.
+[[nodiscard]] inline sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density,
+                                                             double exponent) {
+  const double share = 1.0 / (1.0 + exponent);
+  return {{density, 1.0 - share}, {cosine_directions{}, share}};
+}
+
+/// Ward's lobe by Gaussian slopes has the weight (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005),
+/// or without the root, which grows without bound towards grazing viewers.
+[[nodiscard]] inline sampling_techniques ward_techniques(double alpha_x, double alpha_y) {
+  return {{gaussian_half_vectors{alpha_x, alpha_y}, 1.0 - defensive_share}, {cosine_directions{}, defensive_share}};
+}
+
+}  // namespace detail
+
+[[nodiscard]] inline sampling_techniques techniques_of(const lambertian& /*f*/) { return {{cosine_directions{}, 1.0}}; }
+[[nodiscard]] inline sampling_techniques techniques_of(const lambert_shape<double>& /*shape*/) {
+  return {{cosine_directions{}, 1.0}};
+}
+
+[[nodiscard]] inline sampling_techniques techniques_of(const phong::shape_type& shape) {
+  return detail::with_cosine_if_wide(power_cosine_directions{.exponent = shape.shininess}, shape.shininess);
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const blinn_phong::shape_type& shape) {
+  return detail::with_cosine_if_wide(power_cosine_half_vectors{shape.shininess}, shape.shininess);
+}
+/// Powers are convex: ((1 - alpha) a + alpha b)^s <= (1 - alpha) a^s + alpha b^s for s >= 1, so that the mixture of
+/// Phong's and Blinn-Phong's directions bounds the weights.
+[[nodiscard]] inline sampling_techniques techniques_of(const phong_blinn::shape_type& shape) {
+  const double cosine_share = std::max(detail::defensive_share, 1.0 / (1.0 + shape.shininess)),
+               rest = 1.0 - cosine_share;
+  return {{power_cosine_directions{.exponent = shape.shininess}, rest * (1.0 - shape.alpha)},
+          {power_cosine_half_vectors{4.0 * shape.shininess}, rest * shape.alpha},
+          {cosine_directions{}, cosine_share}};
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const lafortune::shape_type& shape) {
+  return detail::with_cosine_if_wide(
+      power_cosine_directions{shape.exponent, -std::sin(shape.tilt), std::cos(shape.tilt)}, shape.exponent);
+}
+
+[[nodiscard]] inline sampling_techniques techniques_of(const ward::shape_type& shape) {
+  return detail::ward_techniques(shape.roughness, shape.roughness);
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const ward_duer::shape_type& shape) {
+  return detail::ward_techniques(shape.roughness, shape.roughness);
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward::shape_type& shape) {
+  return detail::ward_techniques(shape.roughness_x, shape.roughness_y);
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward_duer::shape_type& shape) {
+  return detail::ward_techniques(shape.roughness_x, shape.roughness_y);
+}
+/// The weight is cos theta_i / ((wo . h) h_z), and 2 (wo . h) h_z = cos theta_i + cos theta_o: at most 2.
+[[nodiscard]] inline sampling_techniques techniques_of(const ward_bounded::shape_type& shape) {
+  return {{gaussian_half_vectors{shape.roughness, shape.roughness}, 1.0}};
+}
+[[nodiscard]] inline sampling_techniques techniques_of(const anisotropic_ward_bounded::shape_type& shape) {
+  return {{gaussian_half_vectors{shape.roughness_x, shape.roughness_y}, 1.0}};
+}
+
+/// The weight is F min((wo . h) / (cos theta_o h_z), 2 cos theta_i / the larger cosine): at most 2.
+[[nodiscard]] inline sampling_techniques techniques_of(const torrance_sparrow::shape_type& shape) {
+  return {{gaussian_half_vectors{shape.slope, shape.slope}, 1.0}};
+}
+/// The weight is F G1(wi): at most 1.
+[[nodiscard]] inline sampling_techniques techniques_of(const ggx& f) { return {{ggx_visible_normals{f.alpha}, 1.0}}; }
+[[nodiscard]] inline sampling_techniques techniques_of(const ggx_lobe::shape_type& shape) {
+  return {{ggx_visible_normals{shape.alpha}, 1.0}};
+}
+
+/// Shape times a Fresnel factor: as Shape.
+template <class Shape>
+requires requires(const Shape& shape) {
+  techniques_of(shape.lobe);
+  shape.refractive_index;
+}
+[[nodiscard]] sampling_techniques techniques_of(const Shape& shape) { return techniques_of(shape.lobe); }
+
+template <template <class> class Shape>
+[[nodiscard]] sampling_techniques techniques_of(const lobe<Shape>& f) {
+  return techniques_of(f.shape());
+}
+
+namespace detail {
+
+/// Those of the shape if the lobe is of this kind.
+template <template <class> class Shape>
+[[nodiscard]] bool take_if_same(const analytic_lobe& f, sampling_techniques& taken) {
+  if (f.kind().name() != Shape<double>::name) return false;
+  std::array<double, parameter_count<Shape>> own{};
+  std::copy_n(f.parameters().begin(), own.size(), own.begin());
+  taken = techniques_of(shape_from<Shape, double>(own));
+  return true;
+}
+
+template <template <class> class... Shapes>
+[[nodiscard]] sampling_techniques techniques_among(const analytic_lobe& f) {
+  sampling_techniques taken{{cosine_directions{}, 1.0}};
+  static_cast<void>((take_if_same<Shapes>(f, taken) || ...));
+  return taken;
+}
+
+}  // namespace detail
+
+/// By the name of its kind. A kind that is not of this library is drawn by cosine-weighted directions: never wrong, but
+/// noisy where it shines.
+[[nodiscard]] inline sampling_techniques techniques_of(const analytic_lobe& f) {
+  using detail::anisotropic_ward, detail::ward_normalisation;
+  return detail::techniques_among<
+      lambert_shape, phong_shape, blinn_phong_shape, phong_blinn_shape, with_fresnel<phong_shape>::shape,
+      with_fresnel<blinn_phong_shape>::shape, with_fresnel<phong_blinn_shape>::shape, ward_shape, ward_duer_shape,
+      ward_bounded_shape, anisotropic_ward<ward_normalisation::geometric_mean>::shape,
+      anisotropic_ward<ward_normalisation::product>::shape, anisotropic_ward<ward_normalisation::bounded>::shape,
+      lafortune_shape, torrance_sparrow_shape, ggx_shape>(f);
+}
+
+}  // namespace gonio

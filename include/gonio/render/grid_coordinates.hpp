@@ -1,0 +1,223 @@
+#pragma once
+/// Where a pair of directions lies on a MERL-like grid, without trigonometric functions: for the inner loop of a
+/// renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998; the grid is
+/// that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+///
+/// The three angles come from ratios of sums and differences of the two directions, and their arc tangents from one
+/// polynomial, which a compiler can evaluate for several pairs at once.
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <type_traits>
+
+namespace gonio {
+
+/// Shares of the way along the axes of a MERL-like grid, from 0 to 1: sqrt(theta_h / (pi / 2)), theta_d / (pi / 2) and
+/// phi_d / pi. The last wraps. Times the number of cells they count cells.
+template <std::floating_point Real>
+struct grid_coordinates {
+  Real theta_h = 0;
+  Real theta_d = 0;
+  Real phi_d = 0;
+};
+
+namespace detail {
+
+/// Coefficients in t^2 of atan(t) / t over pi / 2, for t from 0 to 1: the polynomials whose largest relative error is
+/// least (Remez's exchange), 1.6e-8 with nine and 4e-14 with sixteen.
+template <std::floating_point Real>
+[[nodiscard]] constexpr auto arc_tangent_coefficients() noexcept {
+  if constexpr (std::is_same_v<Real, float>)
+    return std::array{0.63661976267128062f,   -0.21220493590025488f,  0.12727697243467709f,
+                      -0.090423238894346059f, 0.067742390452809123f,  -0.047774008311915736f,
+                      0.027178457024947675f,  -0.010229711189611097f, 0.0018143193278700326f};
+  else
+    return std::array<Real, 16>{
+        0.63661977236755674,   -0.21220659077617143,   0.12732395332815763,   -0.090945641777750885,
+        0.070734792970602658,  -0.057866243053599047,  0.048909067653282588,  -0.042119398916901266,
+        0.036225067310717535,  -0.030025117664704646,  0.022718242161347414,  -0.014672689963069845,
+        0.0075033769833896553, -0.0027784904318869678, 0.0006519744249023101, -7.2074615891761176e-05};
+}
+
+/// atan(t) / t over pi / 2 of t^2 from 0 to 1.
+template <std::floating_point Real>
+[[nodiscard]] inline Real arc_tangent_over_tangent(Real squared) noexcept {
+  constexpr auto c = arc_tangent_coefficients<Real>();
+  Real sum = c.back();
+  for (std::size_t i = c.size() - 1; i-- > 0;) sum = sum * squared + c[i];
+  return sum;
+}
+
+/// What is asked of a pair of directions, before the square roots are taken.
+template <std::floating_point Real>
+struct pair_terms {
+  Real squared_h;         ///< of the tangent of theta_h, or one over it if that is more than 1
+  Real squared_d;         ///< the same of theta_d
+  Real squared_sum;       ///< |wi + wo|^2
+  Real along, beside;     ///< the difference vector seen from the half vector is along : beside |wi + wo|
+  Real steep_h, steep_d;  ///< 1 if theta_h, theta_d is more than pi / 4, otherwise 0
+
+  /// Of directions above the horizon. There are no selections here but of numbers at hand: g++ does not vectorise
+  /// a loop in which one of two computations that may trap is chosen.
+  pair_terms(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
+    const Real sx = ix + ox, sy = iy + oy, sz = iz + oz, dx = ix - ox, dy = iy - oy, dz = iz - oz;
+    const Real across = sx * sx + sy * sy, up = sz * sz, difference = dx * dx + dy * dy + dz * dz;
+    squared_sum = across + up;
+    steep_h = across > up ? Real(1) : Real(0);
+    squared_h = std::min(across, up) / std::max(across, up);
+    steep_d = difference > squared_sum ? Real(1) : Real(0);
+    squared_d = std::min(difference, squared_sum) / std::max(difference, squared_sum);
+    // The difference vector turned with the half vector to the pole, times both their lengths.
+    along = sz * (sx * dx + sy * dy) - across * dz;
+    beside = sx * dy - sy * dx;
+  }
+};
+
+/// The share of a quarter turn of an angle by its tangent or, if it is steep (1, otherwise 0), one over that, and its
+/// square.
+template <std::floating_point Real>
+[[nodiscard]] inline Real quarter_turns(Real tangent, Real squared, Real steep) noexcept {
+  // 1 - share or share, without a branch that the processor would have to guess.
+  return std::abs(steep - tangent * arc_tangent_over_tangent(squared));
+}
+
+/// The tangent of an azimuth folded to half a turn, and on which side it is.
+template <std::floating_point Real>
+struct azimuth_terms {
+  Real tangent;  ///< or one over it if that is more than 1
+  Real steep;    ///< 1 if it is more than pi / 4 from the x axis, otherwise 0
+  Real left;     ///< 1 if it is in the second quadrant, otherwise 0
+
+  azimuth_terms(Real x, Real y) noexcept {
+    const Real side = std::abs(x), up = std::abs(y);
+    tangent = std::min(side, up) / (std::max(side, up) + std::numeric_limits<Real>::min());
+    steep = up > side ? Real(1) : Real(0);
+    left = Real(0.5) - std::copysign(Real(0.5), x) * std::copysign(Real(1), y);
+  }
+};
+
+/// The share of half a turn, from 0 to 1, which is 0 again, by the share of a quarter turn from the x axis.
+template <std::floating_point Real>
+[[nodiscard]] inline Real half_turns(Real quarter, Real left) noexcept {
+  return std::abs(left - quarter / 2);
+}
+
+}  // namespace detail
+
+/// Is the pair above the horizon, and every component a number of at most 1e7?
+template <std::floating_point Real>
+[[nodiscard]] inline bool is_above_horizon(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
+  const auto is_small = [](Real v) { return std::abs(v) <= Real(1e7); };  // not what is not a number
+  return iz > 0 && oz > 0 && is_small(ix) && is_small(iy) && is_small(iz) && is_small(ox) && is_small(oy) &&
+         is_small(oz);
+}
+
+/// The coordinates of a pair of directions above the horizon, within 2e-7 (`float`) or 1e-13 (`double`) of those of
+/// `to_half_difference`, but that phi_d is 0 where the half vector is the normal. Both directions may be multiplied by
+/// the same positive factor. Four square roots and four divisions.
+template <std::floating_point Real>
+[[nodiscard]] inline grid_coordinates<Real> to_grid_coordinates(Real ix, Real iy, Real iz, Real ox, Real oy,
+                                                                Real oz) noexcept {
+  using detail::quarter_turns;
+  const detail::pair_terms<Real> pair(ix, iy, iz, ox, oy, oz);
+  const detail::azimuth_terms<Real> phi(pair.along, pair.beside * std::sqrt(pair.squared_sum));
+  return {std::sqrt(quarter_turns(std::sqrt(pair.squared_h), pair.squared_h, pair.steep_h)),
+          quarter_turns(std::sqrt(pair.squared_d), pair.squared_d, pair.steep_d),
+          detail::half_turns(quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left)};
+}
+
+/// Many vectors or colours, as three arrays of equal length: a structure of arrays.
+template <class Real>
+struct component_arrays {
+  std::span<Real> x, y, z;
+
+  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+};
+
+/// The coordinates of several pairs, computed side by side: each step of `to_grid_coordinates` is a loop that compilers
+/// turn into instructions for several numbers (bench/render/lookup_table.cpp).
+template <std::floating_point Real>
+class grid_coordinates_block {
+ public:
+  static constexpr std::size_t size = 32;
+
+  /// Of pairs `first` to `first + count` of the arrays; at most `size`. Coordinates are from 0 to 1 also of pairs that
+  /// are not above the horizon.
+  void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo, std::size_t first,
+               std::size_t count) noexcept {
+    if (count == size) return compute(wi, wo, first);
+    // The last few are filled up with the normal.
+    std::array<lanes, 6> copies;
+    const std::array sources{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
+    for (std::size_t k = 0; k < copies.size(); ++k) {
+      copies[k].fill(k % 3 == 2 ? Real(1) : Real(0));
+      std::copy_n(sources[k].begin() + static_cast<std::ptrdiff_t>(first), count, copies[k].begin());
+    }
+    compute({copies[0], copies[1], copies[2]}, {copies[3], copies[4], copies[5]}, 0);
+  }
+
+  [[nodiscard]] grid_coordinates<Real> operator[](std::size_t i) const noexcept {
+    return {theta_h_[i], theta_d_[i], phi_d_[i]};
+  }
+
+ private:
+  using lanes = std::array<Real, size>;
+
+  void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
+               std::size_t first) noexcept {
+    const Real *ix = wi.x.data() + first, *iy = wi.y.data() + first, *iz = wi.z.data() + first;
+    const Real *ox = wo.x.data() + first, *oy = wo.y.data() + first, *oz = wo.z.data() + first;
+    alignas(64) lanes squared_h, squared_d, squared_phi, steep_h, steep_d, steep_phi, along, beside, length, left;
+    for (std::size_t i = 0; i < size; ++i) {
+      const detail::pair_terms<Real> pair(ix[i], iy[i], iz[i], ox[i], oy[i], oz[i]);
+      theta_h_[i] = squared_h[i] = pair.squared_h;
+      theta_d_[i] = squared_d[i] = pair.squared_d;
+      steep_h[i] = pair.steep_h;
+      steep_d[i] = pair.steep_d;
+      length[i] = pair.squared_sum;
+      along[i] = pair.along;
+      beside[i] = pair.beside;
+    }
+    take_roots(theta_h_);
+    take_roots(theta_d_);
+    take_roots(length);
+    for (std::size_t i = 0; i < size; ++i) {
+      const detail::azimuth_terms<Real> phi(along[i], beside[i] * length[i]);
+      phi_d_[i] = phi.tangent;
+      squared_phi[i] = phi.tangent * phi.tangent;
+      steep_phi[i] = phi.steep;
+      left[i] = phi.left;
+    }
+    to_quarter_turns(theta_h_, squared_h, steep_h);
+    take_roots(theta_h_);
+    to_quarter_turns(theta_d_, squared_d, steep_d);
+    to_quarter_turns(phi_d_, squared_phi, steep_phi);
+    for (std::size_t i = 0; i < size; ++i) phi_d_[i] = within(detail::half_turns(phi_d_[i], left[i]));
+    for (std::size_t i = 0; i < size; ++i) theta_h_[i] = within(theta_h_[i]);
+    for (std::size_t i = 0; i < size; ++i) theta_d_[i] = within(theta_d_[i]);
+  }
+
+  static void to_quarter_turns(lanes& tangents, const lanes& squares, const lanes& steep) noexcept {
+    for (std::size_t i = 0; i < size; ++i) tangents[i] = detail::quarter_turns(tangents[i], squares[i], steep[i]);
+  }
+
+  /// By Eigen: a compiler's own loop would set errno for negative numbers, one by one.
+  static void take_roots(lanes& squares) noexcept {
+    Eigen::Map<Eigen::Array<Real, static_cast<int>(size), 1>, Eigen::Aligned64> values(squares.data());
+    values = values.sqrt();
+  }
+
+  /// 0 for what is not a number.
+  [[nodiscard]] static Real within(Real share) noexcept { return std::min(std::max(Real(0), share), Real(1)); }
+
+  alignas(64) lanes theta_h_{}, theta_d_{}, phi_d_{};
+};
+
+}  // namespace gonio

@@ -1,0 +1,153 @@
+#pragma once
+/// Numbers the cells of a MERL-like grid that are above the horizon, for the inner loop of a renderer: what
+/// `valid_cells` tells by 10 MB of numbers, in 100 KB that stay in the processor's cache.
+
+#include <gonio/render/grid_coordinates.hpp>
+#include <gonio/table/grid.hpp>
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The eight cells around a place, by their numbers, and weights that sum to 1.
+template <std::floating_point Real>
+struct trilinear_corners {
+  std::array<std::size_t, 8> number{};
+  std::array<Real, 8> weight{};
+};
+
+namespace detail {
+
+/// The two nodes of an axis around a place, and how far it is from the lower to the upper.
+template <std::floating_point Real>
+struct node_interval {
+  std::size_t lower, upper;
+  Real share;
+};
+
+/// Before the first and behind the last node their values hold.
+template <std::floating_point Real>
+[[nodiscard]] inline node_interval<Real> clamped_nodes(Real coordinate, int extent) noexcept {
+  const Real place =
+      std::clamp(coordinate * static_cast<Real>(extent) - Real(0.5), Real(0), static_cast<Real>(extent - 1));
+  const auto lower = static_cast<int>(place);
+  return {static_cast<std::size_t>(lower), static_cast<std::size_t>(std::min(lower + 1, extent - 1)),
+          place - static_cast<Real>(lower)};
+}
+
+/// On an axis that wraps.
+template <std::floating_point Real>
+[[nodiscard]] inline node_interval<Real> periodic_nodes(Real coordinate, int extent) noexcept {
+  const Real place = coordinate * static_cast<Real>(extent) + Real(0.5);  // from 0.5 to extent + 0.5, a node too far
+  const auto upper = static_cast<int>(place);
+  return {static_cast<std::size_t>(upper == 0 ? extent - 1 : upper - 1),
+          static_cast<std::size_t>(upper < extent ? upper : 0), place - static_cast<Real>(upper)};
+}
+
+/// The cell of an axis in which a coordinate is.
+template <std::floating_point Real>
+[[nodiscard]] inline std::size_t cell_of(Real coordinate, int extent) noexcept {
+  return static_cast<std::size_t>(std::min(static_cast<int>(coordinate * static_cast<Real>(extent)), extent - 1));
+}
+
+}  // namespace detail
+
+/// The cells at whose node both directions are above the horizon, numbered as `valid_cells` numbers them: in the grid's
+/// linear order.
+///
+/// For a theta_d and phi_d they are those up to some theta_h; for a theta_h and theta_d they are neighbours. So a
+/// number is the sum of one for each row and phi_d.
+class horizon_index {
+ public:
+  /// O(cells of the grid). Throws gonio::error if there is a theta_d and phi_d at which no cell is above the horizon,
+  /// which takes a grid with more than twice the square of theta_h's extent along theta_d, or if the values of the grid
+  /// are not at the cells' centres.
+  explicit horizon_index(const gonio::grid& cells = gonio::grid())
+      : grid_(cells), rows_(unsigned_of(cells.extents().theta_d)), columns_(unsigned_of(cells.extents().phi_d)) {
+    if (cells.anchor() != cell_anchor::centre)
+      refuse("a table for rendering needs a grid with values at the cells' centres");
+    last_.assign(rows_ * columns_, none);
+    begin_.reserve(unsigned_of(cells.extents().theta_h) * rows_);
+    for_each_smaller_cosine(cells, [&](std::size_t cell, double cosine) {
+      const std::size_t phi = cell % columns_, row = cell / columns_;
+      if (phi == 0) begin_.push_back(size_);
+      if (!(cosine > 1e-9)) return;  // on the horizon, up to rounding
+      if (row_of_last_ != row) begin_.back() = size_ - static_cast<std::uint32_t>(phi);
+      row_of_last_ = row;
+      last_[row % rows_ * columns_ + phi] = static_cast<std::uint16_t>(row / rows_);
+      ++size_;
+    });
+    const auto empty = std::ranges::find(last_, none);
+    if (empty != last_.end()) refuse(sentence(static_cast<std::size_t>(empty - last_.begin())));
+  }
+
+  /// The number of cells above the horizon.
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] const gonio::grid& grid() const noexcept { return grid_; }
+
+  /// The number of a cell or, if it is below the horizon, of the one above that has the same theta_d and phi_d and the
+  /// largest theta_h: that continues a table, so that no look-up near the horizon finds a hole.
+  [[nodiscard]] std::size_t operator()(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d) const noexcept {
+    const std::size_t layer = std::min<std::size_t>(theta_h, last_[theta_d * columns_ + phi_d]);
+    return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
+  }
+
+  /// The number of the cell in which a place is.
+  template <std::floating_point Real>
+  [[nodiscard]] std::size_t nearest(const grid_coordinates<Real>& place) const noexcept {
+    const auto [heights, rows, columns] = grid_.extents();
+    // The end of phi_d is its beginning.
+    const Real phi = place.phi_d < 1 ? place.phi_d : 0;
+    return (*this)(detail::cell_of(place.theta_h, heights), detail::cell_of(place.theta_d, rows),
+                   detail::cell_of(phi, columns));
+  }
+
+  /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
+  template <std::floating_point Real>
+  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place) const noexcept {
+    const auto [heights, rows, columns] = grid_.extents();
+    const auto h = detail::clamped_nodes(place.theta_h, heights), d = detail::clamped_nodes(place.theta_d, rows),
+               p = detail::periodic_nodes(place.phi_d, columns);
+    trilinear_corners<Real> corners;
+    for (std::size_t k = 0; k < 8; ++k) {
+      const bool is_upper_h = (k & 4) != 0, is_upper_d = (k & 2) != 0, is_upper_p = (k & 1) != 0;
+      corners.number[k] =
+          (*this)(is_upper_h ? h.upper : h.lower, is_upper_d ? d.upper : d.lower, is_upper_p ? p.upper : p.lower);
+      corners.weight[k] = (is_upper_h ? h.share : 1 - h.share) * (is_upper_d ? d.share : 1 - d.share) *
+                          (is_upper_p ? p.share : 1 - p.share);
+    }
+    return corners;
+  }
+
+  /// In bytes.
+  [[nodiscard]] std::size_t memory() const noexcept {
+    return begin_.size() * sizeof(std::uint32_t) + last_.size() * sizeof(std::uint16_t);
+  }
+
+ private:
+  static constexpr std::uint16_t none = UINT16_MAX;
+
+  [[nodiscard]] static std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
+
+  [[nodiscard]] std::string sentence(std::size_t column) const {
+    const auto [theta_h, theta_d, phi_d] = grid_.extents();
+    return "a grid of " + std::to_string(theta_h) + " x " + std::to_string(theta_d) + " x " + std::to_string(phi_d) +
+           " cells has none above the horizon at theta_d " + std::to_string(column / columns_) + ", phi_d " +
+           std::to_string(column % columns_) + ": it needs more cells along theta_h";
+  }
+
+  gonio::grid grid_;
+  std::size_t rows_, columns_;
+  std::vector<std::uint32_t> begin_;  ///< by theta_h and theta_d: the number of the first cell less its phi_d
+  std::vector<std::uint16_t> last_;   ///< by theta_d and phi_d: the largest theta_h above the horizon
+  std::uint32_t size_ = 0;
+  std::size_t row_of_last_ = SIZE_MAX;
+};
+
+}  // namespace gonio

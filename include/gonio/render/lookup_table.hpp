@@ -1,0 +1,190 @@
+#pragma once
+/// A tabulated BRDF for the inner loop of a renderer: nearest or trilinear look-up, one pair of directions at a time or
+/// many, in float or double, its values stored as float, double or half. The grid is that of Matusik et al., "A
+/// Data-Driven Reflectance Model", SIGGRAPH 2003.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/brdf.hpp>
+#include <gonio/render/cell_finder.hpp>
+#include <gonio/render/grid_coordinates.hpp>
+#include <gonio/render/horizon_index.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+/// How a table is read between its values: as the nearest has it, or in proportion to the eight around.
+enum class reading { nearest, trilinear };
+
+/// What a table can be made of: values of the cells of a grid, such as a `brdf_table` has.
+template <class Table>
+concept tabulated_brdf = requires(const Table& table, std::size_t linear) {
+  { table.cells().grid() } -> std::convertible_to<grid>;
+  { table.cells().representative(linear) } -> std::convertible_to<std::size_t>;
+  { table.values()[linear] } -> std::convertible_to<double>;
+};
+
+/// A number that a table can store: `Eigen::half` has eleven bits, which are three digits.
+template <class Stored>
+concept stored_value = std::same_as<Stored, float> || std::same_as<Stored, double> || std::same_as<Stored, Eigen::half>;
+
+/// Values in sr^-1 of the cells above the horizon, at least zero, times a power of two that keeps half numbers in their
+/// range; and the look-up. After construction there is no allocation, no lock and no exception, and any number of
+/// threads may read.
+///
+/// Look-up is black if a direction is at or below the horizon or has a component that is not a number or larger than
+/// 1e7. Directions need not be of unit length, as long as both have the same.
+/// ```cpp
+/// const auto paint = gonio::lookup_table<Eigen::half>::of(table);  // a brdf_table
+/// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
+/// ```
+template <stored_value Stored = float, reading Reading = reading::trilinear>
+class lookup_table {
+ public:
+  /// Of a `brdf_table`, or what is like one. Throws gonio::error if its values are not at its cells' centres, or one is
+  /// not finite.
+  template <tabulated_brdf Table>
+  [[nodiscard]] static lookup_table of(const Table& table) {
+    const auto& values = table.values();
+    return lookup_table(table.cells().grid(), [&](const cell_index& cell) {
+      const std::size_t at = 3 * table.cells().representative(table.cells().grid().linear(cell));
+      return std::array<double, 3>{values[at], values[at + 1], values[at + 2]};
+    });
+  }
+
+  /// Of what a MERL file holds after its header: three planes in the file's scale. Throws gonio::error if they do not
+  /// have the grid's size.
+  [[nodiscard]] static lookup_table from_merl(std::span<const double> planes,
+                                              const gonio::grid& cells = gonio::grid()) {
+    const std::size_t plane = cells.size();
+    if (planes.size() != 3 * plane)
+      refuse("three planes of " + std::to_string(plane) + " values were expected of a MERL table, not " +
+             std::to_string(planes.size()) + " values");
+    return lookup_table(cells, [&](const cell_index& cell) {
+      const std::size_t at = cells.linear(cell);
+      return std::array<double, 3>{planes[at] / 1500.0, planes[plane + at] * (1.15 / 1500.0),
+                                   planes[2 * plane + at] * (1.66 / 1500.0)};
+    });
+  }
+
+  /// Of any BRDF, evaluated at the nodes of a grid.
+  template <brdf Brdf>
+  [[nodiscard]] static lookup_table tabulated(const Brdf& f, const gonio::grid& cells = gonio::grid()) {
+    return lookup_table(cells, [&](const cell_index& cell) {
+      const auto [wi, wo] = to_directions(cells.angles(cell));
+      const rgb value = f(wi, wo);
+      return std::array<double, 3>{value.x(), value.y(), value.z()};
+    });
+  }
+
+  /// Reflectance in sr^-1 of a pair, `float` or `double`.
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
+                                                    const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
+    const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
+    if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
+    if constexpr (Reading == reading::trilinear) {
+      return at(to_grid_coordinates(ix, iy, iz, ox, oy, oz));
+    } else {
+      const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
+      return value<Real>(index_(cell.theta_h, cell.theta_d, cell.phi_d));
+    }
+  }
+
+  /// Reflectance of many pairs, whose directions and results stand in arrays of equal length: several pairs at once as
+  /// far as the processor can (compile with -O3 and for your processor), with the same results as one by one up to
+  /// rounding. Precondition: the lengths are equal.
+  template <std::floating_point Real>
+  void evaluate(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
+                const component_arrays<Real>& out) const noexcept {
+    GONIO_ASSERT(wi.size() == out.size() && wo.size() == out.size());
+    grid_coordinates_block<Real> block;
+    for (std::size_t first = 0; first < out.size(); first += block.size) {
+      const std::size_t count = std::min(block.size, out.size() - first);
+      block.compute(wi, wo, first, count);
+      for (std::size_t i = 0, at_pair = first; i < count; ++i, ++at_pair) {
+        Eigen::Array<Real, 3, 1> colour = at(block[i]);
+        if (!is_above_horizon(wi.x[at_pair], wi.y[at_pair], wi.z[at_pair], wo.x[at_pair], wo.y[at_pair], wo.z[at_pair]))
+          colour.setZero();
+        out.x[at_pair] = colour.x();
+        out.y[at_pair] = colour.y();
+        out.z[at_pair] = colour.z();
+      }
+    }
+  }
+
+  [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
+
+  /// In bytes, of the values and the index.
+  [[nodiscard]] std::size_t memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
+
+ private:
+  /// `value_of(cell_index)` is red, green and blue.
+  template <class ValueOf>
+  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells), finder_(cells) {
+    const auto [heights, rows, columns] = cells.extents();
+    std::vector<double> values(3 * index_.size());
+    std::vector<bool> is_known(index_.size(), false);
+    for (int h = 0; h < heights; ++h)
+      for (int d = 0; d < rows; ++d)
+        for (int p = 0; p < columns; ++p) {
+          const std::size_t number =
+              index_(static_cast<std::size_t>(h), static_cast<std::size_t>(d), static_cast<std::size_t>(p));
+          if (is_known[number]) continue;  // a cell below the horizon
+          is_known[number] = true;
+          const std::array<double, 3> value = value_of(cell_index{h, d, p});
+          for (std::size_t channel = 0; channel < 3; ++channel) {
+            if (!std::isfinite(value[channel]))
+              refuse("a table for rendering is not finite at theta_h " + std::to_string(h) + ", theta_d " +
+                     std::to_string(d) + ", phi_d " + std::to_string(p));
+            values[3 * number + channel] = std::max(value[channel], 0.0);
+          }
+        }
+    scale_ = scale_of(values);
+    values_.reserve(values.size());
+    for (const double value : values) values_.push_back(static_cast<Stored>(static_cast<float>(value / scale_)));
+  }
+
+  /// The value of coordinates from 0 to 1.
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> at(const grid_coordinates<Real>& place) const noexcept {
+    if constexpr (Reading == reading::nearest) {
+      return value<Real>(index_.nearest(place));
+    } else {
+      const trilinear_corners<Real> corners = index_.around(place);
+      Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
+      for (std::size_t k = 0; k < 8; ++k) sum += corners.weight[k] * value<Real>(corners.number[k]);
+      return sum;
+    }
+  }
+
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value(std::size_t number) const noexcept {
+    const Stored* stored = values_.data() + 3 * number;
+    const auto scale = static_cast<Real>(scale_);
+    return {static_cast<Real>(stored[0]) * scale, static_cast<Real>(stored[1]) * scale,
+            static_cast<Real>(stored[2]) * scale};
+  }
+
+  /// 1 or, of half numbers, the power of two that brings the largest value near the end of their range, 65504.
+  [[nodiscard]] static double scale_of(const std::vector<double>& values) {
+    const double largest = *std::ranges::max_element(values);
+    if (!std::is_same_v<Stored, Eigen::half> || !(largest > 0.0)) return 1.0;
+    return std::exp2(std::ceil(std::log2(largest)) - 15.0);
+  }
+
+  horizon_index index_;
+  cell_finder<double> finder_;
+  std::vector<Stored> values_;
+  double scale_ = 1.0;
+};
+
+static_assert(brdf<lookup_table<>>);
+
+}  // namespace gonio

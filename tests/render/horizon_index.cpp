@@ -1,0 +1,22 @@
+#include <gonio/render/horizon_index.hpp>
+#include <gonio/table/valid_cells.hpp>
+
+#include <doctest/doctest.h>
+
+TEST_CASE("horizon index: numbers and representatives are those of the valid cells, in a hundredth of the memory") {
+  for (const gonio::grid_extents extents : {gonio::grid_extents{}, {45, 30, 60}, {13, 7, 31}, {4, 4, 4}}) {
+    const gonio::grid cells(extents);
+    const gonio::valid_cells expected(cells);
+    const gonio::horizon_index index(cells);
+    CHECK(index.size() == expected.size());
+    std::size_t other = 0;
+    for (std::size_t linear = 0; linear < cells.size(); ++linear) {
+      const auto [h, d, p] = cells.cell(linear);
+      const std::size_t number =
+          index(static_cast<std::size_t>(h), static_cast<std::size_t>(d), static_cast<std::size_t>(p));
+      other += number == expected.representative(linear) ? 0u : 1u;
+    }
+    CHECK(other == 0u);
+  }
+  CHECK(gonio::horizon_index().memory() < 100'000u);
+}
