@@ -9,8 +9,8 @@
 #include <random>
 
 using gonio::direction;
+using gonio::interpolation;
 using gonio::lookup_table;
-using gonio::reading;
 using gonio::rgb;
 
 namespace {
@@ -61,7 +61,7 @@ TEST_CASE("lookup table: trilinear look-up is the table's own") {
 }
 
 TEST_CASE("lookup table: nearest look-up is the table's own but at the horizon, which it continues") {
-  const auto fast = lookup_table<float, reading::nearest>::of(paint());
+  const auto fast = lookup_table<float, interpolation::nearest>::of(paint());
   const gonio::nearest_lookup expected(paint());
   std::size_t other = 0, continued = 0;
   const auto pairs = some_pairs(20'000);
@@ -105,8 +105,9 @@ TEST_CASE("lookup table: many pairs at once are the pairs one by one") {
   };
   check.operator()<double>(lookup_table<double>::of(paint()), 1e-12, 0);
   check.operator()<float>(lookup_table<float>::of(paint()), 1e-4f, 0);
-  check.operator()<double>(lookup_table<double, reading::nearest>::of(paint()), 0.0, 0);
-  check.operator()<float>(lookup_table<float, reading::nearest>::of(paint()), 0.0f, 1);  // a neighbour at a border
+  check.operator()<double>(lookup_table<double, interpolation::nearest>::of(paint()), 0.0, 0);
+  check.operator()<float>(lookup_table<float, interpolation::nearest>::of(paint()), 0.0f,
+                          1);  // a neighbour at a border
 }
 
 TEST_CASE("lookup table: half numbers are good to three digits, whatever the table's largest value") {
@@ -145,7 +146,7 @@ TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
 
 TEST_CASE("lookup table: what is no pair above the horizon is black") {
   const auto table = lookup_table<>::of(paint());
-  const auto nearest = lookup_table<float, reading::nearest>::of(paint());
+  const auto nearest = lookup_table<float, interpolation::nearest>::of(paint());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   const direction up(0.0, 0.0, 1.0);
   for (const direction& bad : {direction(0.6, 0.0, -0.8), direction(1.0, 0.0, 0.0), direction(nan, 0.0, 1.0),
@@ -172,8 +173,9 @@ TEST_CASE("lookup table: directions that are not of unit length") {
 TEST_CASE("lookup table: negative measurements are black, what is not finite is refused") {
   gonio::brdf_table table = paint();
   table.values()[3] = -1.0f;
-  CHECK((lookup_table<float, reading::nearest>::of(table)(gonio::to_directions(table.cells().angles(1)).wi,
-                                                          gonio::to_directions(table.cells().angles(1)).wo))[0] == 0.0);
+  CHECK((lookup_table<float, interpolation::nearest>::of(table)(gonio::to_directions(table.cells().angles(1)).wi,
+                                                                gonio::to_directions(table.cells().angles(1)).wo))[0] ==
+        0.0);
   table.values()[4] = std::numeric_limits<float>::quiet_NaN();
   CHECK_THROWS_WITH_AS(lookup_table<>::of(table),
                        "a table for rendering is not finite at theta_h 0, theta_d 0, phi_d 1", gonio::error);

@@ -1,161 +1,240 @@
 #pragma once
-/// Directions for a renderer to follow, drawn where an isotropic BRDF is bright: half vectors from a tabulated
-/// distribution, or cosine-weighted directions, in a ratio of their own for each viewer. After J. Lawrence, S.
-/// Rusinkiewicz and R. Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation", SIGGRAPH
-/// 2004, of whose factors this is the one that matters most, and M. Pharr, W. Jakob and G. Humphreys, "Physically Based
-/// Rendering", 2023, Sec. 9.6 (densities of reflected directions).
+/// Directions for a renderer to follow, drawn where an isotropic BRDF is bright: half vectors from a distribution
+/// tabulated for each of some viewers, or cosine-weighted directions, in a ratio of their own for each viewer. After J.
+/// Lawrence, S. Rusinkiewicz and R. Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation",
+/// SIGGRAPH 2004, whose factor of half vectors this tabulates without factoring it, and M. Pharr, W. Jakob and G.
+/// Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected directions).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/sampled_direction.hpp>
+#include <gonio/render/grid_coordinates.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 namespace gonio {
 
 namespace detail {
 
-/// A distribution of half vectors about the normal, constant in solid angle over each of some rings.
-class half_vector_distribution {
+/// Rings about the normal, finer towards it like MERL's, each cut into sectors of azimuth from the viewer's: those of
+/// the left stand for those of the right. A distribution over them is constant in solid angle within each.
+template <std::floating_point Real>
+class half_vector_bins {
  public:
-  /// Rings like MERL's, finer towards the normal, and how bright each is, per solid angle.
-  explicit half_vector_distribution(const std::vector<double>& brightness) {
-    const std::size_t rings = brightness.size();
-    double sum = 0.0;
-    reached_.push_back(0.0);
-    for (std::size_t k = 0; k <= rings; ++k) heights_.push_back(below_pole(border(k, rings)));
-    for (std::size_t k = 0; k < rings; ++k) {
-      sum += brightness[k] * (heights_[k + 1] - heights_[k]);
-      reached_.push_back(sum);
+  static constexpr std::size_t rings = 60, sectors = 8, count = rings * sectors;
+  /// How much of a distribution is before each bin, and 1.
+  using cumulative = std::array<float, count + 1>;
+
+  half_vector_bins() {
+    for (std::size_t ring = 0; ring <= rings; ++ring) {
+      const double share = static_cast<double>(ring) / static_cast<double>(rings);
+      const double s = std::sin(share * share * (std::numbers::pi / 4.0));
+      heights_[ring] =
+          static_cast<Real>(2.0 * s * s);  // 1 - cos: what is above it on the unit sphere is 2 pi times that
     }
-    for (double& share : reached_) share /= sum;
-    for (std::size_t k = 0; k < rings; ++k)
-      densities_.push_back((reached_[k + 1] - reached_[k]) /
-                           (2.0 * std::numbers::pi * (heights_[k + 1] - heights_[k])));
   }
 
-  /// The angle from the normal at which a ring begins.
-  [[nodiscard]] static double border(std::size_t ring, std::size_t rings) {
-    const double fraction = static_cast<double>(ring) / static_cast<double>(rings);
-    return fraction * fraction * (std::numbers::pi / 2.0);
+  /// The solid angle of a bin on both sides.
+  [[nodiscard]] Real solid_angle(std::size_t bin) const noexcept {
+    const std::size_t ring = bin / sectors;
+    return (heights_[ring + 1] - heights_[ring]) * (2 * std::numbers::pi_v<Real> / static_cast<Real>(sectors));
   }
 
-  [[nodiscard]] direction sample(double u1, double u2) const noexcept {
-    const auto above = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, u1) - reached_.begin();
-    const auto ring = static_cast<std::size_t>(above - 1);
-    const double share = (u1 - reached_[ring]) / (reached_[ring + 1] - reached_[ring]);
-    const double height = heights_[ring] + std::clamp(share, 0.0, 1.0) * (heights_[ring + 1] - heights_[ring]);
-    const double across = std::sqrt(height * (2.0 - height)), azimuth = 2.0 * std::numbers::pi * u2;
-    return {across * std::cos(azimuth), across * std::sin(azimuth), 1.0 - height};
+  /// A half vector within a bin, on its left, for a viewer in the xz plane; both numbers from 0 to 1.
+  [[nodiscard]] Eigen::Matrix<Real, 3, 1> within(std::size_t bin, Real along, Real around) const noexcept {
+    const std::size_t ring = bin / sectors;
+    const Real height = heights_[ring] + along * (heights_[ring + 1] - heights_[ring]);
+    const Real azimuth =
+        (static_cast<Real>(bin % sectors) + around) * (std::numbers::pi_v<Real> / static_cast<Real>(sectors));
+    const Real across = std::sqrt(height * (2 - height));
+    return {across * std::cos(azimuth), across * std::sin(azimuth), 1 - height};
   }
 
-  /// Per solid angle, of a vector of any length above the horizon.
-  [[nodiscard]] double pdf(const direction& h) const noexcept {
-    const double across = h.x() * h.x() + h.y() * h.y(), length = std::sqrt(across + h.z() * h.z());
-    const double height = across / (length * (length + h.z()));  // 1 - cos, without cancellation
-    const auto above = std::upper_bound(heights_.begin() + 1, heights_.end() - 1, height) - heights_.begin();
-    return densities_[static_cast<std::size_t>(above - 1)];
+  /// The bin of a half vector h above the horizon, of any length, for a viewer in the xz plane.
+  [[nodiscard]] std::size_t bin_of(const Eigen::Matrix<Real, 3, 1>& h) const noexcept {
+    const Real across = h.x() * h.x() + h.y() * h.y(), up = h.z() * h.z();
+    const Real squared = std::min(across, up) / std::max(across, up);
+    const Real share = std::sqrt(quarter_turns(std::sqrt(squared), squared, across > up ? Real(1) : Real(0)));
+    const azimuth_terms<Real> phi(h.x(), std::abs(h.y()));
+    const Real turn = half_turns(quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left);
+    return place(share, rings) * sectors + place(turn, sectors);
   }
 
  private:
-  /// 1 - cos: what is above it on the unit sphere is 2 pi times that.
-  [[nodiscard]] static double below_pole(double angle) {
-    const double s = std::sin(angle / 2.0);
-    return 2.0 * s * s;
+  [[nodiscard]] static std::size_t place(Real share, std::size_t parts) noexcept {
+    return std::min(static_cast<std::size_t>(share * static_cast<Real>(parts)), parts - 1);
   }
 
-  std::vector<double> heights_, reached_, densities_;
+  std::array<Real, rings + 1> heights_{};
 };
 
 }  // namespace detail
 
-/// Importance sampling of any isotropic BRDF. It holds the BRDF; give it a view where that is large.
+/// Importance sampling of any isotropic BRDF, in `float` or `double`. It holds the BRDF; give it a view where that is
+/// large. The tables take 31 KB.
 ///
 /// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
-/// sphere of directions. Some half vectors reflect the viewer below the horizon: these directions have weight 0 and are
-/// counted by pdf, as renderers expect who test it. Cosine-weighted directions are at least a tenth, so that a weight
-/// is at most 10 pi f.
-template <brdf Brdf>
+/// sphere of directions. Some half vectors, one or two in a hundred, reflect the viewer below the horizon: these
+/// directions have weight 0 and are counted by pdf, as renderers expect who test it. Cosine-weighted directions are at
+/// least a tenth, so that a weight is at most 10 pi f. How much less its estimates vary than those of cosine-weighted
+/// directions: `gonio evaluate importance-sampling`.
+template <class Brdf, std::floating_point Real = double>
+requires requires(const Brdf& f, const Eigen::Matrix<Real, 3, 1>& w) {
+  { f(w, w) }
+  noexcept->std::convertible_to<Eigen::Array<Real, 3, 1>>;
+}
 class half_vector_sampler {
  public:
-  /// Measures where the BRDF is bright: some 50,000 evaluations.
-  explicit half_vector_sampler(Brdf f) : f_(std::move(f)), distribution_(brightness_of_rings()) {
-    for (std::size_t i = 0; i < ratios_.size(); ++i)
-      ratios_[i] = best_ratio((static_cast<double>(i) + 0.5) / static_cast<double>(ratios_.size()));
+  using vector = Eigen::Matrix<Real, 3, 1>;
+
+  /// Measures where the BRDF is bright: some 150,000 evaluations.
+  explicit half_vector_sampler(Brdf f) : f_(std::move(f)), distributions_(viewers), ratios_(viewers) {
+    for (std::size_t viewer = 0; viewer < viewers; ++viewer) {
+      distributions_[viewer] = distribution_for(viewer);
+      ratios_[viewer] = best_ratio(viewer);
+    }
   }
 
   [[nodiscard]] const Brdf& brdf() const noexcept { return f_; }
 
   /// Draws a direction by two numbers from 0 up to 1. Zero weight and density if wo is not above the horizon.
-  [[nodiscard]] sampled_direction sample(const direction& wo, double u1, double u2) const noexcept {
-    if (!(wo.z() > 0.0)) return {};
-    const double ratio = ratio_of(wo);
-    sampled_direction drawn;
-    if (u1 < ratio) {  // a half vector
-      const direction h = distribution_.sample(u1 / ratio, u2);
-      drawn.wi = 2.0 * wo.dot(h) * h - wo;
-    } else {
-      drawn.wi = cosine_weighted_direction((u1 - ratio) / (1.0 - ratio), u2);
-    }
+  [[nodiscard]] basic_sampled_direction<Real> sample(const vector& wo, Real u1, Real u2) const noexcept {
+    if (!(wo.z() > 0)) return {};
+    const std::size_t viewer = viewer_of(wo);
+    const Real ratio = ratios_[viewer];
+    basic_sampled_direction<Real> drawn;
+    drawn.wi = u1 < ratio ? mirrored(wo, viewer_turn(wo).from_plane(half_vector(viewer, u1 / ratio, u2)))
+                          : cosine_weighted_direction((u1 - ratio) / (1 - ratio), u2);
     drawn.pdf = pdf(drawn.wi, wo);
-    if (drawn.wi.z() > 0.0 && drawn.pdf > 0.0) drawn.weight = f_(drawn.wi, wo) * (drawn.wi.z() / drawn.pdf);
+    if (drawn.wi.z() > 0 && drawn.pdf > 0)
+      drawn.weight = Eigen::Array<Real, 3, 1>(f_(drawn.wi, wo)) * (drawn.wi.z() / drawn.pdf);
     return drawn;
   }
 
   /// The density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
-  [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
-    if (!(wo.z() > 0.0)) return 0.0;
-    const double ratio = ratio_of(wo);
-    return ratio * half_vector_pdf(wi, wo) + (1.0 - ratio) * cosine_weighted_pdf(wi);
+  [[nodiscard]] Real pdf(const vector& wi, const vector& wo) const noexcept {
+    if (!(wo.z() > 0)) return 0;
+    const std::size_t viewer = viewer_of(wo);
+    const Real ratio = ratios_[viewer];
+    return ratio * half_vector_pdf(viewer, wi, wo) + (1 - ratio) * cosine_weighted_pdf(wi);
   }
 
   /// The share of half vectors for a viewer.
-  [[nodiscard]] double ratio_of(const direction& wo) const noexcept {
-    const auto bin = static_cast<std::size_t>(wo.z() * static_cast<double>(ratios_.size()));
-    return ratios_[std::min(bin, ratios_.size() - 1)];
-  }
+  [[nodiscard]] Real ratio_of(const vector& wo) const noexcept { return ratios_[viewer_of(wo)]; }
 
  private:
-  static constexpr std::size_t rings = 90;
+  static constexpr std::size_t viewers = 16;
+  using bins = detail::half_vector_bins<Real>;
 
-  [[nodiscard]] double half_vector_pdf(const direction& wi, const direction& wo) const noexcept {
-    direction h = wi + wo;
-    if (h.z() < 0.0) h = -h;  // the same direction is reflected by both
-    const double length = h.norm();
-    if (!(length > 0.0)) return 0.0;
-    return distribution_.pdf(h) * length / (4.0 * std::abs(wo.dot(h)));
+  /// Viewers are told apart by sqrt(1 - cos theta_o), nearly in even steps of the angle.
+  [[nodiscard]] static std::size_t viewer_of(const vector& wo) noexcept {
+    const Real place = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
+    return std::min(static_cast<std::size_t>(place), viewers - 1);
+  }
+  /// A viewer in the xz plane, `share` of the way through those of its number.
+  [[nodiscard]] static vector a_viewer(std::size_t viewer, double share) {
+    const double place = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
+    const double z = 1.0 - place * place;
+    return {static_cast<Real>(std::sqrt(1.0 - z * z)), 0, static_cast<Real>(z)};
   }
 
-  /// The mean over difference angles of f, times the cosine of the ring.
-  [[nodiscard]] std::vector<double> brightness_of_rings() const {
-    constexpr int thetas = 12, phis = 12;
-    std::vector<double> brightness;
-    for (std::size_t ring = 0; ring < rings; ++ring) {
-      const double theta_h = (detail::half_vector_distribution::border(ring, rings) +
-                              detail::half_vector_distribution::border(ring + 1, rings)) /
-                             2.0;
-      double sum = 0.0, weights = 1e-9;
-      for (int i = 0; i < thetas; ++i)
-        for (int j = 0; j < phis; ++j) {
-          const double theta_d = std::numbers::pi / 2.0 * (i + 0.5) / thetas;
-          const auto [wi, wo] = to_directions({theta_h, theta_d, std::numbers::pi * (j + 0.5) / phis});
-          if (!(wi.z() > 0.0 && wo.z() > 0.0)) continue;
-          const double weight = std::sin(2.0 * theta_d) * wi.z();
-          sum += weight * std::max(f_(wi, wo).mean(), 0.0);
-          weights += weight;
-        }
-      brightness.push_back(sum / weights * std::cos(theta_h) + 1e-6);
+  [[nodiscard]] static vector mirrored(const vector& wo, const vector& h) noexcept { return 2 * wo.dot(h) * h - wo; }
+
+  /// How far the plane of viewer and normal is turned from the xz plane: cosine and sine. A viewer on the normal is in
+  /// the xz plane.
+  struct viewer_turn {
+    Real c = 1, s = 0;
+
+    explicit viewer_turn(const vector& wo) noexcept {
+      const Real across = std::sqrt(wo.x() * wo.x() + wo.y() * wo.y());
+      if (!(across > 0)) return;
+      c = wo.x() / across;
+      s = wo.y() / across;
     }
-    return brightness;
+    [[nodiscard]] vector from_plane(const vector& h) const noexcept {
+      return {c * h.x() - s * h.y(), s * h.x() + c * h.y(), h.z()};
+    }
+    [[nodiscard]] vector to_plane(const vector& h) const noexcept {
+      return {c * h.x() + s * h.y(), c * h.y() - s * h.x(), h.z()};
+    }
+  };
+
+  /// A half vector of a viewer in the xz plane. One half of the second number's range is the right side.
+  [[nodiscard]] vector half_vector(std::size_t viewer, Real u1, Real u2) const noexcept {
+    const auto& before = distributions_[viewer];
+    const auto above = std::upper_bound(before.begin() + 1, before.end() - 1, static_cast<float>(u1));
+    const auto bin = static_cast<std::size_t>(above - before.begin()) - 1;
+    const Real first = before[bin], last = before[bin + 1];
+    const Real along = std::clamp((u1 - first) / (last - first), Real(0), Real(1));
+    const bool is_right = u2 >= Real(0.5);
+    vector h = bins_.within(bin, along, is_right ? 2 * u2 - 1 : 2 * u2);
+    if (is_right) h.y() = -h.y();
+    return h;
+  }
+
+  [[nodiscard]] Real half_vector_pdf(std::size_t viewer, const vector& wi, const vector& wo) const noexcept {
+    vector h = wi + wo;
+    if (h.z() < 0) h = -h;  // the same direction is reflected by both
+    const Real length = h.norm();
+    if (!(length > 0)) return 0;
+    const std::size_t bin = bins_.bin_of(viewer_turn(wo).to_plane(h));
+    const auto& before = distributions_[viewer];
+    const Real density = static_cast<Real>(before[bin + 1] - before[bin]) / bins_.solid_angle(bin);
+    return density * length / (4 * std::abs(wo.dot(h)));
+  }
+
+  /// The density of half vectors with which an estimate of the light from everywhere varies least: in each bin the root
+  /// of the mean square of f cos(theta_i) per solid angle of half vectors. And a little everywhere.
+  [[nodiscard]] typename bins::cumulative distribution_for(std::size_t viewer) const {
+    std::array<double, bins::count> share{};
+    double sum = 0.0;
+    for (std::size_t bin = 0; bin < bins::count; ++bin) {
+      share[bin] = brightness(viewer, bin) * static_cast<double>(bins_.solid_angle(bin));
+      sum += share[bin];
+    }
+    typename bins::cumulative before{};
+    double reached = 0.0;
+    for (std::size_t bin = 0; bin < bins::count; ++bin) {
+      before[bin] = static_cast<float>(reached);
+      const double of_all = static_cast<double>(bins_.solid_angle(bin)) / (2.0 * std::numbers::pi);
+      reached += sum > 0.0 ? (1.0 - everywhere) * share[bin] / sum + everywhere * of_all : of_all;
+    }
+    before.back() = 1.0f;
+    return before;
+  }
+
+  [[nodiscard]] double brightness(std::size_t viewer, std::size_t bin) const {
+    constexpr int side = 3, seen = 2;
+    double squares = 0.0;
+    for (int view = 0; view < seen; ++view) {
+      const vector wo = a_viewer(viewer, (view + 0.5) / seen);
+      for (int i = 0; i < side; ++i)
+        for (int j = 0; j < side; ++j) {
+          const vector h = bins_.within(bin, static_cast<Real>((i + 0.5) / side), static_cast<Real>((j + 0.5) / side));
+          const vector wi = mirrored(wo, h);
+          if (!(wi.z() > 0 && wo.dot(h) > 0)) continue;
+          const double value = mean_of(wi, wo) * 4.0 * static_cast<double>(wo.dot(h));
+          squares += value * value / (seen * side * side);
+        }
+    }
+    return std::sqrt(squares);
+  }
+
+  /// f cos(theta_i), the mean of the channels.
+  [[nodiscard]] double mean_of(const vector& wi, const vector& wo) const {
+    const Eigen::Array<Real, 3, 1> value = f_(wi, wo);
+    return std::max(static_cast<double>(value.mean()), 0.0) * static_cast<double>(wi.z());
   }
 
   /// The share of half vectors that makes the weights of a viewer vary least.
-  [[nodiscard]] double best_ratio(double cosine) const {
-    const direction wo(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
+  [[nodiscard]] Real best_ratio(std::size_t viewer) const {
+    const vector wo = a_viewer(viewer, 0.5);
     constexpr std::array ratios{0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
     std::array<double, ratios.size()> second_moment{};
     // Directions of an even mixture, stratified, each with the moments under the other ratios.
@@ -163,21 +242,24 @@ class half_vector_sampler {
     for (int i = 0; i < side; ++i)
       for (int j = 0; j < side; ++j)
         for (const bool is_cosine : {false, true}) {
-          const double u1 = (i + 0.5) / side, u2 = (j + 0.5) / side;
-          const direction h = distribution_.sample(u1, u2);
-          const direction wi = is_cosine ? cosine_weighted_direction(u1, u2) : direction(2.0 * wo.dot(h) * h - wo);
-          if (!(wi.z() > 0.0)) continue;
-          const double by_half = half_vector_pdf(wi, wo), by_cosine = cosine_weighted_pdf(wi);
-          const double value = f_(wi, wo).mean() * wi.z(), drawn = 0.5 * (by_half + by_cosine);
+          const auto u1 = static_cast<Real>((i + 0.5) / side), u2 = static_cast<Real>((j + 0.5) / side);
+          const vector wi = is_cosine ? cosine_weighted_direction(u1, u2) : mirrored(wo, half_vector(viewer, u1, u2));
+          if (!(wi.z() > 0)) continue;
+          const double by_half = half_vector_pdf(viewer, wi, wo), by_cosine = cosine_weighted_pdf(wi);
+          const double value = mean_of(wi, wo), drawn = 0.5 * (by_half + by_cosine);
           for (std::size_t r = 0; r < ratios.size(); ++r)
             second_moment[r] += value * value / (ratios[r] * by_half + (1.0 - ratios[r]) * by_cosine) / drawn;
         }
-    return ratios[static_cast<std::size_t>(std::ranges::min_element(second_moment) - second_moment.begin())];
+    return static_cast<Real>(
+        ratios[static_cast<std::size_t>(std::ranges::min_element(second_moment) - second_moment.begin())]);
   }
 
+  static constexpr double everywhere = 0.02;
+
   Brdf f_;
-  detail::half_vector_distribution distribution_;
-  std::array<double, 32> ratios_{};
+  bins bins_;
+  std::vector<typename bins::cumulative> distributions_;  ///< by viewer
+  std::vector<Real> ratios_;                              ///< by viewer
 };
 
 }  // namespace gonio

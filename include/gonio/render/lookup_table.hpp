@@ -20,11 +20,11 @@
 namespace gonio {
 
 /// How a table is read between its values: as the nearest has it, or in proportion to the eight around.
-enum class reading { nearest, trilinear };
+enum class interpolation { nearest, trilinear };
 
 /// What a table can be made of: values of the cells of a grid, such as a `brdf_table` has.
 template <class Table>
-concept tabulated_brdf = requires(const Table& table, std::size_t linear) {
+concept table_over_cells = requires(const Table& table, std::size_t linear) {
   { table.cells().grid() } -> std::convertible_to<grid>;
   { table.cells().representative(linear) } -> std::convertible_to<std::size_t>;
   { table.values()[linear] } -> std::convertible_to<double>;
@@ -32,7 +32,8 @@ concept tabulated_brdf = requires(const Table& table, std::size_t linear) {
 
 /// A number that a table can store: `Eigen::half` has eleven bits, which are three digits.
 template <class Stored>
-concept stored_value = std::same_as<Stored, float> || std::same_as<Stored, double> || std::same_as<Stored, Eigen::half>;
+concept stored_number =
+    std::same_as<Stored, float> || std::same_as<Stored, double> || std::same_as<Stored, Eigen::half>;
 
 /// Values in sr^-1 of the cells above the horizon, at least zero, times a power of two that keeps half numbers in their
 /// range; and the look-up. After construction there is no allocation, no lock and no exception, and any number of
@@ -44,12 +45,12 @@ concept stored_value = std::same_as<Stored, float> || std::same_as<Stored, doubl
 /// const auto paint = gonio::lookup_table<Eigen::half>::of(table);  // a brdf_table
 /// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
 /// ```
-template <stored_value Stored = float, reading Reading = reading::trilinear>
+template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class lookup_table {
  public:
   /// Of a `brdf_table`, or what is like one. Throws gonio::error if its values are not at its cells' centres, or one is
   /// not finite.
-  template <tabulated_brdf Table>
+  template <table_over_cells Table>
   [[nodiscard]] static lookup_table of(const Table& table) {
     const auto& values = table.values();
     return lookup_table(table.cells().grid(), [&](const cell_index& cell) {
@@ -89,7 +90,7 @@ class lookup_table {
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
     const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
     if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-    if constexpr (Reading == reading::trilinear) {
+    if constexpr (Interpolation == interpolation::trilinear) {
       return at(to_grid_coordinates(ix, iy, iz, ox, oy, oz));
     } else {
       const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
@@ -154,7 +155,7 @@ class lookup_table {
   /// The value of coordinates from 0 to 1.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> at(const grid_coordinates<Real>& place) const noexcept {
-    if constexpr (Reading == reading::nearest) {
+    if constexpr (Interpolation == interpolation::nearest) {
       return value<Real>(index_.nearest(place));
     } else {
       const trilinear_corners<Real> corners = index_.around(place);

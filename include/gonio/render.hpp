@@ -1,0 +1,18 @@
+#pragma once
+/// What a renderer needs of a measured or reconstructed BRDF, and nothing else: look-up, importance sampling, and a view
+/// that other files see without this one. Needs Eigen's Core and the standard library; no files are read, nothing is
+/// estimated. Compiles with -fno-exceptions -fno-rtti, where what is otherwise thrown ends the program. After
+/// construction nothing allocates, locks or throws, and any number of threads may read.
+/// ```cpp
+/// const auto table = gonio::lookup_table<Eigen::half>::from_merl(planes);
+/// const gonio::half_vector_sampler paint(table);
+/// const auto [wi, weight, pdf] = paint.sample(wo, u1, u2);
+/// ```
+
+#include <gonio/render/bsdf_view.hpp>
+#include <gonio/render/cell_finder.hpp>
+#include <gonio/render/component_brdf.hpp>
+#include <gonio/render/grid_coordinates.hpp>
+#include <gonio/render/half_vector_sampler.hpp>
+#include <gonio/render/horizon_index.hpp>
+#include <gonio/render/lookup_table.hpp>
