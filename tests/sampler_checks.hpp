@@ -51,11 +51,20 @@ class half_vector_chart {
     return {t, turn - std::floor(turn)};
   }
 
-  /// The integral of g(wi) over the solid angle of a box. It halves boxes both ways, twice and then until that changes
-  /// them by less than `tolerance`. It finds needles up to some 80 times as long as wide.
+  /// The integral of g(wi) over the solid angle of a box. It halves parts of the box both ways until that changes them
+  /// by less than `tolerance`. Needles, which lie along t, are found up to some 80 times as long as wide.
   template <class G>
-  [[nodiscard]] double integral(const G& g, const box& within, double tolerance) const {
-    return halved(g, within, by_gauss(g, within), tolerance, 0);
+  [[nodiscard]] double integral(const G& g, const box& b, double tolerance) const {
+    constexpr int along_t = 2, along_turn = 4;
+    double sum = 0.0;
+    for (int i = 0; i < along_t; ++i)
+      for (int j = 0; j < along_turn; ++j) {
+        const auto t = [&](int k) { return std::lerp(b.low_t, b.high_t, k / double{along_t}); };
+        const auto turn = [&](int k) { return std::lerp(b.low_turn, b.high_turn, k / double{along_turn}); };
+        const box part{t(i), t(i + 1), turn(j), turn(j + 1)};
+        sum += halved(g, part, by_gauss(g, part), tolerance, 0);
+      }
+    return sum;
   }
 
   /// That without halving, by three Gauss-Legendre points each way.
@@ -72,7 +81,7 @@ class half_vector_chart {
   }
 
  private:
-  static constexpr int least_deep = 2, deepest = 6;
+  static constexpr int deepest = 4;
 
   /// g(wi) times the solid angle of wi for each dt and turn.
   template <class G>
@@ -92,7 +101,7 @@ class half_vector_chart {
     std::array<double, 4> parts{};
     for (std::size_t i = 0; i < parts.size(); ++i) parts[i] = by_gauss(g, quarters[i]);
     const double sum = parts[0] + parts[1] + parts[2] + parts[3];
-    if (depth == deepest || (depth >= least_deep && !(std::abs(sum - whole) > tolerance))) return sum;
+    if (depth == deepest || !(std::abs(sum - whole) > tolerance)) return sum;
     double better = 0.0;
     for (std::size_t i = 0; i < parts.size(); ++i) better += halved(g, quarters[i], parts[i], tolerance, depth + 1);
     return better;

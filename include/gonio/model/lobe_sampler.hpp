@@ -125,11 +125,13 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
   }
 }
 
-/// Each lobe as often as its albedo is of the sum's.
+/// Each lobe as often as its albedo is of the sum's, and one in a hundred at least: within an interval of viewers a
+/// lobe may be brighter than in its middle.
 [[nodiscard]] inline direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes) {
   by_viewer sum{};
   for (const weighed_lobe& lobe : lobes)
     for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += lobe.albedo[at];
+  constexpr double least_share = 0.01;
   direction_mixture mixture;
   by_viewer black{};  // what reflects nothing may be drawn anyhow
   for (std::size_t at = 0; at < sum.size(); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
@@ -138,7 +140,9 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
     for (const sampling_technique& technique : lobe.techniques) {
       by_viewer shares{};
       for (std::size_t at = 0; at < sum.size(); ++at)
-        if (sum[at] > 0.0) shares[at] = technique.share * lobe.albedo[at] / sum[at];
+        if (sum[at] > 0.0)
+          shares[at] = technique.share * (lobe.albedo[at] / sum[at] + least_share) /
+                       (1.0 + least_share * static_cast<double>(lobes.size()));
       mixture.add(technique.density, shares);
     }
   return mixture;
@@ -175,7 +179,7 @@ class lobe_sampler {
     sampled_direction drawn;
     drawn.wi = mixture_.sample(wo, u1, u2);
     drawn.pdf = mixture_.pdf(drawn.wi, wo);
-    if (drawn.wi.z() > 0.0 && drawn.pdf > 0.0) drawn.weight = rgb(f_(drawn.wi, wo)) * (drawn.wi.z() / drawn.pdf);
+    if (drawn.wi.z() > 0.0 && drawn.pdf > 0.0) drawn.weight = rgb(f_(drawn.wi, wo)) * drawn.wi.z() / drawn.pdf;
     return drawn;
   }
 

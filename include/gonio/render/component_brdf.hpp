@@ -97,7 +97,7 @@ class component_brdf {
  public:
   /// `weights` is k x 3, a column for each channel. Throws gonio::error if it is not or one is not finite.
   explicit component_brdf(const shared_components<Stored>& components, const Eigen::Ref<const Eigen::MatrixXd>& weights)
-      : components_(&components), weights_(weights.size(), 0.0f) {
+      : components_(&components), weights_(static_cast<std::size_t>(weights.size()), 0.0f) {
     if (weights.rows() != static_cast<Eigen::Index>(components.size()) || weights.cols() != 3 || !weights.allFinite())
       refuse("a BRDF of " + std::to_string(components.size()) +
              " components needs as many finite weights for each of " + "3 channels, not " +
