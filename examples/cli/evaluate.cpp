@@ -25,6 +25,7 @@ void add_evaluate(CLI::App& app) {
   add_model_properties(*command);
   add_model_recovery(*command);
   add_laboratory(*command);
+  add_importance_sampling(*command);
 }
 
 }  // namespace cli

@@ -28,6 +28,7 @@ void add_models(CLI::App& evaluate);
 void add_model_properties(CLI::App& evaluate);
 void add_model_recovery(CLI::App& evaluate);
 void add_laboratory(CLI::App& evaluate);
+void add_importance_sampling(CLI::App& evaluate);
 
 /// Adds `--networks FILE`, which must be given.
 inline void add_networks_option(CLI::App& command, std::filesystem::path& networks) {

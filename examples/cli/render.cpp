@@ -3,8 +3,13 @@
 #include "command.hpp"
 #include "inputs.hpp"
 #include "pictures.hpp"
+#include "progress_bar.hpp"
+#include <gonio/render/half_vector_sampler.hpp>
+#include <gonio/render/lookup_table.hpp>
+#include <gonio/render/sampled_sphere.hpp>
 
 #include <memory>
+#include <optional>
 
 namespace cli {
 
@@ -12,28 +17,48 @@ namespace {
 
 struct render_options {
   std::vector<std::filesystem::path> tables;
-  std::filesystem::path output;
+  std::filesystem::path output, environment;
   bool slices = false;
+  int quality = 64;
+  std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
 
 void render(const render_options& options) {
+  std::optional<gonio::environment_sampler> light;
+  if (!options.environment.empty()) light.emplace(gonio::environment_map(gonio::io::read_hdr(options.environment)));
+  progress_bar bar;
+  const auto picture_of = [&](const gonio::brdf_table& table) {
+    if (options.slices) return slice_picture(table, options.threads);
+    if (!light) return sphere_picture(table, options.threads);
+    const gonio::half_vector_sampler material(gonio::lookup_table<>::of(table));
+    return gonio::render_sphere(material, *light, {.samples = options.quality, .seed = options.seed}, options.threads,
+                                bar.listener());
+  };
   std::vector<gonio::image> pictures;
-  for (const auto& path : options.tables) {
-    const auto table = gonio::io::read_merl_any(path);
-    pictures.push_back(options.slices ? slice_picture(table, options.threads) : sphere_picture(table, options.threads));
-  }
+  for (const auto& path : options.tables) pictures.push_back(picture_of(gonio::io::read_merl_any(path)));
   gonio::io::write_png(options.output, gonio::side_by_side(pictures, 8));
 }
 
 }  // namespace
 
 void add_render(CLI::App& app) {
-  auto* command = app.add_subcommand("render", "Draw tables as spheres under two lights, or as slices, side by side");
+  auto* command = app.add_subcommand(
+      "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
   command->add_option("tables", options->tables, "Tables (.binary or .binary.gz), left to right")->required();
   command->add_option("-o,--output", options->output, "Picture to write (.png)")->required();
-  command->add_flag("--slices", options->slices, "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
+  auto* slices = command->add_flag("--slices", options->slices,
+                                   "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
+  auto* environment = command->add_option("--environment", options->environment,
+                                          "Light from all around: a latitude-longitude picture (.hdr)");
+  environment->excludes(slices);
+  command
+      ->add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
+      ->check(CLI::Range(1, 1'000'000))
+      ->needs(environment)
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the samples")->needs(environment)->capture_default_str();
   add_threads_option(*command, options->threads);
   command->callback([options] { render(*options); });
 }

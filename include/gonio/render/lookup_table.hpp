@@ -15,6 +15,7 @@
 #include <concepts>
 #include <cstddef>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace gonio {
@@ -91,7 +92,7 @@ class lookup_table {
     const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
     if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
     if constexpr (Interpolation == interpolation::trilinear) {
-      return at(to_grid_coordinates(ix, iy, iz, ox, oy, oz));
+      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
     } else {
       const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
       return value<Real>(index_(cell.theta_h, cell.theta_d, cell.phi_d));
@@ -105,17 +106,21 @@ class lookup_table {
   void evaluate(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
                 const component_arrays<Real>& out) const noexcept {
     GONIO_ASSERT(wi.size() == out.size() && wo.size() == out.size());
-    grid_coordinates_block<Real> block;
-    for (std::size_t first = 0; first < out.size(); first += block.size) {
-      const std::size_t count = std::min(block.size, out.size() - first);
+    using block_type = grid_coordinates_block<Real>;
+    block_type block;
+    std::array<place_of<Real>, block_type::size> places;
+    for (std::size_t first = 0; first < out.size(); first += block_type::size) {
+      const std::size_t count = std::min(block_type::size, out.size() - first);
       block.compute(wi, wo, first, count);
-      for (std::size_t i = 0, at_pair = first; i < count; ++i, ++at_pair) {
-        Eigen::Array<Real, 3, 1> colour = at(block[i]);
-        if (!is_above_horizon(wi.x[at_pair], wi.y[at_pair], wi.z[at_pair], wo.x[at_pair], wo.y[at_pair], wo.z[at_pair]))
-          colour.setZero();
-        out.x[at_pair] = colour.x();
-        out.y[at_pair] = colour.y();
-        out.z[at_pair] = colour.z();
+      // First where to read, then the reading, so that the processor can wait for several values at once.
+      for (std::size_t i = 0; i < count; ++i) places[i] = place(block[i]);
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t n = first + i;
+        const bool is_lit = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]);
+        const Eigen::Array<Real, 3, 1> colour = value_at<Real>(places[i]) * (is_lit ? Real(1) : Real(0));
+        out.x[n] = colour.x();
+        out.y[n] = colour.y();
+        out.z[n] = colour.z();
       }
     }
   }
@@ -152,15 +157,25 @@ class lookup_table {
     for (const double value : values) values_.push_back(static_cast<Stored>(static_cast<float>(value / scale_)));
   }
 
-  /// The value of coordinates from 0 to 1.
+  /// What is read for a pair: a cell, or eight with weights.
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> at(const grid_coordinates<Real>& place) const noexcept {
+  using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::size_t, trilinear_corners<Real>>;
+
+  template <std::floating_point Real>
+  [[nodiscard]] place_of<Real> place(const grid_coordinates<Real>& coordinates) const noexcept {
+    if constexpr (Interpolation == interpolation::nearest)
+      return index_.nearest(coordinates);
+    else
+      return index_.around(coordinates);
+  }
+
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& place) const noexcept {
     if constexpr (Interpolation == interpolation::nearest) {
-      return value<Real>(index_.nearest(place));
+      return value<Real>(place);
     } else {
-      const trilinear_corners<Real> corners = index_.around(place);
       Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-      for (std::size_t k = 0; k < 8; ++k) sum += corners.weight[k] * value<Real>(corners.number[k]);
+      for (std::size_t k = 0; k < 8; ++k) sum += place.weight[k] * value<Real>(place.number[k]);
       return sum;
     }
   }

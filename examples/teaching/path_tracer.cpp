@@ -1,0 +1,178 @@
+/// A path tracer of one page: ten materials reconstructed from 20 samples each (front row) beside the truth (behind),
+/// as spheres on a floor in one environment. It uses what a renderer would: gonio/render.hpp to look a BRDF up and to
+/// sample it. The materials are those that a prior remembers; what reconstructs ten of them is learned from the others.
+/// Usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]
+
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/few_samples.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/render.hpp>
+#include <gonio/render/environment_sampler.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <random>
+
+namespace {
+
+using gonio::direction;
+using gonio::rgb;
+using material = gonio::half_vector_sampler<gonio::lookup_table<Eigen::half>>;
+
+struct sphere {
+  direction centre;
+  double radius;
+  const material* made_of;
+};
+
+/// Where a ray meets a surface.
+struct hit {
+  double distance = 1e30;
+  direction normal = direction::UnitY();
+  const material* made_of = nullptr;  // the floor has none: it is grey
+};
+
+struct scene {
+  std::vector<sphere> spheres;
+  gonio::environment_sampler light;
+
+  /// The nearest surface along a ray: a sphere, or the floor y = 0.
+  [[nodiscard]] std::optional<hit> meet(const direction& from, const direction& towards) const {
+    hit nearest;
+    for (const sphere& ball : spheres) {
+      const direction apart = from - ball.centre;
+      const double b = apart.dot(towards), inside = b * b - apart.squaredNorm() + ball.radius * ball.radius;
+      if (inside < 0.0) continue;
+      const double distance = -b - std::sqrt(inside);
+      if (distance < 1e-6 || distance > nearest.distance) continue;
+      nearest = {distance, (apart + distance * towards) / ball.radius, ball.made_of};
+    }
+    if (towards.y() < 0.0 && -from.y() / towards.y() > 1e-6 && -from.y() / towards.y() < nearest.distance)
+      nearest = {-from.y() / towards.y(), direction::UnitY(), nullptr};
+    if (nearest.distance == 1e30) return {};
+    return nearest;
+  }
+};
+
+constexpr double floor_albedo = 0.25;
+
+/// The BRDF, the density and a draw of a surface, whether it is a sphere's or the floor's.
+rgb reflectance(const hit& at, const direction& wi, const direction& wo) {
+  return at.made_of ? rgb(at.made_of->brdf()(wi, wo)) : rgb(rgb::Constant(floor_albedo * std::numbers::inv_pi));
+}
+double density(const hit& at, const direction& wi, const direction& wo) {
+  return at.made_of ? at.made_of->pdf(wi, wo) : gonio::cosine_weighted_pdf(wi);
+}
+gonio::sampled_direction draw(const hit& at, const direction& wo, double u1, double u2) {
+  if (at.made_of) return at.made_of->sample(wo, u1, u2);
+  const direction wi = gonio::cosine_weighted_direction(u1, u2);
+  return {wi, rgb::Constant(floor_albedo), gonio::cosine_weighted_pdf(wi)};
+}
+
+/// Radiance that comes from a direction: at each surface one draw of the environment and one of the material, weighted
+/// by the balance heuristic, and on along the latter.
+template <class Number>
+rgb radiance(const scene& world, direction from, direction towards, Number& number) {
+  rgb sum = rgb::Zero(), carried = rgb::Ones();
+  double density_of_ray = 0.0;  // of the camera's ray: the environment is seen as it is
+  for (int bounce = 0; bounce < 8; ++bounce) {
+    const auto met = world.meet(from, towards);
+    if (!met) {
+      const double share = bounce == 0 ? 1.0 : density_of_ray / (density_of_ray + world.light.pdf(towards));
+      return sum + carried * share * world.light.map()(towards);
+    }
+    from += met->distance * towards;
+    const gonio::surface_frame surface(met->normal);
+    const direction wo = surface.to_local(-towards);
+
+    const double u1 = number(), u2 = number(), u3 = number(), u4 = number();
+    const auto lamp = world.light.sample(u1, u2);
+    const direction wi = surface.to_local(lamp.towards);
+    if (wi.z() > 0.0 && !world.meet(from, lamp.towards))
+      sum += carried * reflectance(*met, wi, wo) * lamp.radiance * (wi.z() / (lamp.pdf + density(*met, wi, wo)));
+
+    const auto drawn = draw(*met, wo, u3, u4);
+    if (!(drawn.wi.z() > 0.0 && (drawn.weight > 0.0).any())) return sum;
+    carried *= drawn.weight;
+    density_of_ray = drawn.pdf;
+    towards = surface.to_world(drawn.wi);
+  }
+  return sum;
+}
+
+gonio::image render(const scene& world, std::size_t rows, std::size_t columns, int samples) {
+  const direction eye(0.0, 8.0, 13.0), ahead = (direction(0.0, 0.2, 0.0) - eye).normalized();
+  const direction right = direction(1.0, 0.0, 0.0), up = gonio::detail::cross_product(right, ahead).normalized();
+  gonio::image picture = gonio::uniform_image(rows, columns);
+  std::atomic<std::size_t> done = 0;
+  gonio::for_each_block(rows, 1, [&](gonio::block range) {
+    std::mt19937_64 generator(range.begin + 1);
+    auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    for (std::size_t column = 0; column < columns; ++column) {
+      rgb sum = rgb::Zero();
+      for (int i = 0; i < samples; ++i) {
+        const double x = (static_cast<double>(column) + number()) / static_cast<double>(columns) - 0.5;
+        const double y = 0.5 - (static_cast<double>(range.begin) + number()) / static_cast<double>(rows);
+        const double height = static_cast<double>(rows) / static_cast<double>(columns);
+        sum += radiance(world, eye, direction(ahead + 0.94 * x * right + 0.94 * height * y * up).normalized(), number);
+      }
+      gonio::set_pixel(picture, range.begin, column, sum / samples);
+    }
+    std::fprintf(stderr, "\r%3zu %%", 100 * ++done / rows);
+  });
+  std::fputc('\n', stderr);
+  return picture;
+}
+
+/// Truth and estimate in turn of the ten test materials of Nielsen et al. 2015.
+std::vector<material> measured_and_reconstructed(const std::filesystem::path& prior_file) {
+  const auto all = gonio::expand(gonio::io::read_prior(prior_file));
+  std::vector<std::size_t> tested, others;
+  for (std::size_t i = 0; i < all.names.size(); ++i)
+    (std::ranges::count(gonio::nielsen_test_materials(), all.names[i]) != 0 ? tested : others).push_back(i);
+  gonio::material_set learned = all.subset(others);
+  const auto metric = gonio::log_relative::to_median_of(learned);
+  const gonio::decomposition estimator{gonio::learn_pca(std::move(learned), metric, 60), gonio::tikhonov{40.0}};
+
+  std::vector<material> materials;
+  for (const std::size_t i : tested) {
+    const gonio::brdf_table truth = all.table(i);
+    gonio::sample_set samples;
+    for (const auto& angles : gonio::nielsen_directions(20)) {
+      const auto [wi, wo] = gonio::to_directions(angles);
+      samples.push_back({angles, truth(wi, wo)});
+    }
+    materials.emplace_back(gonio::lookup_table<Eigen::half>::of(truth));
+    materials.emplace_back(gonio::lookup_table<Eigen::half>::of(estimator.fit(samples).tabulate(truth.cells())));
+  }
+  return materials;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  if (count < 3)
+    throw gonio::error("usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]");
+  const int samples = count > 4 ? std::atoi(arguments[4]) : 64;
+  if (samples < 1) throw gonio::error("the samples for each pixel are a number, at least 1");
+  const auto made_of = measured_and_reconstructed(arguments[1]);
+  scene world{{},
+              gonio::environment_sampler(count > 3 ? gonio::environment_map(gonio::io::read_hdr(arguments[3]))
+                                                   : gonio::environment_map::of(gonio::formula_environment{}))};
+  for (std::size_t i = 0; i < made_of.size(); ++i)
+    world.spheres.push_back(
+        {{1.25 * (static_cast<double>(i / 2) - 4.5), 0.55, i % 2 == 0 ? -1.2 : 0.9}, 0.55, &made_of[i]});
+  gonio::io::write_png(arguments[2], render(world, 300, 1080, samples));
+} catch (const gonio::error& refused) {
+  std::fprintf(stderr, "%s\n", refused.what());
+  return 2;
+}
