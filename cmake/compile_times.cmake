@@ -1,5 +1,5 @@
-# cmake [-D COMPILER=g++] -P cmake/compile_times.cmake: the seconds that each public header costs a file that
-# includes nothing else, optimised, beside Eigen's Core.
+# cmake [-D COMPILER=g++] [-D HEADERS=gonio/render.hpp] -P cmake/compile_times.cmake: the milliseconds that each public
+# header, or each of some, costs a file that includes nothing else, optimised, beside Eigen's Core.
 cmake_minimum_required(VERSION 3.25)
 cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
 if(NOT COMPILER)
@@ -7,7 +7,11 @@ if(NOT COMPILER)
 endif()
 set(scratch "${source}/build/compile_times")
 file(MAKE_DIRECTORY "${scratch}")
-file(GLOB_RECURSE headers RELATIVE "${source}/include" "${source}/include/gonio/*.hpp")
+if(HEADERS)
+  set(headers ${HEADERS})
+else()
+  file(GLOB_RECURSE headers RELATIVE "${source}/include" "${source}/include/gonio/*.hpp")
+endif()
 foreach(header IN ITEMS Eigen/Core xtensor/xtensor.hpp LISTS headers)
   file(WRITE "${scratch}/one.cpp" "#include <${header}>\n")
   string(TIMESTAMP start "%s%f")

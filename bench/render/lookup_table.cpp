@@ -184,14 +184,8 @@ void draw_directions(benchmark::State& state) {
 }
 
 void construct_sampler(benchmark::State& state) {
-  struct view {
-    const gonio::lookup_table<>* table;
-    gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
-      return (*table)(wi, wo);
-    }
-  };
   for (auto _ : state) {
-    const gonio::half_vector_sampler material(view{&far_table<float, interpolation::trilinear>()});
+    const gonio::half_vector_sampler material(gonio::brdf_view(far_table<float, interpolation::trilinear>()));
     benchmark::DoNotOptimize(&material);
   }
 }

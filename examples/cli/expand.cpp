@@ -52,12 +52,12 @@ void add_expand(CLI::App& app) {
   for (const std::string& formula : gonio::formula_material_names()) known += (known.empty() ? "" : ", ") + formula;
   command->add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
       ->excludes(networks);
-  command->add_option("-o,--output", options->output, "Table to write (.binary)")->required();
+  command->add_option("-o,--output", options->output, "Table to write (.binary, or .npy)")->required();
   add_threads_option(*command, options->threads);
   command->callback([options] {
     if (options->formula.empty() && options->name.empty())
       throw gonio::error("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
-    gonio::io::write_merl(options->output, table_of(*options, gonio::valid_cells()));
+    write_table(options->output, table_of(*options, gonio::valid_cells()));
   });
 }
 

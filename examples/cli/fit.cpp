@@ -55,7 +55,7 @@ void fit(const fit_command_options& options) {
   if (!options.output.empty() || !options.picture.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
     const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.fit.threads);
-    if (!options.output.empty()) gonio::io::write_merl(options.output, fitted);
+    if (!options.output.empty()) write_table(options.output, fitted);
     if (!options.picture.empty()) {
       std::vector<gonio::image> pictures;
       if (table) pictures.push_back(sphere_picture(*table, options.fit.threads));
@@ -94,7 +94,7 @@ void add_fit(CLI::App& app) {
   command->add_flag("--fresnel", options->fresnel,
                     "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(*command, options->fit);
-  command->add_option("-o,--output", options->output, "The model as a table to write (.binary)");
+  command->add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
   command->add_option("--image", options->picture,
                       "Spheres of measurement (if it is a table) and model to write (.png)");
   command->add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");

@@ -4,6 +4,7 @@
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/io/table_npy.hpp>
 
 #include <algorithm>
 #include <cstdio>
@@ -66,6 +67,13 @@ void add_thin_option(CLI::App& command, thinning& thin) {
 
 gonio::sample_set read_measurements(const std::filesystem::path& path) {
   return path.extension() == ".brdf" ? gonio::io::read_cornell(path) : gonio::io::read_samples(path);
+}
+
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
+  if (path.extension() == ".npy")
+    gonio::io::write_table_npy(path, table);
+  else
+    gonio::io::write_merl(path, table);
 }
 
 void add_threads_option(CLI::App& command, gonio::thread_count& threads) {

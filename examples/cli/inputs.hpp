@@ -56,6 +56,9 @@ void add_thin_option(CLI::App& command, thinning& thin);
 /// Measurements: samples as CSV, or if the name ends in .brdf, Cornell's text format.
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path);
 
+/// Writes a table in the format that the name asks for: an array if it ends in .npy, otherwise MERL's.
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table);
+
 /// Adds `--threads N`.
 void add_threads_option(CLI::App& command, gonio::thread_count& threads);
 

@@ -101,7 +101,7 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
 void reconstruct(const reconstruct_options& options, const method& chosen) {
   const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
-  if (!options.output.empty()) gonio::io::write_merl(options.output, result.table);
+  if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(result.table, options.threads));
   if (!options.history.empty()) write_history(options.history, result.history);
   if (result.story) {
@@ -166,7 +166,7 @@ void add_reconstruct(CLI::App& app) {
           "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
           "of highlights count less then (for pictures: gonio near-field --misplaced)")
       ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Table to write (.binary)");
+  command->add_option("-o,--output", options->output, "Table to write (.binary, or .npy)");
   command->add_option("--image", options->picture, "Picture of a sphere to write (.png)");
   command->add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(*command, options->threads);

@@ -96,6 +96,7 @@
 #include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
+#include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/lin.hpp>

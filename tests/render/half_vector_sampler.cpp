@@ -35,13 +35,6 @@ const std::array seen_at{0.0, 30.0, 60.0, 80.0, 89.0};
 
 direction viewer(double theta) { return gonio::spherical_direction(gonio::radians(theta), 0.7); }
 
-/// A table that is held elsewhere.
-struct table_view {
-  const gonio::lookup_table<>* table;
-
-  rgb operator()(const direction& wi, const direction& wo) const noexcept { return (*table)(wi, wo); }
-};
-
 struct named_table {
   std::string name;
   gonio::lookup_table<> table;
@@ -93,7 +86,7 @@ TEST_CASE("half-vector sampler: ten materials, five angles: chi-square, integral
   double least_p = 1.0, worst_integral = 0.0, worst_albedo = 0.0;
   std::uint64_t seed = 1;
   for (const auto& [name, table] : ten_materials()) {
-    const table_view f{&table};
+    const gonio::brdf_view f(table);
     const half_vector_sampler sampler(f);
     for (const double theta : seen_at) {
       INFO(name << " at " << theta << " degrees");

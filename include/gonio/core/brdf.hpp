@@ -32,4 +32,21 @@ concept brdf = requires(const F& f, const direction& wi, const direction& wo) {
   noexcept->std::convertible_to<rgb>;
 };
 
+/// A BRDF that is held elsewhere, such as a table of many megabytes: two classes that need it share one. What it views
+/// must outlive it.
+template <class Brdf>
+class brdf_view {
+ public:
+  explicit brdf_view(const Brdf& f) noexcept : f_(&f) {}
+
+  /// Directions of any type that the BRDF takes.
+  template <class Direction>
+  [[nodiscard]] auto operator()(const Direction& wi, const Direction& wo) const noexcept {
+    return (*f_)(wi, wo);
+  }
+
+ private:
+  const Brdf* f_;
+};
+
 }  // namespace gonio

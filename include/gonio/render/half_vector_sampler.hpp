@@ -76,8 +76,8 @@ class half_vector_bins {
 
 }  // namespace detail
 
-/// Importance sampling of any isotropic BRDF, in `float` or `double`. It holds the BRDF; give it a view where that is
-/// large. The tables take 31 KB.
+/// Importance sampling of any isotropic BRDF, in `float` or `double`. It holds the BRDF; give it a
+/// `brdf_view` where others need it too. Its own tables take 31 KB.
 ///
 /// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
 /// sphere of directions. Some half vectors, one or two in a hundred, reflect the viewer below the horizon: these

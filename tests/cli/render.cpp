@@ -1,0 +1,81 @@
+/// gonio render in an environment, gonio evaluate importance-sampling, and tables as arrays.
+
+#include "../io/scratch.hpp"
+#include "tool.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/merl.hpp>
+#include <gonio/io/npy.hpp>
+#include <gonio/render/environment_map.hpp>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace {
+
+struct rendered_folder {
+  scratch::folder folder;
+  std::string table = (folder / "gold.binary").string(), sky = (folder / "sky.hdr").string();
+
+  rendered_folder() {
+    REQUIRE(gonio_tool("expand --formula gold-metal -o " + table).exit_code == 0);
+    gonio::io::write_hdr(sky, gonio::environment_map::of(gonio::formula_environment{}, 16).picture());
+  }
+  [[nodiscard]] std::string at(const char* name) const { return (folder / name).string(); }
+};
+
+}  // namespace
+
+TEST_CASE("gonio render --environment: a sphere among its surroundings, the same for any number of threads") {
+  const rendered_folder given;
+  const auto draw = [&](const std::string& options, const char* name) {
+    const auto result = gonio_tool("render " + given.table + " --environment " + given.sky + " --quality 2 " + options +
+                                   " -o " + given.at(name));
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    return scratch::get(given.at(name));
+  };
+  const auto one = draw("--threads 1", "one.png");
+  CHECK(one == draw("--threads 3", "two.png"));
+  CHECK(one != draw("--seed 2", "other.png"));
+  CHECK(one.size() > 50'000u);
+}
+
+TEST_CASE("gonio evaluate importance-sampling: metal gains") {
+  const rendered_folder given;
+  const auto result = gonio_tool("evaluate importance-sampling " + given.table + " --environment " + given.sky +
+                                 " --points 200 --draws 100 --json");
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  const auto ratios = nlohmann::json::parse(result.output)["gold"];
+  for (const char* light : {"white", "formula", "sky"}) CHECK(ratios[light].get<double>() > 4.0);
+  const auto table = gonio_tool("evaluate importance-sampling " + given.table + " --points 20 --draws 20");
+  CHECK(table.output.find("| gold |") != std::string::npos);
+}
+
+TEST_CASE("a table as an array of numpy") {
+  const rendered_folder given;
+  REQUIRE(gonio_tool("expand --formula gold-metal -o " + given.at("gold.npy")).exit_code == 0);
+  const auto array = gonio::io::read_npy<float, 4>(given.at("gold.npy"));
+  const auto table = gonio::io::read_merl(given.table);
+  CHECK(array.size() == 3u * 90 * 90 * 180);
+  CHECK(array(3, 40, 90, 1) == table.at(table.cells().representative(table.cells().grid().linear({3, 40, 90})))[1]);
+}
+
+TEST_CASE("bad requests of pictures in an environment") {
+  const rendered_folder given;
+  const auto refuses = [&](const std::string& arguments, const std::string& word) {
+    const auto result = gonio_tool("render " + given.table + " -o " + given.at("x.png") + " " + arguments);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find(word) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(given.at("x.png")));
+  };
+  refuses("--environment /no/such/sky.hdr", "/no/such/sky.hdr");
+  refuses("--environment " + given.sky + " --quality 0", "--quality");
+  refuses("--quality 4", "--environment");
+  refuses("--environment " + given.sky + " --slices", "--slices");
+  refuses("--environment " + given.table, "gold.binary");
+  const auto none = gonio_tool("evaluate importance-sampling");
+  CHECK(none.exit_code == 2);
+  CHECK(none.output.find("--networks") != std::string::npos);
+}
