@@ -124,7 +124,6 @@
 #include <gonio/model/torrance_sparrow.hpp>
 #include <gonio/model/ward.hpp>
 #include <gonio/render/bsdf_view.hpp>
-#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/component_brdf.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/environment_sampler.hpp>

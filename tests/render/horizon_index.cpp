@@ -4,8 +4,9 @@
 #include <doctest/doctest.h>
 
 TEST_CASE("horizon index: numbers and representatives are those of the valid cells, in a hundredth of the memory") {
-  for (const gonio::grid_extents extents : {gonio::grid_extents{}, {45, 30, 60}, {13, 7, 31}, {4, 4, 4}}) {
-    const gonio::grid cells(extents);
+  for (const gonio::grid& cells :
+       {gonio::grid(), gonio::grid({45, 30, 60}), gonio::grid({13, 7, 31}), gonio::grid({4, 4, 4}),
+        gonio::grid({45, 30, 60}, gonio::cell_anchor::lower_corner)}) {
     const gonio::valid_cells expected(cells);
     const gonio::horizon_index index(cells);
     CHECK(index.size() == expected.size());

@@ -37,8 +37,7 @@ concept log_relative_components = requires(const Basis& basis, std::size_t cell)
 template <stored_number Stored = float>
 class shared_components {
  public:
-  /// The first `count` components of a basis, or all. Throws gonio::error if it has fewer, or if its values are not at
-  /// its cells' centres. O(cells x components).
+  /// The first `count` components of a basis, or all. Throws gonio::error if it has fewer. O(cells x components).
   template <log_relative_components Basis>
   explicit shared_components(const Basis& basis, std::size_t count = SIZE_MAX)
       : index_(basis.cells().grid()),

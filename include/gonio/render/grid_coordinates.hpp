@@ -119,7 +119,7 @@ template <std::floating_point Real>
          is_small(oz);
 }
 
-/// The coordinates of a pair of directions above the horizon, within 2e-7 (`float`) or 1e-13 (`double`) of those of
+/// The coordinates of a pair of directions above the horizon, within 4e-7 (`float`) or 1e-13 (`double`) of those of
 /// `to_half_difference`, but that phi_d is 0 where the half vector is the normal. Both directions may be multiplied by
 /// the same positive factor. Four square roots and four divisions.
 template <std::floating_point Real>

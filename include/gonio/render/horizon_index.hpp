@@ -31,29 +31,23 @@ struct node_interval {
   Real share;
 };
 
-/// Before the first and behind the last node their values hold.
+/// Of a place counted in nodes. Before the first and behind the last their values hold.
 template <std::floating_point Real>
-[[nodiscard]] inline node_interval<Real> clamped_nodes(Real coordinate, int extent) noexcept {
-  const Real place =
-      std::clamp(coordinate * static_cast<Real>(extent) - Real(0.5), Real(0), static_cast<Real>(extent - 1));
-  const auto lower = static_cast<int>(place);
+[[nodiscard]] inline node_interval<Real> clamped_nodes(Real place, int extent) noexcept {
+  const Real inside = std::clamp(place, Real(0), static_cast<Real>(extent - 1));
+  const auto lower = static_cast<int>(inside);
   return {static_cast<std::size_t>(lower), static_cast<std::size_t>(std::min(lower + 1, extent - 1)),
-          place - static_cast<Real>(lower)};
+          inside - static_cast<Real>(lower)};
 }
 
-/// On an axis that wraps.
+/// On an axis that wraps; places are from -1/2 to its extent.
 template <std::floating_point Real>
-[[nodiscard]] inline node_interval<Real> periodic_nodes(Real coordinate, int extent) noexcept {
-  const Real place = coordinate * static_cast<Real>(extent) + Real(0.5);  // from 0.5 to extent + 0.5, a node too far
-  const auto upper = static_cast<int>(place);
-  return {static_cast<std::size_t>(upper == 0 ? extent - 1 : upper - 1),
-          static_cast<std::size_t>(upper < extent ? upper : 0), place - static_cast<Real>(upper)};
-}
-
-/// The cell of an axis in which a coordinate is.
-template <std::floating_point Real>
-[[nodiscard]] inline std::size_t cell_of(Real coordinate, int extent) noexcept {
-  return static_cast<std::size_t>(std::min(static_cast<int>(coordinate * static_cast<Real>(extent)), extent - 1));
+[[nodiscard]] inline node_interval<Real> periodic_nodes(Real place, int extent) noexcept {
+  const auto upper = static_cast<int>(place + 1);
+  const Real share = place + 1 - static_cast<Real>(upper);
+  if (upper == 0) return {static_cast<std::size_t>(extent - 1), 0, share};
+  const auto lower = static_cast<std::size_t>(upper > extent ? 0 : upper - 1);
+  return {lower, lower + 1 < static_cast<std::size_t>(extent) ? lower + 1 : 0, share};
 }
 
 }  // namespace detail
@@ -66,12 +60,9 @@ template <std::floating_point Real>
 class horizon_index {
  public:
   /// O(cells of the grid). Throws gonio::error if there is a theta_d and phi_d at which no cell is above the horizon,
-  /// which takes a grid with more than twice the square of theta_h's extent along theta_d, or if the values of the grid
-  /// are not at the cells' centres.
+  /// which takes a grid with more than twice the square of theta_h's extent along theta_d.
   explicit horizon_index(const gonio::grid& cells = gonio::grid())
       : grid_(cells), rows_(unsigned_of(cells.extents().theta_d)), columns_(unsigned_of(cells.extents().phi_d)) {
-    if (cells.anchor() != cell_anchor::centre)
-      refuse("a table for rendering needs a grid with values at the cells' centres");
     last_.assign(rows_ * columns_, none);
     begin_.reserve(unsigned_of(cells.extents().theta_h) * rows_);
     for_each_smaller_cosine(cells, [&](std::size_t cell, double cosine) {
@@ -98,22 +89,28 @@ class horizon_index {
     return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
   }
 
-  /// The number of the cell in which a place is.
+  /// The number of the cell whose node is nearest to a place.
   template <std::floating_point Real>
   [[nodiscard]] std::size_t nearest(const grid_coordinates<Real>& place) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
-    // The end of phi_d is its beginning.
-    const Real phi = place.phi_d < 1 ? place.phi_d : 0;
-    return (*this)(detail::cell_of(place.theta_h, heights), detail::cell_of(place.theta_d, rows),
-                   detail::cell_of(phi, columns));
+    const auto whole = [this](Real coordinate, int extent) {
+      return static_cast<int>(coordinate * static_cast<Real>(extent) + (Real(0.5) - offset<Real>()));
+    };
+    const int phi = whole(place.phi_d, columns);
+    return (*this)(unsigned_of(std::min(whole(place.theta_h, heights), heights - 1)),
+                   unsigned_of(std::min(whole(place.theta_d, rows), rows - 1)), unsigned_of(phi < columns ? phi : 0));
   }
 
   /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
   template <std::floating_point Real>
   [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
-    const auto h = detail::clamped_nodes(place.theta_h, heights), d = detail::clamped_nodes(place.theta_d, rows),
-               p = detail::periodic_nodes(place.phi_d, columns);
+    const auto nodes = [this](Real coordinate, int extent) {
+      return coordinate * static_cast<Real>(extent) - offset<Real>();
+    };
+    const auto h = detail::clamped_nodes(nodes(place.theta_h, heights), heights),
+               d = detail::clamped_nodes(nodes(place.theta_d, rows), rows),
+               p = detail::periodic_nodes(nodes(place.phi_d, columns), columns);
     trilinear_corners<Real> corners;
     for (std::size_t k = 0; k < 8; ++k) {
       const bool is_upper_h = (k & 4) != 0, is_upper_d = (k & 2) != 0, is_upper_p = (k & 1) != 0;
@@ -134,6 +131,11 @@ class horizon_index {
   static constexpr std::uint16_t none = UINT16_MAX;
 
   [[nodiscard]] static std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
+  /// Of the first node from the axis' beginning, in cells.
+  template <std::floating_point Real>
+  [[nodiscard]] Real offset() const noexcept {
+    return grid_.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
+  }
 
   [[nodiscard]] std::string sentence(std::size_t column) const {
     const auto [theta_h, theta_d, phi_d] = grid_.extents();

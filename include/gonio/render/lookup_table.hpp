@@ -5,7 +5,6 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
-#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
 
@@ -49,8 +48,7 @@ concept stored_number =
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
 class lookup_table {
  public:
-  /// Of a `brdf_table`, or what is like one. Throws gonio::error if its values are not at its cells' centres, or one is
-  /// not finite.
+  /// Of a `brdf_table`, or what is like one. Throws gonio::error if a value is not finite.
   template <table_over_cells Table>
   [[nodiscard]] static lookup_table of(const Table& table) {
     const auto& values = table.values();
@@ -91,12 +89,7 @@ class lookup_table {
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
     const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
     if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-    if constexpr (Interpolation == interpolation::trilinear) {
-      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
-    } else {
-      const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
-      return value<Real>(index_(cell.theta_h, cell.theta_d, cell.phi_d));
-    }
+    return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
   }
 
   /// Reflectance of many pairs, whose directions and results stand in arrays of equal length: several pairs at once as
@@ -133,7 +126,7 @@ class lookup_table {
  private:
   /// `value_of(cell_index)` is red, green and blue.
   template <class ValueOf>
-  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells), finder_(cells) {
+  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells) {
     const auto [heights, rows, columns] = cells.extents();
     std::vector<double> values(3 * index_.size());
     std::vector<bool> is_known(index_.size(), false);
@@ -196,7 +189,6 @@ class lookup_table {
   }
 
   horizon_index index_;
-  cell_finder<double> finder_;
   std::vector<Stored> values_;
   double scale_ = 1.0;
 };
