@@ -124,6 +124,7 @@
 #include <gonio/model/torrance_sparrow.hpp>
 #include <gonio/model/ward.hpp>
 #include <gonio/render/bsdf_view.hpp>
+#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/component_brdf.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/environment_sampler.hpp>

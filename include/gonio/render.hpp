@@ -10,6 +10,7 @@
 /// ```
 
 #include <gonio/render/bsdf_view.hpp>
+#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/component_brdf.hpp>
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/half_vector_sampler.hpp>

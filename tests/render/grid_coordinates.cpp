@@ -1,3 +1,4 @@
+#include "scattered_pairs.hpp"
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/table/valid_cells.hpp>
 
@@ -8,24 +9,10 @@
 #include <random>
 
 using gonio::direction;
+using scattered::outside;
+using scattered::scattered_pair;
 
 namespace {
-
-/// Uniform above the horizon, or close to each other's mirror direction, or to the normal, or to the horizon.
-gonio::direction_pair scattered_pair(std::mt19937_64& generator, int kind) {
-  std::uniform_real_distribution<double> uniform;
-  const auto any = [&](double lowest, double highest) {
-    const double z = lowest + (highest - lowest) * uniform(generator), azimuth = 6.3 * uniform(generator);
-    return gonio::spherical_direction(std::acos(z), azimuth);
-  };
-  direction wi = any(1e-3, 1.0), wo = any(1e-3, 1.0);
-  const double angle = 0.02 * uniform(generator), side = 6.3 * uniform(generator);
-  if (kind == 1) wo = gonio::turned({-wi.x(), -wi.y(), wi.z()}, angle, side);
-  if (kind == 2) wi = any(0.9999, 1.0);
-  if (kind == 3) wo = any(1e-6, 1e-2);
-  if (wo.z() <= 0.0) wo.z() = 1e-6;
-  return {wi, wo.normalized()};
-}
 
 template <class Real>
 gonio::grid_coordinates<Real> coordinates_of(const direction& wi, const direction& wo) {
@@ -44,9 +31,6 @@ gonio::cell_index cell_of(const gonio::grid& cells, const gonio::grid_coordinate
   return {std::min(whole(at.theta_h, h), h - 1), std::min(whole(at.theta_d, d), d - 1), whole(at.phi_d, p) % p};
 }
 
-/// How far a coordinate is from the interval of a cell, in cells.
-double outside(double coordinate, int cell) { return std::max({0.0, cell - coordinate, coordinate - (cell + 1)}); }
-
 /// The exact place may be outside of the cell that was found by so many cells.
 template <class Real>
 void check_found(int pairs, double tolerance, const gonio::grid& cells) {
@@ -62,14 +46,7 @@ void check_found(int pairs, double tolerance, const gonio::grid& cells) {
     const gonio::half_difference angles = gonio::to_half_difference(wi, wo);
     if (cell == cells.nearest(angles)) continue;
     ++neighbours;
-    const int columns = cells.extents().phi_d;
-    const double phi = cells.phi_d_coordinate(angles.phi_d) + 0.5;
-    const double off_phi =
-        std::min(outside(phi, cell.phi_d), outside(phi < 1.0 ? phi + columns : phi - columns, cell.phi_d));
-    // How much phi_d is worth shrinks with the difference vector's length, as it does where directions are equal.
-    worst = std::max({worst, outside(cells.theta_h_coordinate(angles.theta_h) + 0.5, cell.theta_h),
-                      outside(cells.theta_d_coordinate(angles.theta_d) + 0.5, cell.theta_d),
-                      off_phi * std::sin(angles.theta_d) * std::sin(angles.theta_h)});
+    worst = std::max(worst, outside(cells, cell, angles));
   }
   MESSAGE(neighbours << " of " << pairs << " pairs are in a neighbour of their cell, by at most " << worst << " cells");
   CHECK(worst < tolerance);

@@ -5,6 +5,7 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
+#include <gonio/render/cell_finder.hpp>
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
 
@@ -89,7 +90,12 @@ class lookup_table {
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
     const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
     if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-    return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
+    if constexpr (Interpolation == interpolation::trilinear) {
+      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
+    } else {
+      const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
+      return value<Real>(index_(cell.theta_h, cell.theta_d, cell.phi_d));
+    }
   }
 
   /// Reflectance of many pairs, whose directions and results stand in arrays of equal length: several pairs at once as
@@ -126,7 +132,7 @@ class lookup_table {
  private:
   /// `value_of(cell_index)` is red, green and blue.
   template <class ValueOf>
-  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells) {
+  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells), finder_(cells) {
     const auto [heights, rows, columns] = cells.extents();
     std::vector<double> values(3 * index_.size());
     std::vector<bool> is_known(index_.size(), false);
@@ -189,6 +195,7 @@ class lookup_table {
   }
 
   horizon_index index_;
+  cell_finder<double> finder_;
   std::vector<Stored> values_;
   double scale_ = 1.0;
 };
