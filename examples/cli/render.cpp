@@ -20,6 +20,7 @@ struct render_options {
   std::filesystem::path output, environment;
   bool slices = false;
   int quality = 64;
+  double white = 0.4;
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -32,8 +33,8 @@ void render(const render_options& options) {
     if (options.slices) return slice_picture(table, options.threads);
     if (!light) return sphere_picture(table, options.threads);
     const gonio::half_vector_sampler material(gonio::lookup_table<>::of(table));
-    return gonio::render_sphere(material, *light, {.samples = options.quality, .seed = options.seed}, options.threads,
-                                bar.listener());
+    const gonio::sampled_sphere_view view{.samples = options.quality, .seed = options.seed, .white = options.white};
+    return gonio::render_sphere(material, *light, view, options.threads, bar.listener());
   };
   std::vector<gonio::image> pictures;
   for (const auto& path : options.tables) pictures.push_back(picture_of(gonio::io::read_merl_any(path)));
@@ -56,6 +57,11 @@ void add_render(CLI::App& app) {
   command
       ->add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
       ->check(CLI::Range(1, 1'000'000))
+      ->needs(environment)
+      ->capture_default_str();
+  command
+      ->add_option("--white", options->white, "Exposure: the mean luminance that a white Lambertian sphere would have")
+      ->check(CLI::PositiveNumber)
       ->needs(environment)
       ->capture_default_str();
   command->add_option("--seed", options->seed, "Seed of the samples")->needs(environment)->capture_default_str();

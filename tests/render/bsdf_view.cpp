@@ -5,6 +5,7 @@
 #endif
 
 #include <gonio/model/formula_materials.hpp>
+#include <gonio/model/lobe_sampler.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 
 #include <doctest/doctest.h>
@@ -14,6 +15,10 @@
 using gonio::bsdf_view;
 
 namespace {
+
+using gold_sampler = gonio::lobe_sampler<gonio::formula_brdf>;
+static_assert(std::is_constructible_v<bsdf_view, const gold_sampler&>);
+static_assert(!std::is_constructible_v<bsdf_view, gold_sampler>);  // a view of what is gone
 
 template <class Real>
 struct gold_in {
@@ -41,6 +46,7 @@ TEST_CASE("bsdf view: it says what the material behind it says, in float or doub
   };
   check(gonio::half_vector_sampler<gold_in<double>, double>({}));
   check(gonio::half_vector_sampler<gold_in<float>, float>({}));
+  check(gonio::lobe_sampler(gonio::formula_material("gold-metal")));
 }
 
 TEST_CASE("bsdf view: below the horizon and without a number it is black") {

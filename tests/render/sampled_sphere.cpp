@@ -58,4 +58,6 @@ TEST_CASE("sampled sphere: around it is the environment, if it is to be shown") 
   CHECK((gonio::pixel(without, 0, 0) == 0.0).all());
   CHECK(told.size() == 8u);
   CHECK(told.back() == 1.0);
+  const auto darker = gonio::render_sphere(sampler, light, {.size = 8, .samples = 1, .white = 0.25});
+  CHECK(gonio::pixel(darker, 4, 4).x() == doctest::Approx(0.25 * gonio::pixel(with, 4, 4).x()));
 }

@@ -165,6 +165,8 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
 template <brdf Brdf>
 class lobe_sampler {
  public:
+  using vector = direction;
+
   explicit lobe_sampler(Brdf f) : f_(std::move(f)) {
     std::vector<detail::weighed_lobe> lobes;
     detail::weigh_lobes(f_, lobes);

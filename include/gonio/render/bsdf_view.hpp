@@ -1,14 +1,15 @@
 #pragma once
 /// A material as a renderer asks for it: `eval`, `eval_pdf` and `sample`, by numbers of the standard library alone.
-/// This header needs no other, so that a renderer's own files need neither Eigen nor the rest of the library: one file
-/// makes the material, the others see a `bsdf_view`. docs/embedding.md has recipes for pbrt-v4, Mitsuba 3 and Cycles.
+/// This header needs no other and compiles as C++17, too, so that a renderer's own files need neither Eigen nor the
+/// rest of the library: one file makes the material, the others see a `bsdf_view`. docs/embedding.md has recipes for
+/// pbrt-v4, Mitsuba 3 and Cycles.
 
 #include <array>
 
 namespace gonio {
 
-/// Any material that samples itself, such as `half_vector_sampler`, behind three functions. A view of two pointers'
-/// size and three functions: what it views must outlive it. It does not allocate, lock or throw.
+/// Any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`, behind three functions. A view of
+/// two pointers' size and three functions: what it views must outlive it. It does not allocate, lock or throw.
 ///
 /// All directions are unit vectors that point away from the surface, in its local frame, whose z axis is the normal: wi
 /// towards the light, wo towards the viewer. Values are linear Rec. 709 (sRGB without its curve), in sr^-1.
@@ -31,6 +32,9 @@ class bsdf_view {
         eval_(&value_of<Sampler>),
         eval_pdf_(&density_of<Sampler>),
         sample_(&drawn_from<Sampler>) {}
+  /// A material that ends with the statement cannot be viewed.
+  template <class Sampler>
+  explicit bsdf_view(const Sampler&&) = delete;
 
   /// f, without the cosine. Black below the horizon, and where a number is none.
   [[nodiscard]] colour eval(const vector& wi, const vector& wo) const noexcept { return eval_(material_, wi, wo); }

@@ -27,6 +27,7 @@ struct sampled_sphere_view {
   int size = 256;                 ///< rows and columns of the picture
   int samples = 64;               ///< of the BRDF, and as many of the environment, for each pixel
   std::uint64_t seed = 1;         ///< decides all draws
+  double white = 1.0;             ///< the mean luminance that a white Lambertian sphere would have
   bool shows_environment = true;  ///< around the sphere; otherwise black
 };
 
@@ -110,9 +111,9 @@ void add_sample(seen_light& seen, const Sampler& material, const environment_sam
 
 }  // namespace detail
 
-/// A picture of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have
-/// mean luminance 1. The material samples itself and has its BRDF as `brdf()`, such as `half_vector_sampler`. Same
-/// bytes for any number of threads. O(pixels x samples).
+/// A picture of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have the
+/// mean luminance `view.white`. The material samples itself and has its BRDF as `brdf()`, such as
+/// `half_vector_sampler`. Same bytes for any number of threads. O(pixels x samples).
 template <direction_sampler Sampler>
 [[nodiscard]] image render_sphere(const Sampler& material, const environment_sampler& light,
                                   const sampled_sphere_view& view = {}, thread_count threads = {},
@@ -146,7 +147,7 @@ template <direction_sampler Sampler>
     all.white += row.white;
     all.covered += row.covered;
   }
-  const double exposure = all.white > 0.0 ? static_cast<double>(all.covered) / all.white : 1.0;
+  const double exposure = all.white > 0.0 ? view.white * static_cast<double>(all.covered) / all.white : 1.0;
   for (float& value : picture) value = static_cast<float>(value * exposure);
   return picture;
 }
