@@ -8,8 +8,8 @@
 
 namespace gonio {
 
-/// Any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`, behind three functions. A view of
-/// two pointers' size and three functions: what it views must outlive it. It does not allocate, lock or throw.
+/// Any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`, behind three functions: a view of
+/// four pointers. What it views must outlive it. It does not allocate, lock or throw.
 ///
 /// All directions are unit vectors that point away from the surface, in its local frame, whose z axis is the normal: wi
 /// towards the light, wo towards the viewer. Values are linear Rec. 709 (sRGB without its curve), in sr^-1.
