@@ -147,6 +147,11 @@ TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
     CHECK(relative_difference(from_formula(wi, wo), table(wi, wo)) < 1e-6);
     CHECK(relative_difference(from_planes(wi, wo), table(wi, wo)) < 1e-6);
   }
+  // Doubles stay doubles.
+  planes[0] = 1500.0 * (1.0 + 1e-12);
+  const auto [wi, wo] = gonio::to_directions(coarse.angles({0, 0, 0}));
+  CHECK(lookup_table<double, interpolation::nearest>::from_merl(planes, coarse)(wi, wo)[0] ==
+        doctest::Approx(1.0 + 1e-12).epsilon(1e-15));
   planes.pop_back();
   CHECK_THROWS_WITH_AS(lookup_table<float>::from_merl(planes, coarse),
                        "three planes of 81000 values were expected of a MERL table, not 242999 values", gonio::error);

@@ -59,8 +59,9 @@ class lookup_table {
     });
   }
 
-  /// Of what a MERL file holds after its header: three planes in the file's scale. Throws gonio::error if they do not
-  /// have the grid's size.
+  /// Of what a MERL file holds after its header: three planes in the file's scale. Negative values, by which a file
+  /// marks cells without one, are black. Throws gonio::error if the planes do not have the grid's size or a value is
+  /// not finite.
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes,
                                               const gonio::grid& cells = gonio::grid()) {
     const std::size_t plane = cells.size();
@@ -145,7 +146,7 @@ class lookup_table {
           is_known[number] = true;
           const std::array<double, 3> value = value_of(cell_index{h, d, p});
           for (std::size_t channel = 0; channel < 3; ++channel) {
-            if (!std::isfinite(value[channel]))
+            if (!std::isfinite(static_cast<float>(value[channel])))
               refuse("a table for rendering is not finite at theta_h " + std::to_string(h) + ", theta_d " +
                      std::to_string(d) + ", phi_d " + std::to_string(p));
             values[3 * number + channel] = std::max(value[channel], 0.0);
@@ -153,7 +154,7 @@ class lookup_table {
         }
     scale_ = scale_of(values);
     values_.reserve(values.size());
-    for (const double value : values) values_.push_back(static_cast<Stored>(static_cast<float>(value / scale_)));
+    for (const double value : values) values_.push_back(static_cast<Stored>(value / scale_));
   }
 
   /// What is read for a pair: a cell, or eight with weights.
@@ -169,12 +170,12 @@ class lookup_table {
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& place) const noexcept {
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& where) const noexcept {
     if constexpr (Interpolation == interpolation::nearest) {
-      return value<Real>(place);
+      return value<Real>(where);
     } else {
       Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-      for (std::size_t k = 0; k < 8; ++k) sum += place.weight[k] * value<Real>(place.number[k]);
+      for (std::size_t k = 0; k < 8; ++k) sum += where.weight[k] * value<Real>(where.number[k]);
       return sum;
     }
   }
