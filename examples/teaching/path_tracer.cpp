@@ -111,7 +111,7 @@ rgb radiance(const scene& world, direction from, direction towards, Number& numb
 
 gonio::image render(const scene& world, std::size_t rows, std::size_t columns, int samples) {
   const direction eye(0.0, 8.0, 13.0), ahead = (direction(0.0, 0.2, 0.0) - eye).normalized();
-  const direction right = direction(1.0, 0.0, 0.0), up = gonio::detail::cross_product(right, ahead).normalized();
+  const direction right = direction(1.0, 0.0, 0.0), up = right.cross(ahead).normalized();
   gonio::image picture = gonio::uniform_image(rows, columns);
   std::atomic<std::size_t> done = 0;
   gonio::for_each_block(rows, 1, [&](gonio::block range) {
