@@ -131,6 +131,28 @@ void one_by_one_near(benchmark::State& state) {
   look_up_all<Real>(state, table);
 }
 
+/// The nearest value by polynomials, as many at once are found, for one pair after the other.
+class polynomial_lookup {
+ public:
+  polynomial_lookup() : values_(3 * index_.size(), 0.5f) {}
+
+  Eigen::Array3f operator()(const Eigen::Vector3f& wi, const Eigen::Vector3f& wo) const {
+    const std::size_t cell = index_.nearest(gonio::to_grid_coordinates(wi.x(), wi.y(), wi.z(), wo.x(), wo.y(), wo.z()));
+    return {values_[3 * cell], values_[3 * cell + 1], values_[3 * cell + 2]};
+  }
+
+  [[nodiscard]] std::size_t memory() const { return values_.size() * sizeof(float) + index_.memory(); }
+
+ private:
+  gonio::horizon_index index_;
+  std::vector<float> values_;
+};
+
+void one_by_one_by_polynomials(benchmark::State& state) {
+  static const polynomial_lookup table;
+  look_up_all<float>(state, table);
+}
+
 template <class Table, class Real>
 void evaluate_all(benchmark::State& state, const Table& table) {
   const auto& all = pairs<Real>();
@@ -195,6 +217,7 @@ constexpr auto nearest = interpolation::nearest, trilinear = interpolation::tril
 BENCHMARK(with_arc_functions);
 BENCHMARK(one_by_one<float, nearest, double>);
 BENCHMARK(one_by_one<float, nearest, float>);
+BENCHMARK(one_by_one_by_polynomials);
 BENCHMARK(one_by_one_near<float, nearest, float>);
 BENCHMARK(one_by_one<Eigen::half, nearest, float>);
 BENCHMARK(many_at_once<float, nearest, float>);
