@@ -112,6 +112,18 @@ TEST_CASE("half-vector sampler: ten materials, five angles: chi-square, integral
                 << worst_albedo << " standard errors");
 }
 
+TEST_CASE("half-vector sampler: much less variance than cosine-weighted directions have where the surface shines") {
+  const shiny metal{0.02, 20.0, 1000.0};
+  const half_vector_sampler sampler(metal);
+  double variance = 0.0, variance_of_cosines = 0.0;
+  for (const double theta : seen_at) {
+    variance += sampler_checks::albedo_by_sampling(sampler, viewer(theta), 40'000, 9).variance;
+    variance_of_cosines += sampler_checks::albedo_by_cosine(metal, viewer(theta), 40'000, 9).variance;
+  }
+  MESSAGE("variance of cosines " << variance_of_cosines / variance << " times ours");
+  CHECK(variance < variance_of_cosines / 4.0);
+}
+
 TEST_CASE("half-vector sampler: in float it draws what it draws in double") {
   struct in_float {
     shiny f;
