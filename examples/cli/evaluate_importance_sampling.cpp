@@ -30,7 +30,7 @@ struct named_light {
   gonio::environment_sampler light;
 };
 
-using material = gonio::half_vector_sampler<gonio::lookup_table<>>;
+using sampled_material = gonio::half_vector_sampler<gonio::lookup_table<>>;
 
 std::vector<named_light> lights_of(const sampling_options& options) {
   std::vector<named_light> lights;
@@ -51,8 +51,8 @@ struct variances {
 /// At a point of the sphere. The variance of f L cos / pdf is the integral of its square times pdf, less the square of
 /// its mean. Both integrals are estimated with draws by the environment and by the material, in equal shares, the same
 /// for both kinds: drawn by either kind alone, a small lamp would be missed and the table be one of chance.
-variances variances_at(const gonio::surface_frame& surface, const material& f, const gonio::environment_sampler& light,
-                       std::size_t draws, std::mt19937_64& generator) {
+variances variances_at(const gonio::surface_frame& surface, const sampled_material& f,
+                       const gonio::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
   const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   const gonio::direction wo = surface.to_local(gonio::direction::UnitZ());
   variances squares;
@@ -73,7 +73,8 @@ variances variances_at(const gonio::surface_frame& surface, const material& f, c
 }
 
 /// The ratio of the mean variances over the points of a sphere that the camera sees.
-double ratio_of_variances(const material& f, const gonio::environment_sampler& light, const sampling_options& options) {
+double ratio_of_variances(const sampled_material& f, const gonio::environment_sampler& light,
+                          const sampling_options& options) {
   std::mt19937_64 generator(options.seed);
   const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   variances sum;
@@ -117,7 +118,7 @@ void run_sampling(const sampling_options& options) {
   gonio::for_each_block(
       tables.size(), 1,
       [&](gonio::block range) {
-        const material sampler(gonio::lookup_table<>::of(tables[range.begin].table));
+        const sampled_material sampler(gonio::lookup_table<>::of(tables[range.begin].table));
         for (std::size_t i = 0; i < lights.size(); ++i)
           ratios[range.begin][i] = ratio_of_variances(sampler, lights[i].light, options);
         const std::scoped_lock lock(reporting);
