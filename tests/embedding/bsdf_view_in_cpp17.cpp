@@ -1,7 +1,7 @@
 #include <gonio/render/bsdf_view.hpp>
 
-#if __cplusplus >= 202002L
-#error "this test is about C++17"
+#if __cplusplus >= 202002L || defined(EIGEN_CORE_H)
+#error "this test is about C++17 and the standard library alone"
 #endif
 
 float brightness(const gonio::bsdf_view& material, const gonio::bsdf_view::vector& wo);

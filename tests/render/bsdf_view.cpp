@@ -1,11 +1,6 @@
-// First and alone: it must need nothing but the standard library.
-#include <gonio/render/bsdf_view.hpp>
-#ifdef EIGEN_CORE_H
-#error "bsdf_view.hpp includes Eigen"
-#endif
-
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/model/lobe_sampler.hpp>
+#include <gonio/render/bsdf_view.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 
 #include <doctest/doctest.h>
