@@ -1,5 +1,5 @@
-#include "made_up_materials.hpp"
-#include "sampler_checks.hpp"
+#include "../made_up_materials.hpp"
+#include "../sampler_checks.hpp"
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/render/component_brdf.hpp>
 #include <gonio/render/half_vector_sampler.hpp>

@@ -1,4 +1,4 @@
-#include "sampler_checks.hpp"
+#include "../sampler_checks.hpp"
 #include <gonio/render/environment_sampler.hpp>
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "sampler_checks.hpp"
+#include "../sampler_checks.hpp"
 #include <gonio/evaluate/few_samples.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/model/formula_materials.hpp>
