@@ -39,8 +39,11 @@ TEST_CASE("slopes are exact: those of central differences, for every kind") {
         down[i] -= step;
         // Lafortune's scale bends at the mirror direction.
         if (kind->name() == "lafortune" && std::abs(std::abs(parameters[0]) - pi / 4) < 1e-3) continue;
+        const auto [least, most] = std::minmax({kind->value(at, up), kind->value(at, down)});
+        // At its end a lobe of an exponent below 1 is as steep as one likes: differences say nothing.
+        if (most > 1.05 * least) continue;
         const double difference = (kind->value(at, up) - kind->value(at, down)) / (2.0 * step);
-        const double around = std::max(kind->value(at, up), kind->value(at, down)) / std::abs(parameters[i]);
+        const double around = most / std::abs(parameters[i]);
         RC_ASSERT(std::abs(slopes[i] - difference) <= 1e-5 * (std::abs(difference) + around) + 1e-12);
       }
     }));
