@@ -57,6 +57,10 @@ class active_set {
     settle();
     update_descent();
     look_for_entering();
+    if (entering_ >= 0) return;
+    // Of columns that depend on each other but for rounding so many may have left that one of them is needed again.
+    barred_.assign(barred_.size(), false);
+    choose_entering();
   }
 
   /// Lets one column enter and settles.
