@@ -1,7 +1,7 @@
 #pragma once
-/// What a renderer needs of a measured or reconstructed BRDF, and nothing else: look-up, importance sampling, and a view
-/// that other files see without this one. Needs Eigen's Core and the standard library; no files are read, nothing is
-/// estimated. Compiles with -fno-exceptions -fno-rtti, where what is otherwise thrown ends the program. After
+/// What a renderer needs of a measured or reconstructed BRDF, and nothing else: look-up, importance sampling, and a
+/// view that other files see without this one. Needs Eigen's Core and the standard library; no files are read, nothing
+/// is estimated. Compiles with -fno-exceptions -fno-rtti, where what is otherwise thrown ends the program. After
 /// construction nothing allocates, locks or throws, and any number of threads may read.
 /// ```cpp
 /// const auto table = gonio::lookup_table<Eigen::half>::from_merl(planes);
