@@ -46,7 +46,6 @@ struct merl_options {
 
 namespace detail {
 
-inline constexpr std::array<double, 3> merl_scale{1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 inline constexpr double merl_empty = -1.0;
 inline constexpr std::size_t merl_header_size = 3 * sizeof(std::int32_t);
 
@@ -178,7 +177,7 @@ namespace detail {
   for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
     const std::size_t linear = table.cells().linear(cell);
     for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double value = planes(channel, linear) * detail::merl_scale[channel];
+      const double value = planes(channel, linear) * merl_scale[channel];
       if (!(std::abs(value) <= double{std::numeric_limits<float>::max()}))
         detail::refuse_cell(name, cells, linear, channel, value);
       values[3 * cell + channel] = static_cast<float>(value);
@@ -207,7 +206,7 @@ inline void write_merl(const std::filesystem::path& path, const brdf_table& tabl
         const double value = double{table.values()[3 * cell + channel]};
         const std::size_t linear = table.cells().linear(cell);
         if (!std::isfinite(value)) detail::refuse_cell(path.string(), cells, linear, channel, value);
-        plane[linear] = value / detail::merl_scale[channel];
+        plane[linear] = value / merl_scale[channel];
       }
       file.write(std::as_bytes(std::span(plane)));
     }

@@ -68,7 +68,7 @@ class horizon_index {
     for_each_smaller_cosine(cells, [&](std::size_t cell, double cosine) {
       const std::size_t phi = cell % columns_, row = cell / columns_;
       if (phi == 0) begin_.push_back(size_);
-      if (!(cosine > 1e-9)) return;  // on the horizon, up to rounding
+      if (!(cosine > horizon_cosine)) return;
       if (row_of_last_ != row) begin_.back() = size_ - static_cast<std::uint32_t>(phi);
       row_of_last_ = row;
       last_[row % rows_ * columns_ + phi] = static_cast<std::uint16_t>(row / rows_);

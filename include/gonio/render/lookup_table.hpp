@@ -70,8 +70,8 @@ class lookup_table {
              std::to_string(planes.size()) + " values");
     return lookup_table(cells, [&](const cell_index& cell) {
       const std::size_t at = cells.linear(cell);
-      return std::array<double, 3>{planes[at] / 1500.0, planes[plane + at] * (1.15 / 1500.0),
-                                   planes[2 * plane + at] * (1.66 / 1500.0)};
+      return std::array<double, 3>{planes[at] * merl_scale[0], planes[plane + at] * merl_scale[1],
+                                   planes[2 * plane + at] * merl_scale[2]};
     });
   }
 

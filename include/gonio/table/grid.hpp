@@ -7,6 +7,7 @@
 #include <gonio/core/error.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <compare>
 #include <cstddef>
@@ -15,6 +16,13 @@
 #include <vector>
 
 namespace gonio {
+
+/// A value of a MERL file times this is reflectance in sr^-1: red, green and blue.
+inline constexpr std::array<double, 3> merl_scale{1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+
+/// Cosines up to this size are those of directions on the horizon, up to rounding: whether the cosine of a node there
+/// comes out as 1e-17 or -1e-17 depends on the compiler.
+inline constexpr double horizon_cosine = 1e-9;
 
 /// Where in its cell a table's value was taken.
 enum class cell_anchor { centre, lower_corner };

@@ -23,7 +23,7 @@ namespace gonio {
 class valid_cells {
  public:
   /// Cosines up to this size are those of directions on the horizon, up to rounding.
-  static constexpr double horizon = 1e-9;
+  static constexpr double horizon = horizon_cosine;
 
   /// O(cells of the grid). Throws gonio::error if no cell is valid.
   explicit valid_cells(const gonio::grid& grid = gonio::grid(), double minimum_cosine = 0.0)
