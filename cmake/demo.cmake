@@ -6,7 +6,7 @@ cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
 set(results "${source}/build/demo-results")
 
 gonio_set_up(g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev
-             nlohmann-json3-dev)
+             nlohmann-json3-dev libdlib-dev libnanoflann-dev)
 
 message("-- Building the gonio tool")
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)

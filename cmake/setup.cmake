@@ -14,6 +14,8 @@ set(gonio_packages
   "libstb-dev          header  stb/stb_image_write.h"
   "libcli11-dev        header  CLI/CLI.hpp"
   "nlohmann-json3-dev  header  nlohmann/json.hpp"
+  "libdlib-dev         header  dlib/optimization/max_cost_assignment.h"
+  "libnanoflann-dev    header  nanoflann.hpp"
   "doctest-dev         header  doctest/doctest.h"
   "librapidcheck-dev   header  rapidcheck.h"
   "libbenchmark-dev    header  benchmark/benchmark.h")

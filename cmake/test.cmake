@@ -14,7 +14,7 @@ endif()
 
 set(build_packages
   g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev
-  nlohmann-json3-dev doctest-dev librapidcheck-dev libbenchmark-dev)
+  nlohmann-json3-dev libdlib-dev libnanoflann-dev doctest-dev librapidcheck-dev libbenchmark-dev)
 set(gcc_packages ${build_packages})
 set(clang_packages ${build_packages} clang-19 libclang-rt-19-dev)
 set(format_packages clang-format-14)

@@ -17,6 +17,7 @@ void add_compare(CLI::App& app);
 void add_render(CLI::App& app);
 void add_info(CLI::App& app);
 void add_lab(CLI::App& app);
+void add_shape(CLI::App& app);
 void add_evaluate(CLI::App& app);
 
 }  // namespace cli

@@ -35,6 +35,7 @@ int main(int argc, char** argv) {
   cli::add_render(app);
   cli::add_info(app);
   cli::add_lab(app);
+  cli::add_shape(app);
   cli::add_evaluate(app);
   try {
     app.parse(argc, argv);

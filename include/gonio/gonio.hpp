@@ -81,6 +81,7 @@
 #include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
@@ -165,6 +166,7 @@
 #include <gonio/solve/truncated_svd.hpp>
 #include <gonio/solve/working_set.hpp>
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/domain.hpp>
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>
 #include <gonio/table/location.hpp>

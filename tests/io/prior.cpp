@@ -105,13 +105,7 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   const auto encode = [](auto&& fill) {
     io::byte_writer payload;
     fill(payload);
-    io::byte_writer file;
-    file.put_all(std::span<const char>(io::detail::prior_magic));
-    file.put(io::detail::prior_version);
-    file.put(std::uint64_t{payload.bytes().size()});
-    file.put(io::detail::checksum(payload.bytes()));
-    file.put_all(std::span<const std::byte>(io::compress_bytes(payload.bytes())));
-    return std::vector<std::byte>(file.bytes().begin(), file.bytes().end());
+    return io::encode_checked(io::detail::prior_kind, payload.bytes());
   };
   const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components,
                          int padding = 100) {

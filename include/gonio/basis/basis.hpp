@@ -2,6 +2,7 @@
 /// The concept of a basis: functions over the cells of a grid, already mapped by an error metric.
 
 #include <gonio/metric/error_metric.hpp>
+#include <gonio/table/domain.hpp>
 
 #include <Eigen/Core>
 
@@ -14,12 +15,13 @@
 
 namespace gonio {
 
-/// What every basis has: `size()` functions over `cells()`; a BRDF is modelled at a place, in the domain of `metric()`,
-/// as offset + row . weights, where the row holds the values of all functions there.
+/// What every basis has: `size()` functions over `cells()`; a BRDF is modelled at a place, mapped by `metric()`, as
+/// offset + row . weights, where the row holds the values of all functions there. What is modelled over another domain
+/// than the cells of a grid, as shapes are over coordinates, is so in the same way.
 template <class Basis>
 concept function_set = requires(const Basis& functions, std::size_t cell) {
   { functions.size() } -> std::convertible_to<std::size_t>;
-  { functions.cells() } -> std::convertible_to<const valid_cells&>;
+  requires domain<std::remove_cvref_t<decltype(functions.cells())>>;
   { functions.offset(cell) } -> std::convertible_to<double>;
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
@@ -87,9 +89,13 @@ concept channelwise_basis = requires(const Basis& functions, std::size_t channel
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
 };
 
-/// What an estimator takes: one basis for all three channels, or one for each.
+/// What an estimator takes: one basis for all channels, or one for each of three.
 template <class Basis>
 concept colour_basis = basis<Basis> || channelwise_basis<Basis>;
+
+/// What the functions of a basis are functions of.
+template <colour_basis Basis>
+using domain_of = std::remove_cvref_t<decltype(std::declval<const Basis&>().cells())>;
 
 /// The basis of one colour channel.
 template <colour_basis Basis>

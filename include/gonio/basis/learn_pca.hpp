@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
 #include <limits>
 
 namespace gonio {
@@ -15,8 +16,8 @@ namespace gonio {
 namespace detail {
 
 /// Maps every value by the metric and takes the mean of each row away, in place. Returns the means.
-template <error_metric Metric>
-[[nodiscard]] std::vector<float> map_and_centre(material_set& materials, const Metric& metric, thread_count threads) {
+template <observation_set Set, error_metric Metric>
+[[nodiscard]] std::vector<float> map_and_centre(Set& materials, const Metric& metric, thread_count threads) {
   std::vector<float> mean(materials.cells.size());
   for_each_block(
       mean.size(), 1024,
@@ -63,15 +64,16 @@ template <class Derived>
 /// fewer where the rest is rounding (centring always costs one). The set is consumed: its 4 bytes per value
 /// are mapped in place, and the result takes 4 bytes per cell and component more.
 /// O(cells m^2), deterministic for any number of threads. Throws gonio::error for fewer than two
-/// observations or a value that is not finite, before mapping or after.
+/// observations or a value that is not finite, before mapping or after. Other things than materials are learned from
+/// in the same way: shapes, in shape/shape_model.hpp.
 ///
 /// ```cpp
 /// const auto metric = gonio::log_relative::to_median_of(materials);
 /// const auto prior = gonio::learn_pca(std::move(materials), metric, 60);
 /// ```
-template <error_metric Metric>
-[[nodiscard]] pca<Metric> learn_pca(material_set materials, const Metric& metric, std::size_t components,
-                                    thread_count threads = {}, const progress& listener = {}) {
+template <observation_set Set, error_metric Metric>
+[[nodiscard]] pca<Metric, domain_of_set<Set>> learn_pca(Set materials, const Metric& metric, std::size_t components,
+                                                        thread_count threads = {}, const progress& listener = {}) {
   if (components == 0) throw error("at least one principal component must be kept");
   require_complete(materials);
   report(listener, "mapping", 0.0);
@@ -80,7 +82,9 @@ template <error_metric Metric>
   report(listener, "gram", 0.0);
   const Eigen::MatrixXd products = gram(materials.values, threads);
   report(listener, "components", 0.0);
-  const auto [eigenvalues, vectors] = detail::largest_eigenpairs(products, static_cast<Eigen::Index>(components));
+  // Rounding of the mean may pretend that centring costs none.
+  const auto most = std::min(static_cast<Eigen::Index>(components), products.cols() - 1);
+  const auto [eigenvalues, vectors] = detail::largest_eigenpairs(products, most);
   if (eigenvalues.size() == 0) throw error("the materials do not differ: there is nothing to learn");
 
   // X - mu = U Sigma V' transposed: Q = V Sigma = (X - mu)' U, where U are the eigenvectors.
@@ -94,8 +98,8 @@ template <error_metric Metric>
       },
       threads);
   report(listener, "components", 1.0);
-  return pca<Metric>({materials.cells, metric, std::move(materials.names), eigenvalues.cwiseSqrt(), std::move(scaled),
-                      std::move(mean), u, eigenvalues.sum() / products.trace()});
+  return pca<Metric, domain_of_set<Set>>({materials.cells, metric, std::move(materials.names), eigenvalues.cwiseSqrt(),
+                                          std::move(scaled), std::move(mean), u, eigenvalues.sum() / products.trace()});
 }
 
 /// The same components on other, usually fewer, cells: components and mean are interpolated in the mapped

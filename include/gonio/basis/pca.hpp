@@ -17,33 +17,35 @@
 namespace gonio {
 
 /// What a principal component basis consists of, for those who build or store one.
-template <error_metric Metric>
+template <error_metric Metric, domain Places = valid_cells>
 struct pca_parts {
-  valid_cells cells;
+  Places cells;
   Metric metric;
   std::vector<std::string> names;   ///< the materials it was learned from
   Eigen::VectorXd singular_values;  ///< Sigma, k values, largest first
   cell_matrix components;           ///< Q = V Sigma, cells x k
   std::vector<float> mean;          ///< mu, one value per cell
-  Eigen::MatrixXf coefficients;     ///< 3 materials x k: observation j is mu + Q coefficients.row(j)'
+  Eigen::MatrixXf coefficients;     ///< observations (3 a material) x k: j is mu + Q coefficients.row(j)'
   double explained_variance = 1.0;  ///< share of the observations' variance that the k components keep
   std::string source = {};          ///< what it was learned from, for people
 };
 
-/// Principal components over the valid cells of a grid. A value type whose copies share their storage.
-template <error_metric Metric>
+/// Principal components over the valid cells of a grid, or another domain. A value type whose copies share their
+/// storage.
+template <error_metric Metric, domain Places = valid_cells>
 class pca {
  public:
+  using parts_type = pca_parts<Metric, Places>;
   /// A component times -1 is as good a component: see `has_arbitrary_sign`.
   static constexpr bool arbitrary_sign = true;
 
   /// Throws gonio::error if the sizes of the parts do not match.
-  explicit pca(pca_parts<Metric> parts) : parts_(std::make_shared<const pca_parts<Metric>>(std::move(parts))) {
+  explicit pca(parts_type parts) : parts_(std::make_shared<const parts_type>(std::move(parts))) {
     const auto cells = static_cast<Eigen::Index>(parts_->cells.size());
     const Eigen::Index k = parts_->components.cols();
     if (k == 0 || parts_->components.rows() != cells || parts_->mean.size() != parts_->cells.size() ||
         parts_->singular_values.size() != k || parts_->coefficients.cols() != k ||
-        parts_->coefficients.rows() != static_cast<Eigen::Index>(3 * parts_->names.size()))
+        parts_->coefficients.rows() != channels * static_cast<Eigen::Index>(parts_->names.size()))
       throw error("the parts of a principal component basis of " + std::to_string(k) + " components over " +
                   std::to_string(cells) + " cells and " + std::to_string(parts_->names.size()) +
                   " materials do not match in size");
@@ -51,7 +53,7 @@ class pca {
 
   /// Number of components k.
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(parts_->components.cols()); }
-  [[nodiscard]] const valid_cells& cells() const noexcept { return parts_->cells; }
+  [[nodiscard]] const Places& cells() const noexcept { return parts_->cells; }
   [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
 
   /// The k scaled components at a cell.
@@ -83,20 +85,22 @@ class pca {
 
   /// The same basis that tells people where it comes from.
   [[nodiscard]] pca with_source(std::string source) const {
-    pca_parts<Metric> parts = *parts_;
+    parts_type parts = *parts_;
     parts.source = std::move(source);
     return pca(std::move(parts));
   }
 
-  /// Weights, k x 3, that expand to one of the materials the basis was learned from.
+  /// Weights, k x 3 (or as many as there are channels), that expand to one of the materials the basis was learned from.
   [[nodiscard]] Eigen::MatrixXd weights_of(std::size_t material) const {
-    return parts_->coefficients.middleRows(static_cast<Eigen::Index>(3 * material), 3)
+    return parts_->coefficients.middleRows(channels * static_cast<Eigen::Index>(material), channels)
         .transpose()
         .template cast<double>();
   }
 
  private:
-  std::shared_ptr<const pca_parts<Metric>> parts_;
+  static constexpr Eigen::Index channels = channels_over<Places>;
+
+  std::shared_ptr<const parts_type> parts_;
 };
 
 /// The prior of Nielsen et al. 2015.

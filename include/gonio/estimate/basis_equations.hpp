@@ -16,7 +16,8 @@ namespace gonio {
 
 /// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
 /// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis in common
-/// share one system of three right-hand sides. Rows are read from the basis block by block, never copied as a whole.
+/// share one system, with a right-hand side for each. Rows are read from the basis block by block, never copied as a
+/// whole.
 template <colour_basis Basis>
 class basis_equations {
  public:
@@ -28,7 +29,8 @@ class basis_equations {
         measured_(std::make_shared<const located_samples>(std::move(samples))),
         threads_(threads) {}
 
-  /// Of samples (throws gonio::error for unusable ones) or a table, each cell of which is one.
+  /// Of whatever `locate_samples` takes for the basis' domain: samples (throws gonio::error for unusable ones) or a
+  /// table, each cell of which is one.
   template <class Samples>
   basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
       : basis_equations(functions, locate_samples(functions.cells(), samples, threads), threads) {}
@@ -46,8 +48,8 @@ class basis_equations {
     return {rows, mapped(functions, static_cast<Eigen::Index>(channel)), measured->weights, threads_};
   }
 
-  /// The weights of all functions, size() x 3, by a solver of one system; functions that the basis leaves out have
-  /// weight zero. Systems are solved in parallel.
+  /// The weights of all functions, size() x channels, by a solver of one system; functions that the basis leaves out
+  /// have weight zero. Systems are solved in parallel.
   [[nodiscard]] solution solve(const std::function<solution(const least_squares_problem&)>& solver) const {
     const std::vector<Eigen::Index> columns = columns_of(basis_);
     const auto unknowns = static_cast<Eigen::Index>(basis_.size());
@@ -66,7 +68,7 @@ class basis_equations {
  private:
   template <class Functions>
   [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
-    constexpr Eigen::Index channels = 3 / static_cast<Eigen::Index>(systems);
+    const Eigen::Index channels = measured_->values.cols() / static_cast<Eigen::Index>(systems);
     Eigen::MatrixXd right(measured_->values.rows(), channels);
     for_each_block(
         measured_->at.size(), 4096,

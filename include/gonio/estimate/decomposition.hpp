@@ -7,6 +7,7 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/solve/solver.hpp>
 
+#include <concepts>
 #include <utility>
 
 namespace gonio {
@@ -17,6 +18,12 @@ namespace gonio {
 template <class Basis, class Solver>
 concept non_negative_weights_need_functions_of_definite_sign =
     !(has_arbitrary_sign<Basis> && solves_non_negative<Solver>);
+
+/// Can measurements be placed on a domain?
+template <class Measurements, class Places>
+concept measured_over = requires(const Places& places, const Measurements& measurements, thread_count threads) {
+  { locate_samples(places, measurements, threads) } -> std::same_as<located_samples>;
+};
 
 /// Fits each colour channel of measurements by a basis, with the weights found by a solver: `basis_equations` says what
 /// is solved.
@@ -32,21 +39,17 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
+  /// Of samples, or a table, each cell of which is one of weight 1; over another domain of what is measured there.
   /// Cost of the solver plus O(samples x size of the basis) for reading the rows; O(samples x size^2) more where the
   /// solver wants the normal equations. Throws gonio::error for unusable samples, or if the solver gives up.
-  template <sample_range Samples>
-  [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
-    return solve({basis_, samples, threads_});
-  }
-
-  /// Fits a table: each of its cells is a sample of weight 1.
-  [[nodiscard]] fitted_brdf<Basis> fit(const brdf_table& table) const { return solve({basis_, table, threads_}); }
-
- private:
-  [[nodiscard]] fitted_brdf<Basis> solve(const basis_equations<Basis>& equations) const {
+  template <class Measurements>
+  requires measured_over<Measurements, domain_of<Basis>>
+  [[nodiscard]] fit_by<Basis> fit(const Measurements& measurements) const {
+    const basis_equations<Basis> equations(basis_, measurements, threads_);
     return {basis_, equations.solve([this](const least_squares_problem& problem) { return solver_.solve(problem); })};
   }
 
+ private:
   Basis basis_;
   Solver solver_;
   thread_count threads_;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <type_traits>
 #include <utility>
 
@@ -20,6 +21,7 @@ namespace gonio {
 /// Rows that a basis stores are multiplied by the weights in float, rows that it computes in double: functions given by
 /// a formula may cancel each other to many digits.
 template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells>
 class fitted_brdf {
  public:
   /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
@@ -180,5 +182,17 @@ class fitted_brdf {
   solution found_;
   Eigen::Matrix<float, Eigen::Dynamic, 3> weights_;
 };
+
+/// What a fit over a domain is: a BRDF, unless the domain's own specialisation of this says otherwise. `type<Basis>` is
+/// constructed from the basis and the solution.
+template <domain Places>
+struct fit_over {
+  template <colour_basis Basis>
+  using type = fitted_brdf<Basis>;
+};
+
+/// What a fit by a basis is.
+template <colour_basis Basis>
+using fit_by = typename fit_over<domain_of<Basis>>::template type<Basis>;
 
 }  // namespace gonio

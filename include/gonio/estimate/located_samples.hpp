@@ -22,7 +22,7 @@ using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 /// Where was measured, what, and how much it counts, which is more than nothing: n of each.
 struct located_samples {
   std::vector<location> at;
-  Eigen::MatrixXd values;  ///< n x 3, sr^-1
+  Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or whatever is observed over the domain
   Eigen::VectorXd weights;
 
   [[nodiscard]] std::size_t size() const noexcept { return at.size(); }

@@ -3,29 +3,17 @@
 /// checksummed. The format is described in docs/formats.md.
 
 #include <gonio/basis/pca.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/gzip.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/quantise.hpp>
 
-#include <zlib.h>
-
 #include <cstdint>
-#include <fstream>
 #include <string>
 
 namespace gonio::io {
 
 namespace detail {
 
-inline constexpr std::string_view prior_magic = "gonio-pca";
-inline constexpr std::uint32_t prior_version = 1;
-/// More than any plausible prior, so that a corrupt size is refused before memory is asked for.
-inline constexpr std::uint64_t prior_size_limit = std::uint64_t{4} << 30;
-
-[[nodiscard]] inline std::uint32_t checksum(std::span<const std::byte> bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
-}
+inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
 
 [[nodiscard]] inline std::vector<float> log_of_reference(const log_relative& metric) {
   std::vector<float> logarithm(metric.reference().size());
@@ -122,42 +110,19 @@ inline void put_prior(byte_writer& out, const log_relative_pca& prior) {
 [[nodiscard]] inline std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
   byte_writer payload;
   detail::put_prior(payload, prior);
-  byte_writer file;
-  file.put_all(std::span<const char>(detail::prior_magic));
-  file.put(detail::prior_version);
-  file.put(std::uint64_t{payload.bytes().size()});
-  file.put(detail::checksum(payload.bytes()));
-  file.put_all(std::span<const std::byte>(compress_bytes(payload.bytes())));
-  return {file.bytes().begin(), file.bytes().end()};
+  return encode_checked(detail::prior_kind, payload.bytes());
 }
 
 /// The prior in the bytes of a file. Throws gonio::error starting with `name` where they are not a prior, of
 /// another version, damaged (checksum), truncated or over-long.
 [[nodiscard]] inline log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
-  byte_reader file(bytes, name);
-  const auto magic = file.take_bytes(std::min(detail::prior_magic.size(), file.left()));
-  if (!std::ranges::equal(magic, std::as_bytes(std::span(detail::prior_magic))))
-    throw error(name + ": not a gonio prior (it does not start with '" + std::string(detail::prior_magic) + "')");
-  const auto version = file.take<std::uint32_t>();
-  if (version != detail::prior_version)
-    throw error(name + ": prior format version " + std::to_string(version) + ", this program reads version " +
-                std::to_string(detail::prior_version));
-  const auto size = file.take<std::uint64_t>();
-  if (size > detail::prior_size_limit)
-    throw error(name + ": a prior of " + std::to_string(size) + " bytes is not believable");
-  const auto expected = file.take<std::uint32_t>();
-  const auto payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
-  if (detail::checksum(payload) != expected) throw error(name + ": the checksum does not match, the file is damaged");
+  const auto payload = decode_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
   return detail::take_prior(in, name);
 }
 
 /// Does the file start as a prior does?
-[[nodiscard]] inline bool is_prior(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(detail::prior_magic.size(), '\0');
-  return file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == detail::prior_magic;
-}
+[[nodiscard]] inline bool is_prior(const std::filesystem::path& path) { return is_of_kind(detail::prior_kind, path); }
 
 /// Writes a prior. An existing file is replaced only once the new one is complete.
 inline void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {

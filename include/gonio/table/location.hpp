@@ -25,12 +25,18 @@ struct location {
   [[nodiscard]] bool above_horizon() const noexcept { return cosine.i > 0.0 && cosine.o > 0.0; }
 };
 
-/// The location of a cell's own node.
-[[nodiscard]] inline location locate_cell(const valid_cells& cells, std::size_t cell) noexcept {
+/// The location that reads one place alone. Without angles: the place may not have any.
+[[nodiscard]] inline location location_of(std::size_t place) noexcept {
   location at;
-  at.cell[0] = static_cast<std::uint32_t>(cell);
+  at.cell[0] = static_cast<std::uint32_t>(place);
   at.weight[0] = 1.0;
   at.count = 1;
+  return at;
+}
+
+/// The location of a cell's own node.
+[[nodiscard]] inline location locate_cell(const valid_cells& cells, std::size_t cell) noexcept {
+  location at = location_of(cell);
   at.angles = cells.angles(cell);
   at.cosine = cosines(at.angles);
   return at;

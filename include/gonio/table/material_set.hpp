@@ -2,13 +2,17 @@
 /// Tables of several materials over the same cells, as one matrix.
 
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/domain.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <iterator>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -53,32 +57,51 @@ struct material_set {
   }
 };
 
-/// Throws gonio::error unless there is a material, with three columns each and a row for each cell.
-inline void require_complete(const material_set& materials) {
-  if (materials.names.empty() || materials.values.cols() != static_cast<Eigen::Index>(3 * materials.names.size()) ||
-      materials.values.rows() != static_cast<Eigen::Index>(materials.cells.size()))
-    throw error("a basis needs at least one material, with three columns each over " +
-                std::to_string(materials.cells.size()) + " cells");
+/// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each place of
+/// it and a column for each channel of each thing. Materials are, and shapes.
+template <class Set>
+concept observation_set = requires(Set& things) {
+  requires domain<std::remove_cvref_t<decltype(things.cells)>>;
+  requires std::same_as<std::remove_cvref_t<decltype(things.names)>, std::vector<std::string>>;
+  requires std::same_as<std::remove_cvref_t<decltype(things.values)>, cell_matrix>;
+};
+
+static_assert(observation_set<material_set>);
+
+/// What the things of a set are observed over.
+template <observation_set Set>
+using domain_of_set = std::remove_cvref_t<decltype(std::declval<Set&>().cells)>;
+
+/// Throws gonio::error unless there is a thing, with all of its columns and a row for each place.
+template <observation_set Set>
+void require_complete(const Set& things) {
+  constexpr std::size_t channels = channels_over<domain_of_set<Set>>;
+  if (things.names.empty() || things.values.cols() != static_cast<Eigen::Index>(channels * things.names.size()) ||
+      things.values.rows() != static_cast<Eigen::Index>(things.cells.size()))
+    throw error("a basis needs at least one material, of " + std::to_string(channels) + " columns each over " +
+                std::to_string(things.cells.size()) + " cells");
 }
 
-/// Throws gonio::error naming the first material that is not finite at a cell.
-inline void require_finite(const material_set& materials, std::size_t cell) {
-  const auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+/// Throws gonio::error naming the first material that is not finite at a cell. (Who observes other things
+/// checks them first, in their own words.)
+template <observation_set Set>
+void require_finite(const Set& things, std::size_t cell) {
+  const auto row = things.values.row(static_cast<Eigen::Index>(cell));
   if (row.allFinite()) return;
   Eigen::Index column = 0;
   while (std::isfinite(row[column])) ++column;
-  throw error("material '" + materials.names[static_cast<std::size_t>(column / 3)] + "' is not finite at cell " +
-              std::to_string(cell));
+  const auto thing = static_cast<std::size_t>(column / channels_over<domain_of_set<Set>>);
+  throw error("material '" + things.names[thing] + "' is not finite at cell " + std::to_string(cell));
 }
 
-/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first material that is not finite
+/// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite
 /// there, before or after: a map may hide an infinity, or overflow.
-template <class Map>
-void map_cell(material_set& materials, std::size_t cell, Map&& map) {
-  require_finite(materials, cell);
-  auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+template <observation_set Set, class Map>
+void map_cell(Set& things, std::size_t cell, Map&& map) {
+  require_finite(things, cell);
+  auto row = things.values.row(static_cast<Eigen::Index>(cell));
   row = row.unaryExpr([&](float value) { return static_cast<float>(map(value)); });
-  require_finite(materials, cell);
+  require_finite(things, cell);
 }
 
 }  // namespace gonio

@@ -1,0 +1,46 @@
+/// gonio shape: surfaces that scans show in part, from what many of their kind have in common.
+
+#include "shape.hpp"
+
+#include "command.hpp"
+#include <gonio/render/false_colour.hpp>
+#include <gonio/render/image.hpp>
+
+#include <array>
+
+namespace cli {
+
+gonio::image shape_picture(const gonio::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
+  std::vector<gonio::rgb> colours(static_cast<std::size_t>(mesh.vertices.cols()), gonio::rgb::Constant(0.5));
+  for (Eigen::Index v = 0; v < distances.size(); ++v)
+    colours[static_cast<std::size_t>(v)] = gonio::false_colour(distances[v], {-largest, largest});
+  const auto from = [&](const Eigen::Vector3d& towards) {
+    gonio::mesh_view view = gonio::mesh_view::of(mesh, towards);
+    view.radius = 18.0;  // mm: all ears at one scale
+    view.pixels = 320;
+    return gonio::picture_of(mesh, colours, view);
+  };
+  const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};
+  return gonio::side_by_side(both);
+}
+
+gonio::similarity_transform find_pose(const gonio::shape_model& model, const gonio::triangle_mesh& scan,
+                                      gonio::thread_count threads) {
+  const gonio::pre_alignment found = gonio::align_by_shape_context(scan, model.mean(), {}, threads);
+  // What the scan lacks is far from the model, but not the other way round.
+  constexpr double largest = 5.0;
+  if (found.mean_scan_distance > largest)
+    throw gonio::error("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
+                       " mm away in the mean, expected at most " + fixed(largest, 1));
+  return found.transform;
+}
+
+void add_shape(CLI::App& app) {
+  auto* shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/shapes.md)");
+  shape->require_subcommand(1);
+  add_shape_learn(*shape);
+  add_shape_recover(*shape);
+  add_shape_demo(*shape);
+}
+
+}  // namespace cli

@@ -1,0 +1,28 @@
+#pragma once
+/// The steps of `gonio shape`, and what they have in common.
+
+#include "inputs.hpp"
+#include <gonio/shape/mesh_picture.hpp>
+#include <gonio/shape/shape_context_alignment.hpp>
+#include <gonio/shape/shape_model.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <vector>
+
+namespace cli {
+
+void add_shape_learn(CLI::App& shape);
+void add_shape_recover(CLI::App& shape);
+void add_shape_demo(CLI::App& shape);
+
+/// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
+/// compared with; without distances in grey. `largest` mm are pure blue and red.
+[[nodiscard]] gonio::image shape_picture(const gonio::triangle_mesh& mesh, const Eigen::VectorXd& distances,
+                                         double largest);
+
+/// Where a scan lies by shape context, from it to the model. Throws gonio::error if it matches nowhere.
+[[nodiscard]] gonio::similarity_transform find_pose(const gonio::shape_model& model, const gonio::triangle_mesh& scan,
+                                                    gonio::thread_count threads);
+
+}  // namespace cli

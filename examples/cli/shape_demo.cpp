@@ -1,0 +1,186 @@
+/// gonio shape demo: ear canals that nobody has, held out from the model, with holes between the bends; how well they
+/// are recovered, beside filling the holes smoothly. After section 4 of "Anatomically correct surface recovery".
+
+#include "../lab/ear_canal_scans.hpp"
+#include "progress_bar.hpp"
+#include "shape.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/mesh.hpp>
+#include <gonio/io/shape_model.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/recovery.hpp>
+#include <gonio/shape/surface_distance.hpp>
+
+#include <array>
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct shape_demo_command {
+  std::size_t shapes = 310, held_out = 10;
+  std::uint64_t seed = 1;
+  std::string hole = "large";
+  double edge_noise = 0.0;
+  std::filesystem::path folder;
+  bool as_json = false;
+  gonio::thread_count threads;
+};
+
+/// A way to recover, and how far what it put into a hole is from the truth.
+struct judged_surface {
+  std::string name;
+  gonio::point_columns vertices;  ///< in the scan's space
+  gonio::surface_distance hole;
+};
+
+gonio::shape_model learn_ear_canals(const lab::ear_canal_template& common, const shape_demo_command& options) {
+  const lab::ear_canal_family family;
+  std::vector<gonio::point_columns> shapes;
+  std::vector<std::string> names;
+  lab::number_source seeds(options.seed);
+  for (std::size_t i = 0; i < options.shapes; ++i) {
+    shapes.push_back(common.corresponded(family.draw(seeds.seed())));
+    names.push_back("ear-" + std::to_string(i + 1));
+  }
+  return gonio::learn_shape_model(shapes, names, common.mesh().triangles, options.threads);
+}
+
+lab::ear_scan scan_held_out(const lab::ear_canal_template& common, const shape_demo_command& options, std::size_t i) {
+  lab::scan_options how;
+  how.hole = options.hole == "large" ? lab::hole_options::large() : lab::hole_options::small();
+  how.hole->edge_noise = options.edge_noise;
+  // A source of its own, so that who is held out does not depend on how many were learned from.
+  lab::number_source seeds(options.seed + 1'000'003 * (i + 1));
+  const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();
+  return lab::scan_of(lab::ear_canal_family().draw(individual), common, scanner, how);
+}
+
+/// The ways to recover a scan, judged where it has its hole.
+std::vector<judged_surface> judge_ways(const gonio::shape_model& model, const lab::ear_canal_template& common,
+                                       const lab::ear_scan& scan, gonio::thread_count threads) {
+  const gonio::surface_index index(scan.mesh), complete(scan.complete);
+  const gonio::similarity_transform pose = find_pose(model, scan.mesh, threads);
+  std::vector<Eigen::Index> hole;
+  for (std::size_t v = 0; v < scan.covered.size(); ++v)
+    if (!scan.covered[v] && common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
+      hole.push_back(static_cast<Eigen::Index>(v));
+  std::vector<judged_surface> ways;
+  const auto judge = [&](std::string name, const gonio::point_columns& vertices, const auto& to_model) {
+    gonio::point_columns placed = to_model.inverse()(vertices);
+    const gonio::point_columns recovered = placed(Eigen::all, hole);
+    ways.push_back({std::move(name), std::move(placed), gonio::distance_to(complete, recovered, threads)});
+  };
+  const gonio::recovered_shape ours = gonio::recover(model, index, pose, {}, threads);
+  gonio::point_columns shown = ours.surface.vertices;
+  shown(Eigen::all, ours.known.vertices) = ours.known.positions;
+  judge("thin plate", gonio::fill_smoothly(model.topology(), shown, gonio::marks_of(ours.known, model.vertices())),
+        ours.pose);
+  gonio::published_recovery_options published;
+  published.local_rounds = 0;
+  const auto at_once = gonio::recover_as_published(model, index, pose, published, threads);
+  judge("Algorithm 1", at_once.surface.vertices, at_once.pose);
+  published.local_rounds = 3;
+  const auto locally = gonio::recover_as_published(model, index, pose, published, threads);
+  judge("+ local smoothing", locally.surface.vertices, locally.pose);
+  judge("gonio", ours.surface.vertices, ours.pose);
+  return ways;
+}
+
+void print_ways(std::size_t number, const std::vector<judged_surface>& ways) {
+  if (number == 1) {
+    std::cout << "signed and absolute mean distance from the truth in the hole, mm\n  #";
+    for (const judged_surface& way : ways) std::cout << std::string(19 - way.name.size(), ' ') << way.name;
+    std::cout << '\n';
+  }
+  std::cout << std::string(number < 10 ? 2 : 1, ' ') << number;
+  for (const judged_surface& way : ways) {
+    const std::string text = fixed(way.hole.signed_mean, 3) + " " + fixed(way.hole.absolute_mean, 3);
+    std::cout << std::string(19 - text.size(), ' ') << text;
+  }
+  std::cout << std::endl;
+}
+
+json json_of(const std::vector<judged_surface>& ways) {
+  json all;
+  for (const judged_surface& way : ways)
+    all[way.name] = {{"signed_mean", way.hole.signed_mean},
+                     {"absolute_mean", way.hole.absolute_mean},
+                     {"largest", way.hole.largest}};
+  return all;
+}
+
+/// The scan beside what the ways made of it.
+gonio::image demo_picture(const gonio::shape_model& model, const lab::ear_scan& scan,
+                          const std::vector<judged_surface>& ways) {
+  const auto upright = [&](gonio::point_columns vertices) {
+    return gonio::point_columns(scan.placement.inverse() * vertices);
+  };
+  const gonio::surface_index complete(scan.complete);
+  std::vector<gonio::image> row{shape_picture({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, 0.5)};
+  for (const judged_surface& way : ways)
+    row.push_back(
+        shape_picture(model.mesh(upright(way.vertices)), gonio::signed_distances(complete, way.vertices), 0.5));
+  return gonio::side_by_side(row, 4);
+}
+
+void write_example(const std::filesystem::path& folder, const gonio::shape_model& model, const lab::ear_scan& scan,
+                   const std::vector<judged_surface>& ways) {
+  gonio::io::write_shape_model(folder / "ears.shapes", model);
+  gonio::io::write_mesh(folder / "scan.ply", scan.mesh);
+  gonio::io::write_mesh(folder / "truth.ply", scan.complete);
+  gonio::io::write_mesh(folder / "recovered.ply", model.mesh(ways.back().vertices));
+}
+
+void show_shapes(const shape_demo_command& options) {
+  if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
+  const lab::ear_canal_template common;
+  const gonio::shape_model model = learn_ear_canals(common, options);
+  json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
+  std::vector<gonio::image> rows;
+  for (std::size_t i = 0; i < options.held_out; ++i) {
+    const lab::ear_scan scan = scan_held_out(common, options, i);
+    const std::vector<judged_surface> ways = judge_ways(model, common, scan, options.threads);
+    if (!options.as_json) print_ways(i + 1, ways);
+    report["held_out"].push_back(json_of(ways));
+    if (options.folder.empty()) continue;
+    if (i == 0) write_example(options.folder, model, scan, ways);
+    if (i < 3) rows.push_back(demo_picture(model, scan, ways));
+  }
+  if (options.as_json) std::cout << report.dump(2) << '\n';
+  if (rows.empty()) return;
+  gonio::io::write_png(options.folder / "recovered.png", gonio::stacked(rows, 4));
+  if (!options.as_json)
+    std::cout << "In " << options.folder.string()
+              << ": recovered.png (scan, then each way, coloured by the distance from the truth: -0.5 mm is blue, 0 "
+                 "green, 0.5 mm red), and of the first ear ears.shapes, scan.ply, truth.ply, recovered.ply\n";
+}
+
+}  // namespace
+
+void add_shape_demo(CLI::App& shape) {
+  auto* command = shape.add_subcommand("demo", "Recover made-up ear canals, beside filling holes smoothly");
+  const auto options = std::make_shared<shape_demo_command>();
+  command->add_option("--shapes", options->shapes, "To learn from")
+      ->check(CLI::Range(3, 100000))
+      ->capture_default_str();
+  command->add_option("--held-out", options->held_out, "To recover")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of all that is random")->capture_default_str();
+  command->add_option("--hole", options->hole, "Between the bends")
+      ->check(CLI::IsMember({"large", "small"}))
+      ->capture_default_str();
+  command->add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
+      ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  add_threads_option(*command, options->threads);
+  command->add_flag("--json", options->as_json, "Print figures as JSON");
+  command->add_option("-o,--output", options->folder, "Folder for a picture, the model, and the files of one ear");
+  command->callback([options] { show_shapes(*options); });
+}
+
+}  // namespace cli

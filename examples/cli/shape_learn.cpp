@@ -1,0 +1,78 @@
+/// gonio shape learn: an active shape model of corresponded meshes, and of scans that it registers by itself.
+
+#include "progress_bar.hpp"
+#include "shape.hpp"
+#include <gonio/io/mesh.hpp>
+#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/bootstrap.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct shape_learn_command {
+  std::vector<std::filesystem::path> shapes, scans;
+  std::filesystem::path output;
+  gonio::thread_count threads;
+};
+
+/// The vertices of meshes that have the triangles of the first.
+std::vector<gonio::point_columns> read_corresponded(const std::vector<std::filesystem::path>& files,
+                                                    gonio::triangle_columns& triangles) {
+  std::vector<gonio::point_columns> shapes;
+  for (const auto& file : files) {
+    gonio::triangle_mesh mesh = gonio::io::read_mesh(file);
+    if (shapes.empty()) triangles = mesh.triangles;
+    const bool same = mesh.triangles.cols() == triangles.cols() && mesh.triangles == triangles;
+    if (!same || (!shapes.empty() && mesh.vertices.cols() != shapes[0].cols()))
+      throw gonio::error(file.string() + ": does not have the vertices and triangles of " + files[0].string() +
+                         ", expected shapes in correspondence");
+    shapes.push_back(std::move(mesh.vertices));
+  }
+  return shapes;
+}
+
+void learn_shapes(const shape_learn_command& options) {
+  gonio::triangle_columns triangles;
+  std::vector<std::string> names;
+  for (const auto& file : options.shapes) names.push_back(file.stem().string());
+  std::vector<gonio::point_columns> shapes = read_corresponded(options.shapes, triangles);
+  if (options.scans.empty()) {
+    const auto model = gonio::learn_shape_model(shapes, names, triangles, options.threads);
+    gonio::io::write_shape_model(options.output, model);
+    std::cout << model.shapes() << " shapes of " << model.vertices() << " vertices; "
+              << model.explaining(0.99).basis().size() << " components explain 99 %\n";
+    return;
+  }
+  std::vector<gonio::named_scan> scans;
+  for (const auto& file : options.scans) scans.push_back({file.stem().string(), gonio::io::read_mesh(file)});
+  progress_bar bar;
+  const auto grown =
+      gonio::bootstrap_shape_model(std::move(shapes), std::move(names), std::move(triangles), scans, {},
+                                   options.threads, [&](std::string_view stage, double done) { bar.draw(stage, done); });
+  bar.wipe();
+  gonio::io::write_shape_model(options.output, grown.model);
+  for (std::size_t i = 0; i < scans.size(); ++i)
+    std::cout << scans[i].name << ": "
+              << (grown.outcomes[i].accepted() ? "accepted" : "refused, " + grown.outcomes[i].refusal) << '\n';
+  std::cout << grown.accepted() << " of " << scans.size() << " scans accepted, the model has " << grown.model.shapes()
+            << " shapes\n";
+}
+
+}  // namespace
+
+void add_shape_learn(CLI::App& shape) {
+  auto* command = shape.add_subcommand("learn", "Learn a model of shapes in correspondence, and grow it by scans");
+  const auto options = std::make_shared<shape_learn_command>();
+  command->add_option("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
+      ->required();
+  command->add_option("--scans", options->scans, "Scans of any triangulation, to register and learn from");
+  add_threads_option(*command, options->threads);
+  command->add_option("-o,--output", options->output, "Model to write (.shapes)")->required();
+  command->callback([options] { learn_shapes(*options); });
+}
+
+}  // namespace cli

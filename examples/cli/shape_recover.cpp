@@ -1,0 +1,88 @@
+/// gonio shape recover: what a partial scan does not show.
+
+#include "shape.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/mesh.hpp>
+#include <gonio/io/shape_model.hpp>
+#include <gonio/render/false_colour.hpp>
+#include <gonio/shape/recovery.hpp>
+#include <gonio/shape/surface_distance.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct shape_recover_command {
+  std::filesystem::path scan, model, output, truth, picture;
+  double noise = 0.05;
+  gonio::thread_count threads;
+};
+
+/// `from`'s message behind the name of a file.
+template <class Work>
+auto in_file(const std::filesystem::path& file, Work&& work) {
+  try {
+    return work();
+  } catch (const gonio::error& refusal) {
+    throw gonio::error(file.string() + ": " + refusal.what());
+  }
+}
+
+void recover_shape(const shape_recover_command& options) {
+  const gonio::shape_model model = gonio::io::read_shape_model(options.model);
+  const gonio::triangle_mesh scan = gonio::io::read_mesh(options.scan);
+  gonio::recovery_options how;
+  how.fine.misplacement = options.noise;
+  const gonio::recovered_shape found = in_file(options.scan, [&] {
+    const gonio::surface_index index(scan);
+    return gonio::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
+  });
+  gonio::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
+
+  const std::vector<bool> known = gonio::marks_of(found.known, model.vertices());
+  std::vector<Eigen::Index> missing;
+  for (Eigen::Index v = 0; v < model.vertices(); ++v)
+    if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
+  std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
+  Eigen::VectorXd distances;
+  std::vector<gonio::rgb> colours(known.size(), gonio::rgb::Constant(0.5));
+  if (!options.truth.empty()) {
+    const gonio::surface_index truth =
+        in_file(options.truth, [&] { return gonio::surface_index(gonio::io::read_mesh(options.truth)); });
+    distances = gonio::signed_distances(truth, recovered.vertices, options.threads);
+    for (std::size_t v = 0; v < colours.size(); ++v)
+      colours[v] = gonio::false_colour(distances[static_cast<Eigen::Index>(v)], {-0.5, 0.5});
+    if (!missing.empty()) {
+      const auto off = gonio::surface_distance::of(distances(missing));
+      std::cout << "distance of these from the truth: signed mean " << fixed(off.signed_mean, 3) << " mm, absolute "
+                << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
+    }
+  }
+  gonio::io::write_mesh(options.output, recovered, colours);
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, shape_picture(found.surface, distances, 0.5));
+}
+
+}  // namespace
+
+void add_shape_recover(CLI::App& shape) {
+  auto* command = shape.add_subcommand("recover", "Recover what a scan does not show");
+  const auto options = std::make_shared<shape_recover_command>();
+  command->add_option("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)")->required();
+  command->add_option("--model", options->model, "From gonio shape learn")->required();
+  command->add_option("--noise", options->noise, "Of the scan, mm")
+      ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  command->add_option("--truth", options->truth, "The whole surface, to compare with");
+  command->add_option("--image", options->picture, "The recovered surface from two sides (.png)");
+  add_threads_option(*command, options->threads);
+  command
+      ->add_option("-o,--output", options->output,
+                   "Recovered surface to write (.ply), coloured by its distance from the truth, if that is known")
+      ->required();
+  command->callback([options] { recover_shape(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,257 @@
+#pragma once
+/// Holes in the scans of ear canals, where a bend hides the wall from the scanner.
+
+#include <gonio/core/error.hpp>
+#include <gonio/shape/triangle_mesh.hpp>
+
+#include <Eigen/Core>
+#include <lab/ear_canal_mesh.hpp>
+#include <lab/ear_canals.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lab {
+
+/// A hole like an ellipse in (u, v). Millimetres.
+struct hole_options {
+  double u = 0.5;           ///< of its centre: between the bends
+  std::optional<double> v;  ///< of its centre; none for anywhere
+  double length = 4.0;      ///< along the canal
+  double share = 0.3;       ///< of the circumference; at 1 or more, the hole may part the scan, and the rest is dropped
+  double ragged = 0.15;     ///< how much its edge goes in and out, relative to its radius; below 0.5
+  double edge_noise = 0.0;  ///< standard deviation along the normals of vertices near the edge
+  double edge_reach = 1.5;  ///< how far from the edge these are
+  double flaps = 0.0;       ///< probability of a spurious triangle on an edge of the border
+
+  [[nodiscard]] static hole_options large() {
+    hole_options options;
+    options.length = 7.0;
+    options.share = 0.55;
+    return options;
+  }
+  [[nodiscard]] static hole_options small() {
+    hole_options options;
+    options.length = 3.0;
+    options.share = 0.22;
+    return options;
+  }
+};
+
+/// A mesh on a surface with the surface's normals and places.
+struct sampled_surface {
+  gonio::triangle_mesh mesh;
+  parameter_columns places;
+  gonio::point_columns normals;
+
+  /// Removes the triangles that have a vertex without a property, what then hangs together in a point only, all but
+  /// the largest part, and the vertices of no triangle. Returns the former indices of the vertices that are left.
+  /// Throws gonio::error if nothing is.
+  template <class Property>
+  std::vector<Eigen::Index> keep_where(Property&& property) {
+    std::vector<Eigen::Vector3i> kept;
+    for (const auto& corners : mesh.triangles.colwise())
+      if (property(corners[0]) && property(corners[1]) && property(corners[2])) kept.push_back(corners);
+    while (remove_small_fans(kept)) {
+    }
+    if (kept.empty())
+      throw gonio::error("nothing is left of a scan of " + std::to_string(mesh.vertices.cols()) + " vertices");
+    keep_largest_part(kept);
+    return renumber(kept);
+  }
+
+ private:
+  /// The triangles fall in groups that `parent` joins: the group's first triangle.
+  [[nodiscard]] static std::size_t root(std::vector<std::size_t>& parent, std::size_t one) {
+    while (parent[one] != one) one = parent[one] = parent[parent[one]];
+    return one;
+  }
+
+  /// Of the fans of triangles at each vertex, keeps the largest. Were there others?
+  bool remove_small_fans(std::vector<Eigen::Vector3i>& triangles) const {
+    std::vector<std::vector<std::size_t>> around(static_cast<std::size_t>(mesh.vertices.cols()));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (const int vertex : triangles[t]) around[static_cast<std::size_t>(vertex)].push_back(t);
+    std::vector<bool> removed(triangles.size(), false);
+    for (std::size_t v = 0; v < around.size(); ++v)
+      for (const std::size_t t : small_fans(triangles, around[v], static_cast<int>(v))) removed[t] = true;
+    std::size_t next = 0;
+    const auto gone = std::erase_if(triangles, [&](const auto&) { return removed[next++]; });
+    return gone > 0;
+  }
+
+  /// The triangles round a vertex that are not in its largest fan.
+  [[nodiscard]] static std::vector<std::size_t> small_fans(const std::vector<Eigen::Vector3i>& triangles,
+                                                           const std::vector<std::size_t>& around, int vertex) {
+    std::vector<std::size_t> parent(around.size()), sizes(around.size(), 0), small;
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    std::map<int, std::size_t> first_with;  // another vertex, and so an edge
+    for (std::size_t i = 0; i < around.size(); ++i)
+      for (const int other : triangles[around[i]]) {
+        if (other == vertex) continue;
+        const auto [found, is_new] = first_with.try_emplace(other, i);
+        if (!is_new) parent[root(parent, i)] = root(parent, found->second);
+      }
+    for (std::size_t i = 0; i < around.size(); ++i) ++sizes[root(parent, i)];
+    if (sizes.empty()) return small;
+    const auto largest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+    for (std::size_t i = 0; i < around.size(); ++i)
+      if (root(parent, i) != largest) small.push_back(around[i]);
+    return small;
+  }
+
+  void keep_largest_part(std::vector<Eigen::Vector3i>& triangles) const {
+    const auto count = static_cast<std::size_t>(mesh.vertices.cols());
+    std::vector<std::size_t> parent(count), sizes(count, 0);
+    std::iota(parent.begin(), parent.end(), std::size_t{0});
+    const auto part = [&](int vertex) { return root(parent, static_cast<std::size_t>(vertex)); };
+    for (const Eigen::Vector3i& corners : triangles)
+      for (int side = 0; side < 2; ++side) parent[part(corners[side])] = part(corners[side + 1]);
+    for (const Eigen::Vector3i& corners : triangles) ++sizes[part(corners[0])];
+    const auto largest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+    std::erase_if(triangles, [&](const Eigen::Vector3i& corners) { return part(corners[0]) != largest; });
+  }
+
+  std::vector<Eigen::Index> renumber(const std::vector<Eigen::Vector3i>& triangles) {
+    std::vector<int> number(static_cast<std::size_t>(mesh.vertices.cols()), -1);
+    for (const Eigen::Vector3i& corners : triangles)
+      for (const int vertex : corners) number[static_cast<std::size_t>(vertex)] = 0;
+    std::vector<Eigen::Index> left;
+    for (std::size_t v = 0; v < number.size(); ++v) {
+      if (number[v] < 0) continue;
+      number[v] = static_cast<int>(left.size());
+      left.push_back(static_cast<Eigen::Index>(v));
+    }
+    mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (int corner = 0; corner < 3; ++corner)
+        mesh.triangles(corner, static_cast<Eigen::Index>(t)) = number[static_cast<std::size_t>(triangles[t][corner])];
+    mesh.vertices = gonio::point_columns(mesh.vertices(Eigen::all, left));
+    normals = gonio::point_columns(normals(Eigen::all, left));
+    places = parameter_columns(places(Eigen::all, left));
+    return left;
+  }
+};
+
+/// A hole in one individual's canal.
+class ear_hole {
+ public:
+  /// Throws gonio::error for a hole without size, with too ragged an edge or a negative probability or length.
+  ear_hole(const ear_canal& individual, const hole_options& options, number_source& numbers) : options_(options) {
+    if (!(options.length > 0.0 && options.share > 0.0))
+      throw gonio::error("a hole of a scan must have a length and a share of the circumference above 0");
+    if (!(options.ragged >= 0.0 && options.ragged < 0.5 && options.edge_noise >= 0.0 && options.edge_reach >= 0.0 &&
+          options.flaps >= 0.0 && options.flaps <= 1.0))
+      throw gonio::error(
+          "a hole's raggedness must be in [0, 0.5), its noise and reach not negative and the "
+          "probability of flaps in [0, 1]");
+    const double anywhere = numbers.uniform(0.0, 2.0 * std::numbers::pi);
+    v_ = options.v.value_or(anywhere);
+    const double speed = (individual.centre(options.u + 0.01) - individual.centre(options.u - 0.01)).norm() / 0.02;
+    half_u_ = 0.5 * options.length / speed;
+    for (wave& one : waves_) {
+      one.size = numbers.uniform(-1.0, 1.0);
+      one.phase = numbers.uniform(0.0, 2.0 * std::numbers::pi);
+    }
+  }
+
+  /// Is a place (u, v) in the hole?
+  [[nodiscard]] bool contains(const Eigen::Vector2d& place) const {
+    const double along = (place.x() - options_.u) / half_u_;
+    const double round = std::remainder(place.y() - v_, 2.0 * std::numbers::pi) / (std::numbers::pi * options_.share);
+    const double direction = std::atan2(round, along);
+    double edge = 1.0;
+    for (std::size_t i = 0; i < waves_.size(); ++i)
+      edge += options_.ragged * waves_[i].size * std::cos(static_cast<double>(i + 2) * direction + waves_[i].phase) /
+              std::sqrt(static_cast<double>(waves_.size()));
+    return std::hypot(along, round) < edge;
+  }
+
+  /// Takes the hole's triangles out of a scan, and disturbs its edge. Throws gonio::error if nothing is left.
+  void cut(sampled_surface& sampled, number_source& numbers) const {
+    std::vector<bool> inside, on_edge(static_cast<std::size_t>(sampled.places.cols()), false);
+    for (const auto& place : sampled.places.colwise()) inside.push_back(contains(place));
+    const auto is_inside = [&](Eigen::Index vertex) { return inside[static_cast<std::size_t>(vertex)]; };
+    for (const auto& corners : sampled.mesh.triangles.colwise())
+      if (is_inside(corners[0]) || is_inside(corners[1]) || is_inside(corners[2]))
+        for (const int vertex : corners) on_edge[static_cast<std::size_t>(vertex)] = true;
+    const auto left = sampled.keep_where([&](Eigen::Index vertex) { return !is_inside(vertex); });
+    std::vector<bool> edge_left;
+    for (const Eigen::Index former : left) edge_left.push_back(on_edge[static_cast<std::size_t>(former)]);
+    disturb_edge(sampled, edge_left, numbers);
+    add_flaps(sampled, edge_left, numbers);
+  }
+
+ private:
+  struct wave {
+    double size = 0.0, phase = 0.0;
+  };
+
+  void disturb_edge(sampled_surface& sampled, const std::vector<bool>& on_edge, number_source& numbers) const {
+    if (options_.edge_noise <= 0.0) return;
+    const gonio::point_columns before = sampled.mesh.vertices;
+    for (Eigen::Index i = 0; i < before.cols(); ++i) {
+      double distance = std::numeric_limits<double>::infinity();
+      for (Eigen::Index j = 0; j < before.cols(); ++j)
+        if (on_edge[static_cast<std::size_t>(j)])
+          distance = std::min(distance, (before.col(i) - before.col(j)).squaredNorm());
+      if (distance > options_.edge_reach * options_.edge_reach) continue;
+      sampled.mesh.vertices.col(i) += options_.edge_noise * numbers.normal() * sampled.normals.col(i);
+    }
+  }
+
+  /// Triangles that reach from border edges into the hole, each to a vertex of its own.
+  void add_flaps(sampled_surface& sampled, const std::vector<bool>& on_edge, number_source& numbers) const {
+    if (options_.flaps <= 0.0) return;
+    std::map<std::pair<int, int>, int> opposite;  // to the border's half-edges, and others
+    for (const auto& corners : sampled.mesh.triangles.colwise())
+      for (int side = 0; side < 3; ++side) opposite[{corners[side], corners[(side + 1) % 3]}] = corners[(side + 2) % 3];
+    std::vector<Eigen::Vector3i> flaps;
+    std::vector<Eigen::Vector3d> tips;
+    for (const auto& [edge, across] : opposite) {
+      const auto [from, to] = edge;
+      if (opposite.contains({to, from}) || !on_edge[static_cast<std::size_t>(from)] ||
+          !on_edge[static_cast<std::size_t>(to)] || numbers.uniform() >= options_.flaps)
+        continue;
+      const Eigen::Vector3d middle = 0.5 * (sampled.mesh.vertices.col(from) + sampled.mesh.vertices.col(to));
+      const double reach = numbers.uniform(0.7, 2.0), off = 0.4 * numbers.normal();
+      flaps.emplace_back(to, from, static_cast<int>(sampled.places.cols()) + static_cast<int>(tips.size()));
+      tips.emplace_back(middle + reach * (middle - sampled.mesh.vertices.col(across)) +
+                        off * sampled.normals.col(from));
+    }
+    append(sampled, flaps, tips);
+  }
+
+  static void append(sampled_surface& sampled, const std::vector<Eigen::Vector3i>& flaps,
+                     const std::vector<Eigen::Vector3d>& tips) {
+    const Eigen::Index vertices = sampled.places.cols(), triangles = sampled.mesh.triangles.cols();
+    const auto more = static_cast<Eigen::Index>(flaps.size());
+    sampled.mesh.vertices.conservativeResize(Eigen::NoChange, vertices + more);
+    sampled.normals.conservativeResize(Eigen::NoChange, vertices + more);
+    sampled.places.conservativeResize(Eigen::NoChange, vertices + more);
+    sampled.mesh.triangles.conservativeResize(Eigen::NoChange, triangles + more);
+    for (Eigen::Index i = 0; i < more; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      sampled.mesh.vertices.col(vertices + i) = tips[at];
+      sampled.normals.col(vertices + i) = sampled.normals.col(flaps[at][0]).eval();
+      sampled.places.col(vertices + i) = sampled.places.col(flaps[at][0]).eval();
+      sampled.mesh.triangles.col(triangles + i) = flaps[at];
+    }
+  }
+
+  hole_options options_;
+  double v_ = 0.0, half_u_ = 0.0;
+  std::array<wave, 7> waves_{};
+};
+
+}  // namespace lab

@@ -1,0 +1,27 @@
+#pragma once
+/// Statistical surface recovery: all of `shape/`, and its files. Needs gonio::shape (dlib, nanoflann), which the rest
+/// of the library does not.
+
+#include <gonio/io/mesh.hpp>
+#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/alignment.hpp>
+#include <gonio/shape/assignment.hpp>
+#include <gonio/shape/bootstrap.hpp>
+#include <gonio/shape/confidence.hpp>
+#include <gonio/shape/correspondence.hpp>
+#include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/fitted_shape.hpp>
+#include <gonio/shape/geodesic.hpp>
+#include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/mesh_picture.hpp>
+#include <gonio/shape/mesh_topology.hpp>
+#include <gonio/shape/recovery.hpp>
+#include <gonio/shape/registration.hpp>
+#include <gonio/shape/shape_basis.hpp>
+#include <gonio/shape/shape_context.hpp>
+#include <gonio/shape/shape_context_alignment.hpp>
+#include <gonio/shape/shape_model.hpp>
+#include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/shape/surface_distance.hpp>
+#include <gonio/shape/surface_index.hpp>
+#include <gonio/shape/triangle_mesh.hpp>

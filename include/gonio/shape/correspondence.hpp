@@ -1,0 +1,88 @@
+#pragma once
+/// Where the vertices of a shape are on a scan, and which of them the scan does not show.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), sections 2 and 3.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/shape/alignment.hpp>
+#include <gonio/shape/fitted_shape.hpp>
+#include <gonio/shape/surface_index.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace gonio {
+
+/// A scan and where it lies: `pose` takes its coordinates to those of the model.
+struct posed_scan {
+  surface_index surface;
+  similarity_transform pose;
+
+  /// The nearest place to a point of the model's space, in that space.
+  [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const {
+    return placed(surface.closest(pose.inverse()(point)));
+  }
+
+  /// The nearest place on a line through a point of the model's space, at most `reach` away.
+  [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
+                                                   double reach) const {
+    const similarity_transform back = pose.inverse();
+    const auto found = surface.along(back(point), back.rotation * line, reach * back.scale);
+    if (!found) return {};
+    return placed(*found);
+  }
+
+  /// The outward normal at a place that was found, in the model's space: see `surface_index::pseudonormal`.
+  [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const {
+    return pose.rotation * surface.pseudonormal(place);
+  }
+
+ private:
+  [[nodiscard]] surface_point placed(surface_point found) const {
+    found.position = pose(found.position);
+    found.distance *= pose.scale;
+    return found;
+  }
+};
+
+/// When a vertex counts as shown by a scan.
+struct correspondence_options {
+  double reach = 3.0;             ///< farther places belong to something else, mm
+  double normal_agreement = 0.5;  ///< least cosine between the normals of shape and scan
+  double tangential = 0.01;       ///< how much a place counts along the surface: see `known_vertices`
+};
+
+/// Places on a scan, and the normals there, of those vertices that it shows.
+[[nodiscard]] inline known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
+                                                   const std::vector<char>& shown, double tangential) {
+  known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
+  found.normals = normals(Eigen::all, found.vertices);
+  found.tangential = tangential;
+  return found;
+}
+
+/// The place on the scan of each vertex of a shape that is there.
+[[nodiscard]] inline known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
+                                                   const correspondence_options& options = {},
+                                                   thread_count threads = {}) {
+  const point_columns normals = vertex_normals(shape);
+  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols()), normals_there(3, shape.vertices.cols());
+  std::vector<char> shown(count, 0);  // not bool: threads write neighbours
+  for_each_block(
+      count, 128,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto vertex = static_cast<Eigen::Index>(i);
+          const surface_point found = scan.closest(shape.vertices.col(vertex));
+          places.col(vertex) = found.position;
+          normals_there.col(vertex) = scan.normal(found);
+          // What is missing in the scan is nearest to where it ends.
+          shown[i] = !found.on_border && found.distance <= options.reach &&
+                     normals_there.col(vertex).dot(normals.col(vertex)) >= options.normal_agreement;
+        }
+      },
+      threads);
+  return shown_vertices(places, normals_there, shown, options.tangential);
+}
+
+}  // namespace gonio

@@ -1,0 +1,126 @@
+#pragma once
+/// An active shape model brought onto a scan: iterative closest points and the model's weights in turn.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2, Eq. 3;
+/// closest points as Besl and McKay, IEEE PAMI 14(2), 1992.
+///
+/// The paper finds the weights by downhill simplex, the pose by closest points. With the places on the scan held both
+/// are one least-squares problem, which the solver of BRDFs solves at once:
+/// docs/decisions/0012-weights-by-least-squares.md.
+
+#include <gonio/shape/correspondence.hpp>
+#include <gonio/shape/shape_model.hpp>
+#include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// How a model is brought onto a scan.
+struct fit_to_scan_options {
+  correspondence_options correspondence;
+  double explained_variance = 0.99;  ///< of the components that take part (section 2)
+  /// How far vertices are from where they should be on the scan though the weights are right, mm: by noise, and because
+  /// the closest place of a scan is not the corresponding one. Decides how much the scan is trusted against the family.
+  double misplacement = 0.3;
+  double tolerance = 1e-3;  ///< the change of the shape that ends the iteration, root mean square in mm
+  int most_iterations = 100;
+};
+
+/// A model on a scan.
+struct fit_to_scan_result {
+  similarity_transform pose;  ///< from the scan to the model
+  fitted_shape fit;           ///< in the model's space, by the components that took part, with their motion last
+  known_vertices places;      ///< where the scan shows the vertices
+  tikhonov solver;            ///< what found the weights
+  int iterations = 0;
+
+  /// The vertices in the model's space, where the pose has taken their motion.
+  [[nodiscard]] point_columns shape() const {
+    Eigen::VectorXd still = fit.weights();
+    still.tail<motions>().setZero();
+    return shape_of(fit.functions(), still);
+  }
+  /// Of the components that took part, see `shape_of`.
+  [[nodiscard]] Eigen::VectorXd weights() const { return fit.weights().head(fit.weights().size() - motions); }
+  /// See `squared_mahalanobis`.
+  [[nodiscard]] double squared_distance() const { return squared_mahalanobis(fit.functions(), weights()); }
+  /// How sure the vertices are, in the scan's space as in the model's: motion is as unsure as the rest.
+  [[nodiscard]] shape_uncertainty uncertainty() const { return {fit, places, solver}; }
+};
+
+/// Throws gonio::error unless a scan shows enough vertices of a model to be aligned by.
+inline void require_shown(const known_vertices& places, const shape_model& model) {
+  constexpr std::size_t least = 10;
+  if (places.vertices.size() < least)
+    throw error("the scan shows " + std::to_string(places.vertices.size()) + " of the model's " +
+                std::to_string(model.vertices()) + " vertices, expected at least " + std::to_string(least) +
+                ": is its pose right?");
+}
+
+namespace detail {
+
+/// How far to trust places on a scan (Geman and McClure's weights): nearly in full up to three times the misplacement
+/// or, while the shape is far off, three times what is usual; at noisy edges of holes and spurious triangles hardly.
+[[nodiscard]] inline Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape,
+                                              double misplacement) {
+  const Eigen::VectorXd distances =
+      (places.positions - shape(Eigen::all, places.vertices)).colwise().norm().transpose();
+  std::vector<double> sorted(distances.begin(), distances.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::ranges::nth_element(sorted, middle);
+  const double usual = 3.0 * std::max(misplacement, *middle);
+  return (1.0 + (distances.array() / usual).square()).square().inverse();
+}
+
+/// The rigid motion that the last weights of a basis `with_motion` stand for.
+[[nodiscard]] inline similarity_transform motion_of(const Eigen::VectorXd& weights, const Eigen::Vector3d& centroid,
+                                                    double freedom) {
+  const Eigen::Vector3d turn = freedom * weights.tail<6>().head<3>(), shift = freedom * weights.tail<3>();
+  const double angle = turn.norm();
+  const Eigen::Matrix3d rotation = angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
+                                               : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  return {1.0, rotation, centroid + shift - rotation * centroid};
+}
+
+}  // namespace detail
+
+/// From a pose that is about right. Throws gonio::error if the scan shows hardly any vertex of the model.
+[[nodiscard]] inline fit_to_scan_result fit_to_scan(const shape_model& model, const surface_index& scan,
+                                                    const similarity_transform& pose,
+                                                    const fit_to_scan_options& options = {},
+                                                    thread_count threads = {}) {
+  constexpr double freedom = 1e3;
+  const shape_model part = model.explaining(options.explained_variance);
+  const tikhonov solver{static_cast<double>(part.shapes()) * options.misplacement * options.misplacement};
+  const shape_basis moving = with_motion(part.basis(), freedom);
+  const decomposition estimator{moving, solver, threads};
+  const auto k = static_cast<Eigen::Index>(part.basis().size());
+  triangle_mesh shape = part.mean();
+  const Eigen::Vector3d centroid = shape.vertices.rowwise().mean();
+  const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
+  posed_scan posed{scan, pose};
+  for (int iteration = 1;; ++iteration) {
+    known_vertices places = closest_places(posed, shape, options.correspondence, threads);
+    require_shown(places, part);
+    places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    fitted_shape fit = estimator.fit(places);
+    // The scan moves, not the shape.
+    posed.pose = detail::motion_of(fit.weights(), centroid, freedom).inverse() * posed.pose;
+    point_columns vertices = shape_of(part.basis(), fit.weights().head(k));
+    const double change = (vertices - shape.vertices).norm();
+    shape.vertices = std::move(vertices);
+    if (change > tolerance && iteration < options.most_iterations) continue;
+    places = closest_places(posed, shape, options.correspondence, threads);
+    places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    return {posed.pose, std::move(fit), std::move(places), solver, iteration};
+  }
+}
+
+}  // namespace gonio

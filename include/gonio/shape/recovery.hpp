@@ -1,0 +1,162 @@
+#pragma once
+/// What a partial scan does not show, recovered by an active shape model.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 3,
+/// Algorithm 1.
+
+#include <gonio/shape/confidence.hpp>
+#include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/geodesic.hpp>
+#include <gonio/solve/truncated_svd.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// How a partial scan is recovered.
+struct recovery_options {
+  fit_to_scan_options coarse;  ///< finds the pose, and whether the scan is of the family
+  /// What is recovered: nearly all components, on a scan whose noise is this small.
+  fit_to_scan_options fine{.explained_variance = 0.9999, .misplacement = 0.05};
+  double confidence = 0.999;  ///< that a shape of the family is not refused
+};
+
+/// A recovered surface. All is in the model's space; `pose.inverse()` takes it to the scan's.
+struct recovered_shape {
+  triangle_mesh surface;
+  known_vertices known;       ///< the vertices that the scan shows, and where
+  similarity_transform pose;  ///< from the scan to the model
+  fit_to_scan_result fit;     ///< what the recovery is, or began with; `fit.uncertainty()` is that of its vertices
+};
+
+/// The squared distance from the mean, of k weights learned from m shapes, that a new shape of the family stays below
+/// with a probability: (m + 1) k / (m - k) F of k and m - k degrees of freedom. Chi-square of k, which the paper
+/// takes, is the limit for many shapes, and refuses nearly all if there are a dozen. Infinite unless k < m.
+[[nodiscard]] inline double largest_squared_distance(double confidence, std::size_t weights, std::size_t shapes) {
+  if (weights >= shapes) return std::numeric_limits<double>::infinity();
+  const auto k = static_cast<double>(weights), m = static_cast<double>(shapes);
+  return (m + 1.0) * k / (m - k) * f_quantile(confidence, k, m - k);
+}
+
+namespace detail {
+
+/// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
+inline void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
+  const auto weights = static_cast<std::size_t>(fit.weights().size());
+  const double limit = largest_squared_distance(confidence, weights, model.shapes());
+  if (fit.squared_distance() <= limit) return;
+  throw error("the scan is not of the model's family: its Mahalanobis distance from the mean shape is " +
+              std::to_string(std::sqrt(fit.squared_distance())) + ", expected at most " +
+              std::to_string(std::sqrt(limit)) + " with " + std::to_string(weights) + " components of " +
+              std::to_string(model.shapes()) + " shapes");
+}
+
+}  // namespace detail
+
+/// Recovers what a scan does not show, from a pose that is about right, by the pose and the weights of the family that
+/// fit what it shows. A second or two for 3,000 vertices and 160 shapes.
+///
+/// Throws gonio::error if the scan shows hardly any vertex of the model, or if its shape is not of the family (see
+/// `largest_squared_distance`). A scan that shows all vertices comes back as the model sees it: less noisy.
+[[nodiscard]] inline recovered_shape recover(const shape_model& model, const surface_index& scan,
+                                             const similarity_transform& pose, const recovery_options& options = {},
+                                             thread_count threads = {}) {
+  const fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(begin, model, options.confidence);
+  fit_to_scan_result fit = fit_to_scan(model, scan, begin.pose, options.fine, threads);
+  triangle_mesh surface = model.mesh(fit.shape());
+  return {std::move(surface), fit.places, fit.pose, fit};
+}
+
+/// The rounds of Algorithm 1.
+struct published_recovery_options {
+  fit_to_scan_options coarse;  ///< that the rounds begin with
+  correspondence_options correspondence{.tangential = 1.0};
+  double first_explained_variance = 0.30;
+  double last_explained_variance = 0.999;
+  int rounds = 10;              ///< of all vertices at once, while the explained variance rises
+  int local_rounds = 3;         ///< vertex by vertex, which smooths locally; 0 to go without
+  std::size_t neighbours = 10;  ///< known vertices that predict one in a local round
+  double confidence = 0.999;    ///< that a shape of the family is not refused
+};
+
+namespace detail {
+
+/// Every vertex predicted from the known ones nearest to it along the mean shape.
+[[nodiscard]] inline point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
+                                                   const known_vertices& known,
+                                                   const published_recovery_options& options, thread_count threads) {
+  const truncated_svd solver{options.last_explained_variance};
+  const std::vector<bool> marks = marks_of(known, model.vertices());
+  std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
+  for (std::size_t i = 0; i < known.vertices.size(); ++i)
+    place[static_cast<std::size_t>(known.vertices[i])] = static_cast<Eigen::Index>(i);
+  const auto is_known = [&](Eigen::Index vertex) { return bool{marks[static_cast<std::size_t>(vertex)]}; };
+  point_columns predicted(3, model.vertices());
+  for_each_block(
+      marks.size(), 32,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto vertex = static_cast<Eigen::Index>(i);
+          known_vertices near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours), {}};
+          std::vector<Eigen::Index> columns;
+          for (const Eigen::Index neighbour : near.vertices)
+            columns.push_back(place[static_cast<std::size_t>(neighbour)]);
+          near.positions = known.positions(Eigen::all, columns);
+          near.normals = known.normals(Eigen::all, columns);
+          near.tangential = known.tangential;
+          predicted.col(vertex) = decomposition{model.basis(), solver, thread_count{1}}.fit(near).vertex(vertex);
+        }
+      },
+      threads);
+  return predicted;
+}
+
+/// Algorithm 1's explained variance in a round.
+[[nodiscard]] inline double explained_variance_in(int round, const published_recovery_options& options) {
+  const double progress = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
+  return std::lerp(options.first_explained_variance, options.last_explained_variance, std::min(progress, 1.0));
+}
+
+}  // namespace detail
+
+/// Algorithm 1: the same as `recover` by truncated singular values and closest places, which count in full.
+/// `recover` comes closer to the surface (docs/shapes.md); this is what the paper compares with others. The fit that it
+/// returns is the one that it began with. Throws as `recover` does.
+[[nodiscard]] inline recovered_shape recover_as_published(const shape_model& model, const surface_index& scan,
+                                                          const similarity_transform& pose,
+                                                          const published_recovery_options& options = {},
+                                                          thread_count threads = {}) {
+  fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(begin, model, options.confidence);
+  const triangle_mesh mean = model.mean();
+  posed_scan posed{scan, begin.pose};
+  triangle_mesh shape = model.mesh(begin.shape());
+  known_vertices known = closest_places(posed, shape, options.correspondence, threads);
+  for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
+    // Procrustes alignment of the shape to the mean, and of the scan with it.
+    point_columns whole = shape.vertices;
+    whole(Eigen::all, known.vertices) = known.positions;
+    const similarity_transform step = align(whole, mean.vertices);
+    posed.pose = step * posed.pose;
+    known.positions = step(known.positions);
+    known.normals = step.rotation * known.normals;
+    // Predict what is missing, and what is known.
+    if (round < options.rounds) {
+      const truncated_svd solver{detail::explained_variance_in(round, options)};
+      shape.vertices = decomposition{model.basis(), solver, threads}.fit(known).vertices();
+    } else {
+      shape.vertices = detail::predict_locally(model, mean, known, options, threads);
+    }
+    // Find where the scan shows the vertices now.
+    known = closest_places(posed, shape, options.correspondence, threads);
+    require_shown(known, model);
+  }
+  return {std::move(shape), std::move(known), posed.pose, std::move(begin)};
+}
+
+}  // namespace gonio

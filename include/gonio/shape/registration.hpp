@@ -1,0 +1,152 @@
+#pragma once
+/// A fitted model propagated to the surface of a scan, so that a new shape of the model's vertices comes out, and the
+/// tests that it must pass. "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution
+/// C.V), section 2.
+
+#include <gonio/shape/fit_to_scan.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// How a model is propagated, and what is accepted (section 2).
+struct registration_options {
+  fit_to_scan_options fit;
+  double reach = 2.0;                    ///< along a normal, mm
+  int rounds = 20;                       ///< of smoothing and propagating, at most
+  double tolerance = 0.01;               ///< the change that ends them, root mean square in mm
+  double most_missing = 0.05;            ///< share of the vertices that the scan may not show
+  double confidence = 0.999;             ///< that the weights of a shape of the family are not refused
+  double least_angle = 15.0;             ///< of the 20th percentile of the triangles' smallest angles, degrees
+  double least_normal_agreement = 0.75;  ///< mean cosine between the normals of the fit and the registration
+};
+
+/// A scan as a shape of the model, or why it is none.
+struct registration {
+  point_columns vertices;                                                             ///< in the model's space
+  similarity_transform pose;                                                          ///< from the scan to the model
+  double squared_distance = 0.0, angle = 0.0, normal_agreement = 0.0, missing = 0.0;  ///< what the tests look at
+  std::string refusal;  ///< one sentence; empty if it passed
+
+  [[nodiscard]] bool accepted() const noexcept { return refusal.empty(); }
+};
+
+/// The smallest angle of a share of the triangles is below the returned, in degrees.
+[[nodiscard]] inline double smallest_angle_percentile(const triangle_mesh& mesh, double share) {
+  std::vector<double> smallest;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Matrix3d corners = mesh.corners(t);
+    double least = 180.0;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Eigen::Vector3d next = corners.col((c + 1) % 3) - corners.col(c),
+                            last = corners.col((c + 2) % 3) - corners.col(c);
+      least = std::min(least, degrees(std::atan2(next.cross(last).norm(), next.dot(last))));
+    }
+    smallest.push_back(least);
+  }
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
+  std::ranges::nth_element(smallest, smallest.begin() + place);
+  return smallest[static_cast<std::size_t>(place)];
+}
+
+/// Each column replaced by the mean of itself and its neighbours. Vertices on the border have neighbours on the border
+/// alone, lest the surface shrink.
+[[nodiscard]] inline point_columns averaged_over_neighbours(const mesh_topology& topology,
+                                                            const point_columns& values) {
+  point_columns means(3, values.cols());
+  for (Eigen::Index v = 0; v < values.cols(); ++v) {
+    Eigen::Vector3d sum = values.col(v);
+    double count = 1.0;
+    for (const int neighbour : topology.neighbours(v)) {
+      if (topology.on_border(v) && !topology.on_border(neighbour)) continue;
+      sum += values.col(neighbour);
+      count += 1.0;
+    }
+    means.col(v) = sum / count;
+  }
+  return means;
+}
+
+namespace detail {
+
+/// Where lines along the smoothed normals of a shape meet the scan.
+[[nodiscard]] inline known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
+                                                         const triangle_mesh& shape,
+                                                         const registration_options& options, thread_count threads) {
+  const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
+  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols()), normals_there(3, shape.vertices.cols());
+  std::vector<char> shown(count, 0);
+  for_each_block(
+      count, 128,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto v = static_cast<Eigen::Index>(i);
+          if (!(normals.col(v).norm() > 0.0)) continue;
+          const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
+          if (!found || found->on_border) continue;
+          normals_there.col(v) = scan.normal(*found);
+          if (normals_there.col(v).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) continue;
+          places.col(v) = found->position;
+          shown[i] = 1;
+        }
+      },
+      threads);
+  return shown_vertices(places, normals_there, shown, options.fit.correspondence.tangential);
+}
+
+/// The sentence of the first test that fails.
+[[nodiscard]] inline std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
+                                            const shape_model& model, const registration_options& options) {
+  const auto weights = static_cast<double>(fit.weights().size());
+  const double limit = chi_square_quantile(options.confidence, weights);
+  (void)model;
+  if (found.squared_distance > limit)
+    return "the Mahalanobis distance of its weights is " + std::to_string(std::sqrt(found.squared_distance)) +
+           ", expected at most " + std::to_string(std::sqrt(limit));
+  if (found.missing > options.most_missing)
+    return "it does not show " + std::to_string(100.0 * found.missing) + " % of the vertices, expected at most " +
+           std::to_string(100.0 * options.most_missing);
+  if (found.angle < options.least_angle)
+    return "a fifth of its triangles have an angle below " + std::to_string(found.angle) +
+           " degrees, expected at least " + std::to_string(options.least_angle);
+  if (found.normal_agreement < options.least_normal_agreement)
+    return "its normals agree with those of the fit to " + std::to_string(found.normal_agreement) +
+           " in the mean, expected at least " + std::to_string(options.least_normal_agreement);
+  return {};
+}
+
+}  // namespace detail
+
+/// Registers a scan from a pose that is about right. Vertices that the scan does not show take the place that the model
+/// predicts. Throws gonio::error if the scan shows hardly any.
+[[nodiscard]] inline registration register_scan(const shape_model& model, const surface_index& scan,
+                                                const similarity_transform& pose,
+                                                const registration_options& options = {}, thread_count threads = {}) {
+  const fit_to_scan_result fit = fit_to_scan(model, scan, pose, options.fit, threads);
+  registration found{fit.shape(), fit.pose, fit.squared_distance()};
+  const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
+  for (int round = 0; round < options.rounds; ++round) {
+    const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
+    const known_vertices places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
+    require_shown(places, model);
+    point_columns next = smoothed.vertices;
+    next(Eigen::all, places.vertices) = places.positions;
+    found.missing = 1.0 - static_cast<double>(places.vertices.size()) / static_cast<double>(model.vertices());
+    const double change = (next - found.vertices).norm();
+    found.vertices = std::move(next);
+    if (change <= tolerance) break;
+  }
+  const triangle_mesh registered = model.mesh(found.vertices);
+  found.angle = smallest_angle_percentile(registered, 0.2);
+  found.normal_agreement =
+      vertex_normals(registered).cwiseProduct(vertex_normals(model.mesh(fit.shape()))).colwise().sum().mean();
+  found.refusal = detail::refusal_of(found, fit, model, options);
+  return found;
+}
+
+}  // namespace gonio

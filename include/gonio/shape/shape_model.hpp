@@ -1,0 +1,73 @@
+#pragma once
+/// An active shape model: principal components of shapes, and the triangles that all of them share.
+/// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2.
+
+#include <gonio/shape/alignment.hpp>
+#include <gonio/shape/mesh_topology.hpp>
+#include <gonio/shape/shape_basis.hpp>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// M(c): a value type whose copies share their storage.
+class shape_model {
+ public:
+  /// Throws gonio::error unless the triangles are a surface of the basis' vertices.
+  shape_model(shape_basis basis, triangle_columns triangles)
+      : basis_(std::move(basis)),
+        template_(std::make_shared<const surface_template>(std::move(triangles), vertices_of(basis_))) {}
+
+  [[nodiscard]] const shape_basis& basis() const noexcept { return basis_; }
+  [[nodiscard]] const triangle_columns& triangles() const noexcept { return template_->triangles; }
+  [[nodiscard]] const mesh_topology& topology() const noexcept { return template_->topology; }
+  [[nodiscard]] Eigen::Index vertices() const noexcept { return vertices_of(basis_); }
+  /// How many shapes it was learned from.
+  [[nodiscard]] std::size_t shapes() const noexcept { return basis_.names().size(); }
+
+  /// Vertices with the triangles of the model.
+  [[nodiscard]] triangle_mesh mesh(point_columns vertices) const { return {std::move(vertices), triangles()}; }
+  [[nodiscard]] triangle_mesh mean() const { return mesh(mean_shape(basis_)); }
+  /// M(c) (Eq. 2) of weights: see `shape_of`.
+  [[nodiscard]] triangle_mesh shape(const Eigen::VectorXd& weights) const { return mesh(shape_of(basis_, weights)); }
+
+  /// The model of the components that explain a share of the variance alone: see `explaining`.
+  [[nodiscard]] shape_model explaining(double share) const {
+    shape_model fewer(*this);
+    fewer.basis_ = gonio::explaining(basis_, share);
+    return fewer;
+  }
+
+ private:
+  struct surface_template {
+    surface_template(triangle_columns all, Eigen::Index vertices)
+        : triangles(std::move(all)), topology(triangles, vertices) {}
+
+    triangle_columns triangles;
+    mesh_topology topology;
+  };
+
+  [[nodiscard]] static Eigen::Index vertices_of(const shape_basis& basis) {
+    return static_cast<Eigen::Index>(basis.cells().vertices);
+  }
+
+  shape_basis basis_;
+  std::shared_ptr<const surface_template> template_;
+};
+
+/// Learns a model from corresponded shapes: aligns them to one another (generalised Procrustes) and takes all of their
+/// principal components. O(vertices x shapes^2). Throws gonio::error for fewer than two shapes, shapes of different
+/// numbers of vertices, vertices that are not finite, or triangles that are no surface of them.
+[[nodiscard]] inline shape_model learn_shape_model(const std::vector<point_columns>& shapes,
+                                                   std::vector<std::string> names, triangle_columns triangles,
+                                                   thread_count threads = {}) {
+  (void)shape_set::of(shapes, names);  // refuses what does not belong together, by name
+  const aligned_shapes aligned = procrustes_mean(shapes);
+  const std::size_t components = shapes.size();
+  return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};
+}
+
+}  // namespace gonio

@@ -1,0 +1,47 @@
+#pragma once
+/// The concept of a domain: what the functions of a basis are functions of.
+
+#include <gonio/table/location.hpp>
+
+#include <Eigen/Core>
+
+#include <concepts>
+#include <cstddef>
+
+namespace gonio {
+
+/// Places numbered from 0 to `size()`: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
+///
+/// What the compiler cannot check, and a model must keep: copies are cheap; two that are equal number the same places
+/// alike; `locate_cell(places, i)`, found beside the type, is the location that reads place i alone. A thing is
+/// observed over a domain in three channels of colour, unless the domain says otherwise: `static constexpr int channels
+/// = 1;`.
+///
+/// ```cpp
+/// struct wavelengths {
+///   std::vector<double> nanometres;
+///   static constexpr int channels = 1;
+///   std::size_t size() const { return nanometres.size(); }
+///   bool operator==(const wavelengths&) const = default;
+/// };
+/// gonio::location locate_cell(const wavelengths&, std::size_t i) { return gonio::location_of(i); }
+/// static_assert(gonio::domain<wavelengths>);
+/// ```
+template <class Places>
+concept domain = std::copyable<Places> && std::equality_comparable<Places> &&
+    requires(const Places& places, std::size_t place) {
+  { places.size() } -> std::convertible_to<std::size_t>;
+  { locate_cell(places, place) } -> std::same_as<location>;
+};
+
+static_assert(domain<valid_cells>);
+
+/// In how many channels a thing is observed over a domain.
+template <domain Places>
+inline constexpr int channels_over = 3;
+
+template <domain Places>
+requires requires { Places::channels; }
+inline constexpr int channels_over<Places> = Places::channels;
+
+}  // namespace gonio

@@ -1,0 +1,119 @@
+#include <gonio/shape/assignment.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+
+using gonio::optimal_assignment;
+
+namespace {
+
+/// Some of them equal: 50 different values.
+Eigen::MatrixXd any_costs(Eigen::Index rows, Eigen::Index columns) {
+  Eigen::MatrixXd costs(rows, columns);
+  for (double& cost : costs.reshaped()) cost = 0.1 * *rc::gen::inRange(-25, 25);
+  return costs;
+}
+
+double assigned_cost(const Eigen::MatrixXd& costs, const std::vector<Eigen::Index>& columns) {
+  double sum = 0.0;
+  for (std::size_t row = 0; row < columns.size(); ++row)
+    if (columns[row] >= 0) sum += costs(static_cast<Eigen::Index>(row), columns[row]);
+  return sum;
+}
+
+/// Over all ways to assign the rows, no more than the columns.
+double least_cost_of_all(const Eigen::MatrixXd& costs) {
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.cols()));
+  std::iota(columns.begin(), columns.end(), Eigen::Index{0});
+  double least = std::numeric_limits<double>::infinity();
+  do {
+    double sum = 0.0;
+    for (Eigen::Index row = 0; row < costs.rows(); ++row) sum += costs(row, columns[static_cast<std::size_t>(row)]);
+    least = std::min(least, sum);
+  } while (std::ranges::next_permutation(columns).found);
+  return least;
+}
+
+/// How many rows have a column, if none is there twice; otherwise -1.
+std::ptrdiff_t pairs_of(const std::vector<Eigen::Index>& columns) {
+  std::set<Eigen::Index> distinct(columns.begin(), columns.end());
+  distinct.erase(-1);
+  const auto assigned = std::ranges::count_if(columns, [](Eigen::Index column) { return column >= 0; });
+  return static_cast<std::size_t>(assigned) == distinct.size() ? assigned : -1;
+}
+
+}  // namespace
+
+TEST_CASE("no assignment of all is cheaper") {
+  CHECK(rc::check([] {
+    const Eigen::Index rows = *rc::gen::inRange(1, 8), columns = *rc::gen::inRange(1, 8);
+    const Eigen::MatrixXd costs = any_costs(rows, columns);
+    const auto found = optimal_assignment(costs);
+    RC_ASSERT(found.size() == static_cast<std::size_t>(rows));
+    RC_ASSERT(pairs_of(found) == std::min(rows, columns));
+    const double least = rows <= columns ? least_cost_of_all(costs) : least_cost_of_all(costs.transpose());
+    RC_ASSERT(std::abs(assigned_cost(costs, found) - least) < 1e-9);
+  }));
+}
+
+TEST_CASE("many rows find their own columns") {
+  // A permutation's columns cost least when all others cost at least the dual prices of both: row + column + 1.
+  for (const auto& [rows, columns] : {std::pair(200, 200), std::pair(150, 220), std::pair(220, 150)}) {
+    std::mt19937_64 generator(static_cast<std::uint64_t>(rows));
+    const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    std::vector<Eigen::Index> expected(static_cast<std::size_t>(std::max(rows, columns)));
+    std::iota(expected.begin(), expected.end(), Eigen::Index{0});
+    for (std::size_t i = expected.size() - 1; i > 0; --i) std::swap(expected[i], expected[generator() % (i + 1)]);
+    const bool wide = rows <= columns;
+    Eigen::VectorXd prices(wide ? rows : columns);
+    for (double& price : prices) price = 100.0 * number();
+    Eigen::MatrixXd costs(rows, columns);
+    for (Eigen::Index i = 0; i < rows; ++i)
+      for (Eigen::Index j = 0; j < columns; ++j) {
+        const bool own = wide ? expected[static_cast<std::size_t>(i)] == j : expected[static_cast<std::size_t>(j)] == i;
+        costs(i, j) = prices[wide ? i : j] + (own ? 0.0 : 1e-6 + number());
+      }
+    const auto found = optimal_assignment(costs);
+    CHECK(pairs_of(found) == std::min(rows, columns));
+    CHECK(assigned_cost(costs, found) == doctest::Approx(prices.sum()).epsilon(1e-12));
+    for (Eigen::Index i = 0; wide && i < rows; ++i)
+      CHECK(found[static_cast<std::size_t>(i)] == expected[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST_CASE("the unit and the zero of costs do not matter") {
+  CHECK(rc::check([] {
+    const Eigen::MatrixXd costs = any_costs(6, 6);
+    const double factor = *rc::gen::element(1e-200, 1e-3, 1.0, 1e30, 1e306), least = least_cost_of_all(costs);
+    RC_ASSERT(std::abs(assigned_cost(costs, optimal_assignment(factor * costs)) - least) < 1e-9);
+    const Eigen::MatrixXd shifted = costs.array() + 1000.0;
+    RC_ASSERT(std::abs(assigned_cost(costs, optimal_assignment(shifted)) - least) < 1e-6);
+  }));
+  // Whose difference is not finite.
+  const double huge = std::numeric_limits<double>::max();
+  CHECK(optimal_assignment((Eigen::Matrix2d() << huge, -huge, -huge, huge).finished()) ==
+        std::vector<Eigen::Index>{1, 0});
+}
+
+TEST_CASE("costs that do not differ, or are not there") {
+  CHECK(pairs_of(optimal_assignment(Eigen::MatrixXd::Constant(5, 5, 3.0))) == 5);
+  CHECK(pairs_of(optimal_assignment(Eigen::MatrixXd::Constant(5, 3, -3.0))) == 3);
+  CHECK(optimal_assignment(Eigen::MatrixXd(0, 4)).empty());
+  CHECK(optimal_assignment(Eigen::MatrixXd(2, 0)) == std::vector<Eigen::Index>{-1, -1});
+}
+
+TEST_CASE("costs that are not finite are refused") {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+                           -std::numeric_limits<double>::infinity()}) {
+    Eigen::MatrixXd costs = Eigen::MatrixXd::Ones(3, 4);
+    costs(2, 1) = bad;
+    CHECK_THROWS_WITH_AS((void)optimal_assignment(costs), "the cost of assigning row 2 to column 1 is not finite",
+                         gonio::error);
+  }
+}

@@ -1,0 +1,96 @@
+#include "made_up_shapes.hpp"
+#include <gonio/shape/fitted_shape.hpp>
+#include <gonio/solve/least_squares.hpp>
+#include <gonio/solve/tikhonov.hpp>
+#include <gonio/solve/truncated_svd.hpp>
+
+#include <Eigen/Eigenvalues>
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <limits>
+
+namespace {
+
+/// E{s1|y2} as Eq. 5-7 have it, from the covariance of the shapes, with the largest eigenvalues of S22 that explain a
+/// share. Returns all vertices, the known ones predicted, too.
+gonio::point_columns by_block_covariance(const gonio::shape_basis& basis, const gonio::known_vertices& known,
+                                         double share) {
+  const Eigen::MatrixXd q = basis.components().cast<double>();
+  const Eigen::MatrixXd covariance = q * q.transpose() / static_cast<double>(basis.names().size());
+  std::vector<Eigen::Index> rows;
+  for (const Eigen::Index vertex : known.vertices)
+    for (Eigen::Index axis = 0; axis < 3; ++axis) rows.push_back(3 * vertex + axis);
+  const Eigen::MatrixXd s22 = covariance(rows, rows), s12 = covariance(Eigen::all, rows);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(s22);
+  const Eigen::VectorXd lambda = eigen.eigenvalues().reverse();
+  const Eigen::MatrixXd p = eigen.eigenvectors().rowwise().reverse();
+  Eigen::Index k = 0;
+  for (double sum = 0.0; sum < share * lambda.sum(); ++k) sum += lambda[k];
+  const Eigen::VectorXd mean = gonio::mean_shape(basis).reshaped();
+  const Eigen::VectorXd off = Eigen::VectorXd(known.positions.reshaped()) - mean(rows);
+  const Eigen::VectorXd projected = (p.leftCols(k).transpose() * off).cwiseQuotient(lambda.head(k));
+  const Eigen::VectorXd shape = mean + s12 * (p.leftCols(k) * projected);
+  return shape.reshaped(3, mean.size() / 3);
+}
+
+}  // namespace
+
+TEST_CASE("decomposition over vertices is the conditional expectation of Eq. 7") {
+  rc::check("for any known vertices and any share", [] {
+    const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000000);
+    const auto vertices = *rc::gen::inRange<Eigen::Index>(3, 12);
+    const auto shapes = *rc::gen::inRange<std::size_t>(4, 20);
+    const double share = *rc::gen::element(0.3, 0.9, 0.99);
+    const auto all = made_up_shapes(vertices, shapes + 1, 6, seed);
+    const gonio::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+    std::vector<bool> marks(static_cast<std::size_t>(vertices), false);
+    for (std::size_t v = 0; v < marks.size(); v += 2) marks[v] = true;
+    const auto known = gonio::known_vertices::marked(all.back(), marks);
+    const auto fit = gonio::decomposition{basis, gonio::truncated_svd{share}}.fit(known);
+    const gonio::point_columns expected = by_block_covariance(basis, known, share);
+    RC_ASSERT((fit.vertices() - expected).cwiseAbs().maxCoeff() < 1e-4);
+    RC_ASSERT(fit.found().certificate[0] < 1e-9);
+    RC_ASSERT((fit.vertex(1) - fit.vertices().col(1)).norm() < 1e-5);
+  });
+}
+
+TEST_CASE("a shape of the family is completed, one outside of it only as far as it is of the family") {
+  const auto all = made_up_shapes(30, 60, 4, 7);
+  const gonio::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+  std::vector<bool> marks(30, true);
+  for (std::size_t v = 10; v < 20; ++v) marks[v] = false;
+  const auto known = gonio::known_vertices::marked(all.back(), marks);
+  const auto off = [&](const auto& solver) {
+    return (gonio::decomposition{basis, solver}.fit(known).vertices() - all.back()).middleCols(10, 10).norm();
+  };
+  const double spread = (gonio::mean_shape(basis) - all.back()).middleCols(10, 10).norm();
+  CHECK(off(gonio::truncated_svd{0.99}) < 0.05 * spread);
+  CHECK(off(gonio::tikhonov{1e-2}) < 0.05 * spread);
+  CHECK(off(gonio::truncated_svd{0.3}) > 0.2 * spread);
+}
+
+TEST_CASE("all vertices known is a projection on the family") {
+  const auto all = made_up_shapes(8, 12, 3, 8);
+  const gonio::shape_basis basis = made_up_basis(all);
+  const auto known = gonio::known_vertices::marked(all[4], std::vector<bool>(8, true));
+  const auto fit = gonio::decomposition{basis, gonio::truncated_svd{1.0}}.fit(known);
+  CHECK((fit.vertices() - all[4]).cwiseAbs().maxCoeff() < 1e-4);
+}
+
+TEST_CASE("known vertices that say nothing are refused") {
+  const gonio::shape_basis basis = made_up_basis(made_up_shapes(5, 6, 3, 9));
+  const gonio::decomposition estimator{basis, gonio::truncated_svd{0.99}};
+  gonio::known_vertices known;
+  CHECK_THROWS_WITH_AS(estimator.fit(known), "no vertex is known: there is nothing to predict a shape from",
+                       gonio::error);
+  known.vertices = {1, 5};
+  known.positions = gonio::point_columns::Zero(3, 2);
+  CHECK_THROWS_WITH_AS(estimator.fit(known), "vertex 5 is known of shapes of 5 vertices", gonio::error);
+  known.vertices = {1, 2, 3};
+  CHECK_THROWS_WITH_AS(estimator.fit(known), "3 known vertices have 2 positions, 0 normals and 0 weights",
+                       gonio::error);
+  known.vertices = {1, 2};
+  known.positions(0, 1) = std::numeric_limits<double>::infinity();
+  CHECK_THROWS_WITH_AS(estimator.fit(known), "the position of known vertex 2 is not finite", gonio::error);
+}
