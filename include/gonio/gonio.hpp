@@ -88,9 +88,12 @@
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/mesh_parts.hpp>
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
+#include <gonio/io/obj.hpp>
+#include <gonio/io/ply.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/renderer_material.hpp>

@@ -372,6 +372,8 @@ TEST_CASE("bad bytes of a binary PLY are refused") {
   refused(changed(72, "\xFF"), {"truncated or its counts are wrong"});
   refused(changed(73, bytes_of_number(std::int32_t{3}, false)), {"a face names vertex 3 of a mesh of 3"});
   refused(changed(73, bytes_of_number(std::int32_t{-1}, false)), {"a face names vertex -1 of a mesh of 3"});
+  refused(recounted("list uchar int", "list uchar char").substr(0, body + 1 + 72) + "\3\1\2\xFF",
+          {"names vertex -1 of"});
   refused(recounted("vertex 3", "vertex 2147483647"), {"truncated or its counts are wrong"});
   refused(recounted("face 1", "face 18446744073709551615"), {"truncated or its counts are wrong"});
   refused(recounted("face 1", "face 0"), {"13 bytes follow"});
@@ -394,7 +396,9 @@ TEST_CASE("bad OBJ files are refused") {
   refused(points + "f 1 5 9\nf 1 2 4\n", {"line 4", "names vertex 9 of 3"});
   refused(points + "f 0 1 2\n", {"line 4", "names vertex 0 of 3"});
   refused(points + "f -1 -2 -4\nv 1 1 1\n", {"line 4", "names vertex -4 of 3"});
-  refused(points + "f 1 2 2147483648\n", {"line 4", "2147483648 of 3"});
+  for (const char* vertex : {"2147483648", "4294967297", "9223372036854775807"})
+    refused(points + "f 1 2 "s + vertex + "\n", {"line 4", vertex + " of 3"s});
+  refused(points + "f 1 2 -9223372036854775808\n", {"line 4", "-9223372036854775808 of 3"});
   for (const char* corner : {"1x", "x", "/1", "1.5", "99999999999999999999", "1/a", "3\\", "--1"})
     refused(points + "f 1 2 " + corner + "\n", {"line 4", "'"s + corner + "'", "expected a vertex of a face"});
   refused(points + "f 1 2\n", {"line 4", "a face has 2 vertices"});

@@ -29,6 +29,9 @@ struct fit_to_scan_options {
   /// How far vertices are from where they should be on the scan though the weights are right, mm: by noise, and because
   /// the closest place of a scan is not the corresponding one. Decides how much the scan is trusted against the family.
   double misplacement = 0.3;
+  /// Are places that are far off for their number hardly trusted? Noise at the edges of holes is then left out, but a
+  /// scan of something else is not told by its weights.
+  bool robust = false;
   double tolerance = 1e-3;  ///< the change of the shape that ends the iteration, root mean square in mm
   int most_iterations = 100;
 };
@@ -109,7 +112,7 @@ namespace detail {
   for (int iteration = 1;; ++iteration) {
     known_vertices places = closest_places(posed, shape, options.correspondence, threads);
     require_shown(places, part);
-    places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    if (options.robust) places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
     fitted_shape fit = estimator.fit(places);
     // The scan moves, not the shape.
     posed.pose = detail::motion_of(fit.weights(), centroid, freedom).inverse() * posed.pose;
@@ -118,7 +121,7 @@ namespace detail {
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
     places = closest_places(posed, shape, options.correspondence, threads);
-    places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    if (options.robust) places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
     return {posed.pose, std::move(fit), std::move(places), solver, iteration};
   }
 }

@@ -21,7 +21,8 @@ namespace gonio {
 struct recovery_options {
   fit_to_scan_options coarse;  ///< finds the pose, and whether the scan is of the family
   /// What is recovered: nearly all components, on a scan whose noise is this small.
-  fit_to_scan_options fine{.explained_variance = 0.9999, .misplacement = 0.05};
+  fit_to_scan_options fine{
+      .correspondence = {}, .explained_variance = 0.9999, .misplacement = 0.05, .robust = true};
   double confidence = 0.999;  ///< that a shape of the family is not refused
 };
 
@@ -75,7 +76,7 @@ inline void require_of_family(const fit_to_scan_result& fit, const shape_model& 
 /// The rounds of Algorithm 1.
 struct published_recovery_options {
   fit_to_scan_options coarse;  ///< that the rounds begin with
-  correspondence_options correspondence{.tangential = 1.0};
+  correspondence_options correspondence{.reach = 3.0, .normal_agreement = 0.5, .tangential = 1.0};
   double first_explained_variance = 0.30;
   double last_explained_variance = 0.999;
   int rounds = 10;              ///< of all vertices at once, while the explained variance rises

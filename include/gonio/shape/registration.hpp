@@ -101,10 +101,9 @@ namespace detail {
 
 /// The sentence of the first test that fails.
 [[nodiscard]] inline std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
-                                            const shape_model& model, const registration_options& options) {
+                                            const registration_options& options) {
   const auto weights = static_cast<double>(fit.weights().size());
   const double limit = chi_square_quantile(options.confidence, weights);
-  (void)model;
   if (found.squared_distance > limit)
     return "the Mahalanobis distance of its weights is " + std::to_string(std::sqrt(found.squared_distance)) +
            ", expected at most " + std::to_string(std::sqrt(limit));
@@ -128,7 +127,10 @@ namespace detail {
                                                 const similarity_transform& pose,
                                                 const registration_options& options = {}, thread_count threads = {}) {
   const fit_to_scan_result fit = fit_to_scan(model, scan, pose, options.fit, threads);
-  registration found{fit.shape(), fit.pose, fit.squared_distance()};
+  registration found;
+  found.vertices = fit.shape();
+  found.pose = fit.pose;
+  found.squared_distance = fit.squared_distance();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
   for (int round = 0; round < options.rounds; ++round) {
     const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
@@ -145,7 +147,7 @@ namespace detail {
   found.angle = smallest_angle_percentile(registered, 0.2);
   found.normal_agreement =
       vertex_normals(registered).cwiseProduct(vertex_normals(model.mesh(fit.shape()))).colwise().sum().mean();
-  found.refusal = detail::refusal_of(found, fit, model, options);
+  found.refusal = detail::refusal_of(found, fit, options);
   return found;
 }
 

@@ -1,0 +1,52 @@
+#pragma once
+/// What the readers of mesh files have in common.
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+/// Takes the next word off the front of a line; it is empty where the line ends.
+[[nodiscard]] inline std::string_view take_word(std::string_view& line) noexcept {
+  constexpr auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  const auto begin = std::ranges::find_if_not(line, is_blank);
+  const auto end = std::ranges::find_if(begin, line.end(), is_blank);
+  const std::string_view word(begin, end);
+  line = std::string_view(end, line.end());
+  return word;
+}
+
+/// What a file held so far.
+struct mesh_parts {
+  std::vector<double> coordinates;  // x, y and z of a vertex adjacent
+  std::vector<int> corners;         // the three of a triangle adjacent
+
+  [[nodiscard]] std::size_t vertices() const noexcept { return coordinates.size() / 3; }
+};
+
+/// Splits a polygon into a fan about its first vertex. It does not look where the vertices are, so that shapes in
+/// correspondence are split alike.
+class polygon_fan {
+ public:
+  explicit polygon_fan(std::vector<int>& corners) noexcept : corners_(corners) {}
+
+  void add(int vertex) {
+    if (size_ >= 2) corners_.insert(corners_.end(), {first_, last_, vertex});
+    if (size_ == 0) first_ = vertex;
+    last_ = vertex;
+    ++size_;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+
+ private:
+  std::vector<int>& corners_;
+  std::size_t size_ = 0;
+  int first_ = 0, last_ = 0;
+};
+
+inline constexpr int mesh_vertex_limit = std::numeric_limits<int>::max();
+
+}  // namespace gonio::io::detail

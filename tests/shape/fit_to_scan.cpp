@@ -1,0 +1,68 @@
+#include "small_ears.hpp"
+#include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/surface_distance.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+/// The true pose, turned by some degrees and shifted by some millimetres.
+gonio::similarity_transform about_right(const lab::ear_scan& scan, const gonio::shape_model& model, double degrees,
+                                        double shift) {
+  const Eigen::AngleAxisd turn(gonio::radians(degrees), Eigen::Vector3d(1, 2, 2) / 3.0);
+  const gonio::similarity_transform off{1.0, turn.toRotationMatrix(), Eigen::Vector3d(shift, -shift, 0.0)};
+  return off * gonio::align(scan.truth, model.mean().vertices);
+}
+
+}  // namespace
+
+TEST_CASE("a model finds the shape and the pose of a whole scan from one that is about right") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan scan = ears.scan(1);
+  const gonio::surface_index index(scan.mesh);
+  const auto found = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0));
+  CHECK(found.iterations > 1);
+  CHECK(found.iterations < 100);
+  const gonio::surface_index complete(scan.complete);
+  const auto off = gonio::distance_to(complete, found.pose.inverse()(found.shape()));
+  CHECK(off.absolute_mean < 0.12);  // a shape of the family is 1.15 mm from the mean
+  CHECK(found.squared_distance() > 0.0);
+  CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.explaining(0.99).basis().size()));
+  // What little motion was left in the end is in the pose.
+  CHECK(found.fit.weights().tail<6>().norm() * 1e3 < 0.05);
+}
+
+TEST_CASE("what a hole hides is not among the places") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan scan = ears.scan(2, small_ears::with_hole());
+  const auto found =
+      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 0.0, 0.0));
+  const auto marks = gonio::marks_of(found.places, ears.model.vertices());
+  std::size_t hidden = 0, shown_though_hidden = 0, shown = 0, uncovered = 0;
+  for (std::size_t v = 0; v < marks.size(); ++v) {
+    (scan.covered[v] ? shown : hidden) += 1;
+    shown_though_hidden += !scan.covered[v] && marks[v];
+    uncovered += scan.covered[v] && !marks[v];
+  }
+  REQUIRE(hidden > 20);
+  CHECK(static_cast<double>(shown_though_hidden) < 0.3 * static_cast<double>(hidden));
+  CHECK(static_cast<double>(uncovered) < 0.1 * static_cast<double>(shown));
+}
+
+TEST_CASE("spurious places are hardly trusted") {
+  gonio::point_columns shape = gonio::point_columns::Random(3, 100);
+  gonio::known_vertices places = gonio::known_vertices::marked(shape, std::vector<bool>(100, true));
+  places.positions.row(0).array() += 0.05;
+  places.positions.col(7).array() += 2.0;
+  const Eigen::VectorXd trust = gonio::detail::trust_in(places, shape, 0.05);
+  CHECK(trust[7] < 1e-3);
+  CHECK(trust[8] == doctest::Approx(0.81));  // (1 + 1/9)^-2
+}
+
+TEST_CASE("a pose that is wrong is refused") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan scan = ears.scan(1);
+  CHECK_THROWS_WITH_AS(
+      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 0.0, 100.0)),
+      "the scan shows 0 of the model's 500 vertices, expected at least 10: is its pose right?", gonio::error);
+}

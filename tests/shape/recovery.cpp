@@ -1,0 +1,116 @@
+#include "small_ears.hpp"
+#include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/recovery.hpp>
+#include <gonio/shape/surface_distance.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+/// A scan with a hole, and how far from the truth what was recovered there is.
+struct recovered_hole {
+  lab::ear_scan scan;
+  gonio::surface_index index, complete;
+  gonio::similarity_transform pose;
+  std::vector<Eigen::Index> hole;
+
+  recovered_hole(const small_ears& ears, std::uint64_t seed)
+      : scan(ears.scan(seed, small_ears::with_hole())),
+        index(scan.mesh),
+        complete(scan.complete),
+        pose(gonio::align(scan.truth, ears.model.mean().vertices)) {
+    for (std::size_t v = 0; v < scan.covered.size(); ++v)
+      if (!scan.covered[v] && ears.common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
+        hole.push_back(static_cast<Eigen::Index>(v));
+  }
+
+  [[nodiscard]] double off(const gonio::point_columns& vertices, const gonio::similarity_transform& to_model) const {
+    const gonio::point_columns recovered = to_model.inverse()(gonio::point_columns(vertices(Eigen::all, hole)));
+    return gonio::distance_to(complete, recovered).absolute_mean;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills it") {
+  const small_ears& ears = small_ears::of_sixty();
+  double ours = 0.0, thin_plate = 0.0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const recovered_hole judge(ears, seed);
+    const gonio::recovered_shape found = gonio::recover(ears.model, judge.index, judge.pose);
+    ours += judge.off(found.surface.vertices, found.pose);
+    gonio::point_columns shown = found.surface.vertices;
+    shown(Eigen::all, found.known.vertices) = found.known.positions;
+    const auto known = gonio::marks_of(found.known, ears.model.vertices());
+    thin_plate += judge.off(gonio::fill_smoothly(ears.model.topology(), shown, known), found.pose);
+    // Where nothing is known less is sure.
+    const gonio::shape_uncertainty uncertainty = found.fit.uncertainty();
+    double in_hole = 0.0, elsewhere = 0.0;
+    for (std::size_t v = 0; v < known.size(); ++v)
+      (judge.scan.covered[v] ? elsewhere : in_hole) += uncertainty.covariance(static_cast<Eigen::Index>(v)).trace();
+    const auto missing = static_cast<double>(std::ranges::count(judge.scan.covered, false));
+    CHECK(in_hole / missing > elsewhere / (static_cast<double>(known.size()) - missing));
+  }
+  MESSAGE("mean absolute distance in the hole: " << ours / 3.0 << " mm, thin plate " << thin_plate / 3.0 << " mm");
+  CHECK(ours < 0.6 * thin_plate);
+}
+
+TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
+  const small_ears& ears = small_ears::of_sixty();
+  const recovered_hole judge(ears, 1);
+  const double spread = judge.off(ears.model.mean().vertices, judge.pose);
+  for (const int local_rounds : {0, 2}) {
+    gonio::published_recovery_options options;
+    options.local_rounds = local_rounds;
+    const auto found = gonio::recover_as_published(ears.model, judge.index, judge.pose, options);
+    CHECK(judge.off(found.surface.vertices, found.pose) < spread);
+    CHECK(found.known.vertices.size() < 500);
+    CHECK(found.known.vertices.size() > 350);
+  }
+}
+
+TEST_CASE("the explained variance rises from the first to the last round and holds") {
+  const gonio::published_recovery_options options;
+  CHECK(gonio::detail::explained_variance_in(0, options) == 0.30);
+  CHECK(gonio::detail::explained_variance_in(9, options) == 0.999);
+  CHECK(gonio::detail::explained_variance_in(5, options) > gonio::detail::explained_variance_in(4, options));
+}
+
+TEST_CASE("a scan that shows all comes back less noisy") {
+  const small_ears& ears = small_ears::of_sixty();
+  lab::scan_options noisy;
+  noisy.noise = 0.15;
+  noisy.cut = 0.0;
+  const lab::ear_scan scan = ears.scan(4, noisy);
+  const auto found =
+      gonio::recover(ears.model, gonio::surface_index(scan.mesh), gonio::align(scan.truth, ears.model.mean().vertices));
+  const gonio::surface_index complete(scan.complete);
+  const double noise = gonio::distance_to(complete, scan.mesh.vertices).root_mean_square;
+  const double left = gonio::distance_to(complete, found.pose.inverse()(found.surface.vertices)).root_mean_square;
+  CHECK(noise == doctest::Approx(0.15).epsilon(0.1));
+  CHECK(left < noise);
+}
+
+TEST_CASE("a scan far outside the family is refused by its Mahalanobis distance") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan ear = ears.scan(5);
+  const auto pose = gonio::align(ear.truth, ears.model.mean().vertices);
+  const Eigen::Vector3d middle = ear.mesh.vertices.rowwise().mean();
+  for (const Eigen::Vector3d& stretched : {Eigen::Vector3d(1.3, 1.3, 1.3), Eigen::Vector3d(1.4, 0.7, 1.0),
+                                           Eigen::Vector3d(0.6, 1.3, 1.3), Eigen::Vector3d(0.7, 0.7, 0.7)}) {
+    gonio::triangle_mesh scan = ear.mesh;
+    scan.vertices = (stretched.asDiagonal() * (ear.mesh.vertices.colwise() - middle)).colwise() + middle;
+    const auto coarse = gonio::fit_to_scan(ears.model, gonio::surface_index(scan), pose);
+    MESSAGE("d2 " << coarse.squared_distance() << " k " << coarse.weights().size() << " limit "
+                  << gonio::largest_squared_distance(0.999, std::size_t(coarse.weights().size()), 60));
+    CHECK_THROWS_WITH_AS(gonio::recover(ears.model, gonio::surface_index(scan), pose),
+                         doctest::Contains("the scan is not of the model's family: its Mahalanobis distance"),
+                         gonio::error);
+  }
+}
+
+TEST_CASE("the limit of the distance is that of chi-square for many shapes, and wide for few") {
+  CHECK(gonio::largest_squared_distance(0.999, 10, 100000) == doctest::Approx(29.588).epsilon(2e-3));
+  CHECK(gonio::largest_squared_distance(0.999, 8, 12) > 500.0);
+  CHECK(std::isinf(gonio::largest_squared_distance(0.999, 12, 12)));
+}
