@@ -50,9 +50,9 @@ void learn_shapes(const shape_learn_command& options) {
   std::vector<gonio::named_scan> scans;
   for (const auto& file : options.scans) scans.push_back({file.stem().string(), gonio::io::read_mesh(file)});
   progress_bar bar;
-  const auto grown =
-      gonio::bootstrap_shape_model(std::move(shapes), std::move(names), std::move(triangles), scans, {},
-                                   options.threads, [&](std::string_view stage, double done) { bar.draw(stage, done); });
+  const auto grown = gonio::bootstrap_shape_model(std::move(shapes), std::move(names), std::move(triangles), scans, {},
+                                                  options.threads,
+                                                  [&](std::string_view stage, double done) { bar.draw(stage, done); });
   bar.wipe();
   gonio::io::write_shape_model(options.output, grown.model);
   for (std::size_t i = 0; i < scans.size(); ++i)

@@ -33,24 +33,3 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
     CHECK(found.normal_agreement > 0.75);
   }
 }
-
-TEST_CASE("the smallest angles of triangles") {
-  gonio::triangle_mesh mesh;
-  mesh.vertices.resize(3, 4);
-  mesh.vertices << 0, 1, 0, 1, 0, 0, 1, 3, 0, 0, 0, 0;
-  mesh.triangles.resize(3, 2);
-  mesh.triangles << 0, 1, 1, 3, 2, 2;
-  CHECK(gonio::smallest_angle_percentile(mesh, 1.0) == doctest::Approx(45.0));
-  CHECK(gonio::smallest_angle_percentile(mesh, 0.0) < 30.0);
-}
-
-TEST_CASE("averaging over neighbours keeps a border in its place") {
-  const small_ears ears(12);
-  const gonio::triangle_mesh mean = ears.model.mean();
-  const gonio::point_columns smooth = gonio::averaged_over_neighbours(ears.model.topology(), mean.vertices);
-  double rim = 0.0;
-  for (Eigen::Index v = 0; v < ears.model.vertices(); ++v)
-    if (ears.model.topology().on_border(v)) rim = std::max(rim, (smooth - mean.vertices).col(v).norm());
-  CHECK(rim > 0.0);
-  CHECK(rim < 0.2);
-}

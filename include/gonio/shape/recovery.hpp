@@ -21,8 +21,7 @@ namespace gonio {
 struct recovery_options {
   fit_to_scan_options coarse;  ///< finds the pose, and whether the scan is of the family
   /// What is recovered: nearly all components, on a scan whose noise is this small.
-  fit_to_scan_options fine{
-      .correspondence = {}, .explained_variance = 0.9999, .misplacement = 0.05, .robust = true};
+  fit_to_scan_options fine{.correspondence = {}, .explained_variance = 0.9999, .misplacement = 0.05, .robust = true};
   double confidence = 0.999;  ///< that a shape of the family is not refused
 };
 
@@ -34,21 +33,12 @@ struct recovered_shape {
   fit_to_scan_result fit;     ///< what the recovery is, or began with; `fit.uncertainty()` is that of its vertices
 };
 
-/// The squared distance from the mean, of k weights learned from m shapes, that a new shape of the family stays below
-/// with a probability: (m + 1) k / (m - k) F of k and m - k degrees of freedom. Chi-square of k, which the paper
-/// takes, is the limit for many shapes, and refuses nearly all if there are a dozen. Infinite unless k < m.
-[[nodiscard]] inline double largest_squared_distance(double confidence, std::size_t weights, std::size_t shapes) {
-  if (weights >= shapes) return std::numeric_limits<double>::infinity();
-  const auto k = static_cast<double>(weights), m = static_cast<double>(shapes);
-  return (m + 1.0) * k / (m - k) * f_quantile(confidence, k, m - k);
-}
-
 namespace detail {
 
 /// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
 inline void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
-  const auto weights = static_cast<std::size_t>(fit.weights().size());
-  const double limit = largest_squared_distance(confidence, weights, model.shapes());
+  const Eigen::Index weights = fit.weights().size();
+  const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
   if (fit.squared_distance() <= limit) return;
   throw error("the scan is not of the model's family: its Mahalanobis distance from the mean shape is " +
               std::to_string(std::sqrt(fit.squared_distance())) + ", expected at most " +
@@ -61,8 +51,9 @@ inline void require_of_family(const fit_to_scan_result& fit, const shape_model& 
 /// Recovers what a scan does not show, from a pose that is about right, by the pose and the weights of the family that
 /// fit what it shows. A second or two for 3,000 vertices and 160 shapes.
 ///
-/// Throws gonio::error if the scan shows hardly any vertex of the model, or if its shape is not of the family (see
-/// `largest_squared_distance`). A scan that shows all vertices comes back as the model sees it: less noisy.
+/// Throws gonio::error if the scan shows hardly any vertex of the model, or if its shape is not of the family: the
+/// squared distance of its weights from the mean is above chi-square's quantile (section 2). A scan that shows all
+/// vertices comes back as the model sees it: less noisy.
 [[nodiscard]] inline recovered_shape recover(const shape_model& model, const surface_index& scan,
                                              const similarity_transform& pose, const recovery_options& options = {},
                                              thread_count threads = {}) {

@@ -1,0 +1,90 @@
+/// What learning a shape model and recovering a scan cost, on one core: the published size, 161 shapes of 3,096
+/// vertices, and made-up ear canals of it. The share of the machine's limit is that of learning's Gram matrix, which is
+/// nearly all of its arithmetic.
+
+#include "../../examples/lab/ear_canal_scans.hpp"
+#include <gonio/shape/recovery.hpp>
+#include <gonio/shape/shape_context_alignment.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr gonio::thread_count one{1};
+
+struct ears {
+  lab::ear_canal_family family;
+  lab::ear_canal_template common;
+  std::vector<gonio::point_columns> shapes;
+  std::vector<std::string> names;
+
+  explicit ears(std::size_t count = 161) {
+    for (std::size_t i = 0; i < count; ++i) {
+      shapes.push_back(common.corresponded(family.draw(i)));
+      names.push_back("ear-" + std::to_string(i));
+    }
+  }
+
+  [[nodiscard]] gonio::shape_model learn() const {
+    return gonio::learn_shape_model(shapes, names, common.mesh().triangles, one);
+  }
+  [[nodiscard]] lab::ear_scan scan() const {
+    lab::scan_options how;
+    how.hole = lab::hole_options::large();
+    how.complete_vertices = 0;
+    return lab::scan_of(family.draw(5000), common, 1, how);
+  }
+};
+
+const ears& published() {
+  static const ears all;
+  return all;
+}
+
+const gonio::shape_model& model() {
+  static const gonio::shape_model learned = published().learn();
+  return learned;
+}
+
+void learn(benchmark::State& state) {
+  for (auto _ : state) benchmark::DoNotOptimize(published().learn());
+  const double shapes = 161.0, coordinates = 3.0 * 3096.0;
+  state.counters["gram_flops"] =
+      benchmark::Counter(coordinates * shapes * shapes, benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void find_pose(benchmark::State& state) {
+  const lab::ear_scan scan = published().scan();
+  const gonio::shape_context_matcher matcher(model().mean(), {}, one);
+  for (auto _ : state) benchmark::DoNotOptimize(matcher.align(scan.mesh, one));
+}
+
+void index_scan(benchmark::State& state) {
+  const lab::ear_scan scan = published().scan();
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::surface_index(scan.mesh));
+}
+
+void recover(benchmark::State& state) {
+  const lab::ear_scan scan = published().scan();
+  const gonio::surface_index index(scan.mesh);
+  const auto pose = gonio::align(scan.truth, model().mean().vertices);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::recover(model(), index, pose, {}, one));
+}
+
+void recover_as_published(benchmark::State& state) {
+  const lab::ear_scan scan = published().scan();
+  const gonio::surface_index index(scan.mesh);
+  const auto pose = gonio::align(scan.truth, model().mean().vertices);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::recover_as_published(model(), index, pose, {}, one));
+}
+
+BENCHMARK(learn)->Unit(benchmark::kMillisecond);
+BENCHMARK(find_pose)->Unit(benchmark::kMillisecond);
+BENCHMARK(index_scan)->Unit(benchmark::kMillisecond);
+BENCHMARK(recover)->Unit(benchmark::kMillisecond);
+BENCHMARK(recover_as_published)->Unit(benchmark::kMillisecond);
+
+}  // namespace
