@@ -17,7 +17,7 @@ gonio::image shape_picture(const gonio::triangle_mesh& mesh, const Eigen::Vector
   const auto from = [&](const Eigen::Vector3d& towards) {
     gonio::mesh_view view = gonio::mesh_view::of(mesh, towards);
     view.radius = 18.0;  // mm: all ears at one scale
-    view.pixels = 320;
+    view.pixels = 240;
     return gonio::picture_of(mesh, colours, view);
   };
   const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};

@@ -1,12 +1,12 @@
 #pragma once
 /// Holes in the scans of ear canals, where a bend hides the wall from the scanner.
 
+#include "ear_canal_mesh.hpp"
+#include "ear_canals.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <Eigen/Core>
-#include <lab/ear_canal_mesh.hpp>
-#include <lab/ear_canals.hpp>
 
 #include <algorithm>
 #include <array>

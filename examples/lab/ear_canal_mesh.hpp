@@ -2,11 +2,11 @@
 /// Triangles for a surface that is a map from (u, v), v round it and u from an open end to a tip: rings of near-equal
 /// triangles, regular for a template or irregular as a scanner's.
 
+#include "ear_canals.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <Eigen/Core>
-#include <lab/ear_canals.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,13 +2,13 @@
 /// Scans of the ear canals of `lab::ear_canal_family`: triangulated by chance, somewhere in space, noisy, with holes
 /// and of the kinds that a bootstrap must reject, and what is true about each of them.
 
+#include "ear_canal_holes.hpp"
+#include "ear_canal_mesh.hpp"
+#include "ear_canals.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <Eigen/Geometry>
-#include <lab/ear_canal_holes.hpp>
-#include <lab/ear_canal_mesh.hpp>
-#include <lab/ear_canals.hpp>
 
 #include <algorithm>
 #include <array>

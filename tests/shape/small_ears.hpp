@@ -3,7 +3,7 @@
 
 #include <gonio/shape/shape_model.hpp>
 
-#include <lab/ear_canal_scans.hpp>
+#include "lab/ear_canal_scans.hpp"
 
 #include <cstdint>
 #include <string>
