@@ -21,7 +21,7 @@ struct shape_recover_command {
   gonio::thread_count threads;
 };
 
-/// `from`'s message behind the name of a file.
+/// What is wrong with what a file holds, behind its name.
 template <class Work>
 auto in_file(const std::filesystem::path& file, Work&& work) {
   try {
@@ -48,20 +48,22 @@ void recover_shape(const shape_recover_command& options) {
     if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
   Eigen::VectorXd distances;
-  std::vector<gonio::rgb> colours(known.size(), gonio::rgb::Constant(0.5));
+  std::vector<gonio::rgb> colours;
   if (!options.truth.empty()) {
-    const gonio::surface_index truth =
-        in_file(options.truth, [&] { return gonio::surface_index(gonio::io::read_mesh(options.truth)); });
+    gonio::triangle_mesh whole = gonio::io::read_mesh(options.truth);
+    const auto truth = in_file(options.truth, [&] { return gonio::surface_index(std::move(whole)); });
     distances = gonio::signed_distances(truth, recovered.vertices, options.threads);
-    for (std::size_t v = 0; v < colours.size(); ++v)
-      colours[v] = gonio::false_colour(distances[static_cast<Eigen::Index>(v)], {-0.5, 0.5});
+    for (const double distance : distances) colours.push_back(gonio::false_colour(distance, {-0.5, 0.5}));
     if (!missing.empty()) {
       const auto off = gonio::surface_distance::of(distances(missing));
       std::cout << "distance of these from the truth: signed mean " << fixed(off.signed_mean, 3) << " mm, absolute "
                 << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
     }
   }
-  gonio::io::write_mesh(options.output, recovered, colours);
+  if (colours.empty())
+    gonio::io::write_mesh(options.output, recovered);
+  else
+    gonio::io::write_mesh(options.output, recovered, colours);
   if (!options.picture.empty()) gonio::io::write_png(options.picture, shape_picture(found.surface, distances, 0.5));
 }
 
@@ -79,8 +81,9 @@ void add_shape_recover(CLI::App& shape) {
   command->add_option("--image", options->picture, "The recovered surface from two sides (.png)");
   add_threads_option(*command, options->threads);
   command
-      ->add_option("-o,--output", options->output,
-                   "Recovered surface to write (.ply), coloured by its distance from the truth, if that is known")
+      ->add_option(
+          "-o,--output", options->output,
+          "Recovered surface to write (.ply, or without --truth .obj), coloured by its distance from the truth")
       ->required();
   command->callback([options] { recover_shape(*options); });
 }

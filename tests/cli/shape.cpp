@@ -186,7 +186,7 @@ TEST_CASE("shape learn: shapes that do not correspond, or do not differ, are ref
   turned.triangles.row(0).swap(turned.triangles.row(1));
   io::write_mesh(made.at("turned.ply"), turned);
   refuses_to_learn(shape + " " + made.at("turned.ply"), "turned.ply: does not have the vertices and triangles of");
-  refuses_to_learn(shape, "do not differ");
+  refuses_to_learn(shape, "a shape model needs at least two shapes that differ, not 1 that do not");
   refuses_to_learn(made.at("missing.ply"), "missing.ply: cannot be read");
 }
 

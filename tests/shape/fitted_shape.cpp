@@ -78,6 +78,30 @@ TEST_CASE("all vertices known is a projection on the family") {
   CHECK((fit.vertices() - all[4]).cwiseAbs().maxCoeff() < 1e-4);
 }
 
+TEST_CASE("along a surface a place hardly counts, and one that is not trusted not at all") {
+  const auto all = made_up_shapes(30, 60, 4, 11);
+  const gonio::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+  const gonio::decomposition estimator{basis, gonio::tikhonov{1e-3}};
+  const auto exact = gonio::known_vertices::marked(all.back(), std::vector<bool>(30, true));
+  const double best = (estimator.fit(exact).vertices() - all.back()).norm();
+  gonio::known_vertices slid = exact;
+  for (Eigen::Index i = 0; i < 30; ++i) slid.positions.col(i) += Eigen::Vector3d(0.0, 0.5, -0.5);
+  const double in_full = (estimator.fit(slid).vertices() - all.back()).norm();
+  slid.normals = Eigen::Vector3d::UnitX().replicate(1, 30);
+  slid.tangential = 1e-6;
+  CHECK((estimator.fit(slid).vertices() - all.back()).norm() < 0.5 * in_full);
+
+  gonio::known_vertices wrong = exact;
+  wrong.positions.col(3).array() += 100.0;
+  CHECK((estimator.fit(wrong).vertices() - all.back()).norm() > 10.0 * best);
+  wrong.trust = Eigen::VectorXd::Ones(30);
+  wrong.trust[3] = 0.0;
+  CHECK((estimator.fit(wrong).vertices() - all.back()).norm() < 2.0 * best);
+
+  wrong.normals = Eigen::Vector3d(1.0, 1.0, 0.0).replicate(1, 30);
+  CHECK_THROWS_WITH_AS(estimator.fit(wrong), "the normal at known vertex 0 does not have length 1", gonio::error);
+}
+
 TEST_CASE("known vertices that say nothing are refused") {
   const gonio::shape_basis basis = made_up_basis(made_up_shapes(5, 6, 3, 9));
   const gonio::decomposition estimator{basis, gonio::truncated_svd{0.99}};

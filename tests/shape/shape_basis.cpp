@@ -49,6 +49,24 @@ TEST_CASE("a share of the variance keeps the fewest components that have it") {
                        "the explained variance must be above 0 and at most 1, not 0.000000", gonio::error);
 }
 
+TEST_CASE("the last functions of a basis with motion turn and shift the mean shape") {
+  const gonio::shape_basis basis = made_up_basis(made_up_shapes(8, 6, 3, 6));
+  const double freedom = 100.0;
+  const gonio::shape_basis moving = gonio::with_motion(basis, freedom);
+  REQUIRE(moving.size() == basis.size() + 6);
+  const gonio::point_columns mean = gonio::mean_shape(basis);
+  const Eigen::Vector3d centroid = mean.rowwise().mean(), turn(0.01, -0.02, 0.03), shift(1.0, 2.0, -3.0);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(moving.size()));
+  weights.tail<6>() << turn / freedom, shift / freedom;
+  gonio::point_columns expected = mean.colwise() + shift;
+  for (Eigen::Index v = 0; v < mean.cols(); ++v) expected.col(v) += turn.cross(mean.col(v) - centroid);
+  CHECK((gonio::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
+  // They are no shapes that were learned from.
+  CHECK((gonio::shape_of(moving, moving.weights_of(2).col(0)) - gonio::shape_of(basis, basis.weights_of(2).col(0)))
+            .cwiseAbs()
+            .maxCoeff() == 0.0);
+}
+
 TEST_CASE("shapes that do not belong together are refused") {
   auto shapes = made_up_shapes(4, 3, 2, 5);
   CHECK_THROWS_WITH_AS(gonio::shape_set::of(shapes, made_up_names(2)), doctest::Contains("3 shapes and 2 names"),
