@@ -49,9 +49,10 @@ TEST_CASE("a cell is mapped value by value, and what is not finite before or aft
 TEST_CASE("a set without materials, or whose table does not fit them and the cells, is not complete") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
   const auto count = static_cast<Eigen::Index>(cells.size());
-  CHECK_NOTHROW(gonio::require_complete(material_set{cells, {"clay"}, gonio::cell_matrix(count, 3)}));
-  CHECK_THROWS_AS(gonio::require_complete(material_set{cells, {}, gonio::cell_matrix(count, 0)}), gonio::error);
-  CHECK_THROWS_AS(gonio::require_complete(material_set{cells, {"clay"}, gonio::cell_matrix(count, 4)}), gonio::error);
-  CHECK_THROWS_AS(gonio::require_complete(material_set{cells, {"clay"}, gonio::cell_matrix(count - 1, 3)}),
+  CHECK_NOTHROW(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count, 3)}));
+  CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {}, gonio::cell_matrix(count, 0)}), gonio::error);
+  CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count, 4)}),
+                  gonio::error);
+  CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count - 1, 3)}),
                   gonio::error);
 }
