@@ -26,7 +26,7 @@ set(edges
   "gonio.hpp  -> estimate design model capture render evaluate io")
 
 foreach(edge IN LISTS edges)
-  string(REGEX MATCHALL "[a-z./]+" modules "${edge}") # the arrow itself does not match
+  string(REGEX MATCHALL "[a-z_./]+" modules "${edge}") # the arrow itself does not match
   list(POP_FRONT modules user)
   set(allowed_${user} ${user})
   foreach(used IN LISTS modules)

@@ -16,7 +16,11 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
     scans.push_back({"scan-" + std::to_string(seed), truths.back().mesh});
   }
   scans.push_back({"nothing", {}});
-  const auto grown = gonio::bootstrap_shape_model(ears.shapes, ears.names, ears.common.mesh().triangles, scans);
+  gonio::bootstrap_options options;
+  options.passes = 2;
+  options.registration.fit.most_iterations = 30;
+  const auto grown =
+      gonio::bootstrap_shape_model(ears.shapes, ears.names, ears.common.mesh().triangles, scans, options);
   REQUIRE(grown.outcomes.size() == 7);
   CHECK(grown.model.shapes() == 12 + grown.accepted());
   CHECK(grown.accepted() >= 2);

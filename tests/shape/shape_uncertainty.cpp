@@ -66,7 +66,7 @@ TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of 
   const double chi_square = gonio::chi_square_quantile(0.95, 3.0);
   for (const std::size_t count : {std::size_t{30}, std::size_t{300}}) {
     std::size_t inside = 0, inside_as_published = 0, all = 0;
-    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Eigen::Index vertices = 30;
       const auto shapes = made_up_shapes(vertices, count + 20, 12, seed);
       const gonio::shape_basis basis = made_up_basis({shapes.begin(), shapes.end() - 20});
