@@ -1,6 +1,5 @@
 /// What learning a shape model and recovering a scan cost, on one core: the published size, 161 shapes of 3,096
-/// vertices, and made-up ear canals of it. The share of the machine's limit is that of learning's Gram matrix, which is
-/// nearly all of its arithmetic.
+/// vertices, and made-up ear canals of it.
 
 #include "../../examples/lab/ear_canal_scans.hpp"
 #include <gonio/shape/recovery.hpp>
@@ -51,9 +50,6 @@ const gonio::shape_model& model() {
 
 void learn(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(published().learn());
-  const double shapes = 161.0, coordinates = 3.0 * 3096.0;
-  state.counters["gram_flops"] =
-      benchmark::Counter(coordinates * shapes * shapes, benchmark::Counter::kIsIterationInvariantRate);
 }
 
 void find_pose(benchmark::State& state) {
