@@ -1,9 +1,8 @@
 #pragma once
 /// A coarse model of made-up ear canals, and scans of others, for tests of what works on scans.
 
-#include <gonio/shape/shape_model.hpp>
-
 #include "lab/ear_canal_scans.hpp"
+#include <gonio/shape/shape_model.hpp>
 
 #include <cstdint>
 #include <string>
