@@ -1,5 +1,5 @@
 #pragma once
-/// An active shape model brought onto a scan: iterative closest points and the model's weights in turn.
+/// An active shape model brought onto a scan: closest places in turn with the pose and the weights that go there.
 /// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2, Eq. 3;
 /// closest points as Besl and McKay, IEEE PAMI 14(2), 1992.
 ///

@@ -28,13 +28,10 @@ class shape_uncertainty {
   template <solver Solver>
   shape_uncertainty(const fitted_shape& fit, const known_vertices& known, const Solver& solver)
       : basis_(fit.functions()) {
-    const located_samples located = locate_samples(basis_.cells(), known);
     const auto k = static_cast<Eigen::Index>(basis_.size());
-    row_matrix rows(static_cast<Eigen::Index>(located.size()), k);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i)
-      read_row_at(basis_, located.at[static_cast<std::size_t>(i)], rows.row(i));
-    const Eigen::MatrixXd shown = rows;
-    const Eigen::MatrixXd seen = solver.solve(least_squares_problem(std::move(rows), shown, located.weights)).weights;
+    const least_squares_problem problem = basis_equations<shape_basis>(basis_, known).problem();
+    const row_matrix rows = problem.rows();
+    const Eigen::MatrixXd seen = solver.solve(least_squares_problem(rows, rows, problem.weights())).weights;
     unseen_ = Eigen::MatrixXd::Identity(k, k) - 0.5 * (seen + seen.transpose());
     const auto m = static_cast<double>(basis_.names().size());
     published_scale_ = 1.0 / m;
