@@ -41,6 +41,7 @@ void add_shape(CLI::App& app) {
   add_shape_learn(*shape);
   add_shape_recover(*shape);
   add_shape_demo(*shape);
+  add_shape_grow(*shape);
 }
 
 }  // namespace cli

@@ -15,6 +15,7 @@ namespace cli {
 void add_shape_learn(CLI::App& shape);
 void add_shape_recover(CLI::App& shape);
 void add_shape_demo(CLI::App& shape);
+void add_shape_grow(CLI::App& shape);
 
 /// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
 /// compared with; without distances in grey. `largest` mm are pure blue and red.

@@ -8,6 +8,7 @@
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>
 #include <gonio/render/image.hpp>
+#include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
@@ -15,6 +16,7 @@
 #include <array>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace cli {
 
@@ -25,6 +27,7 @@ struct shape_demo_command {
   std::uint64_t seed = 1;
   std::string hole = "large";
   double edge_noise = 0.0;
+  std::size_t trials = 0;
   std::filesystem::path folder;
   bool as_json = false;
   gonio::thread_count threads;
@@ -35,6 +38,12 @@ struct judged_surface {
   std::string name;
   gonio::point_columns vertices;  ///< in the scan's space
   gonio::surface_distance hole;
+};
+
+/// All ways, and how sure ours says that it is.
+struct judged_ear {
+  std::vector<judged_surface> ways;
+  std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
 gonio::shape_model learn_ear_canals(const lab::ear_canal_template& common, const shape_demo_command& options) {
@@ -59,54 +68,77 @@ lab::ear_scan scan_held_out(const lab::ear_canal_template& common, const shape_d
   return lab::scan_of(lab::ear_canal_family().draw(individual), common, scanner, how);
 }
 
-/// The ways to recover a scan, judged where it has its hole.
-std::vector<judged_surface> judge_ways(const gonio::shape_model& model, const lab::ear_canal_template& common,
-                                       const lab::ear_scan& scan, gonio::thread_count threads) {
-  const gonio::surface_index index(scan.mesh), complete(scan.complete);
-  const gonio::similarity_transform pose = find_pose(model, scan.mesh, threads);
+/// The vertices in the hole of a scan.
+std::vector<Eigen::Index> hole_of(const lab::ear_canal_template& common, const lab::ear_scan& scan) {
   std::vector<Eigen::Index> hole;
   for (std::size_t v = 0; v < scan.covered.size(); ++v)
     if (!scan.covered[v] && common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
       hole.push_back(static_cast<Eigen::Index>(v));
-  std::vector<judged_surface> ways;
+  return hole;
+}
+
+/// The share of vertices whose true place is in the 95 % ellipsoid about where they were recovered.
+double share_inside(const gonio::cross_validated_uncertainty& uncertainty, const gonio::recovered_shape& ours,
+                    const gonio::point_columns& truth, const std::vector<Eigen::Index>& vertices) {
+  const double radius = uncertainty.squared_radius(0.95);
+  const auto inside = std::ranges::count_if(vertices, [&](Eigen::Index vertex) {
+    const Eigen::Vector3d off = ours.surface.vertices.col(vertex) - ours.pose(truth.col(vertex));
+    return off.dot(uncertainty.covariance(vertex).llt().solve(off)) <= radius;
+  });
+  return static_cast<double>(inside) / static_cast<double>(vertices.size());
+}
+
+/// The ways to recover a scan, judged where it has its hole.
+judged_ear judge_ear(const gonio::shape_model& model, const lab::ear_canal_template& common, const lab::ear_scan& scan,
+                     const shape_demo_command& options) {
+  const gonio::surface_index index(scan.mesh), complete(scan.complete);
+  const gonio::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
+  const std::vector<Eigen::Index> hole = hole_of(common, scan);
+  judged_ear judged;
   const auto judge = [&](std::string name, const gonio::point_columns& vertices, const auto& to_model) {
     gonio::point_columns placed = to_model.inverse()(vertices);
     const gonio::point_columns recovered = placed(Eigen::all, hole);
-    ways.push_back({std::move(name), std::move(placed), gonio::distance_to(complete, recovered, threads)});
+    judged.ways.push_back(
+        {std::move(name), std::move(placed), gonio::distance_to(complete, recovered, options.threads)});
   };
-  const gonio::recovered_shape ours = gonio::recover(model, index, pose, {}, threads);
+  const gonio::recovered_shape ours = gonio::recover(model, index, pose, {}, options.threads);
   gonio::point_columns shown = ours.surface.vertices;
   shown(Eigen::all, ours.known.vertices) = ours.known.positions;
   judge("thin plate", gonio::fill_smoothly(model.topology(), shown, gonio::marks_of(ours.known, model.vertices())),
         ours.pose);
   gonio::published_recovery_options published;
   published.local_rounds = 0;
-  const auto at_once = gonio::recover_as_published(model, index, pose, published, threads);
+  const auto at_once = gonio::recover_as_published(model, index, pose, published, options.threads);
   judge("Algorithm 1", at_once.surface.vertices, at_once.pose);
   published.local_rounds = 3;
-  const auto locally = gonio::recover_as_published(model, index, pose, published, threads);
+  const auto locally = gonio::recover_as_published(model, index, pose, published, options.threads);
   judge("+ local smoothing", locally.surface.vertices, locally.pose);
   judge("gonio", ours.surface.vertices, ours.pose);
-  return ways;
+  if (options.trials > 0)
+    judged.inside = share_inside({model, index, ours, {.trials = options.trials, .recovery = {}}, options.threads},
+                                 ours, scan.truth, hole);
+  return judged;
 }
 
-void print_ways(std::size_t number, const std::vector<judged_surface>& ways) {
+void print_ear(std::size_t number, const judged_ear& ear) {
   if (number == 1) {
     std::cout << "signed and absolute mean distance from the truth in the hole, mm\n  #";
-    for (const judged_surface& way : ways) std::cout << std::string(19 - way.name.size(), ' ') << way.name;
-    std::cout << '\n';
+    for (const judged_surface& way : ear.ways) std::cout << std::string(19 - way.name.size(), ' ') << way.name;
+    std::cout << (ear.inside ? "   inside the 95 % ellipsoid\n" : "\n");
   }
   std::cout << std::string(number < 10 ? 2 : 1, ' ') << number;
-  for (const judged_surface& way : ways) {
+  for (const judged_surface& way : ear.ways) {
     const std::string text = fixed(way.hole.signed_mean, 3) + " " + fixed(way.hole.absolute_mean, 3);
     std::cout << std::string(19 - text.size(), ' ') << text;
   }
+  if (ear.inside) std::cout << "   " << fixed(100.0 * *ear.inside, 1) << " %";
   std::cout << std::endl;
 }
 
-json json_of(const std::vector<judged_surface>& ways) {
+json json_of(const judged_ear& ear) {
   json all;
-  for (const judged_surface& way : ways)
+  if (ear.inside) all["inside"] = *ear.inside;
+  for (const judged_surface& way : ear.ways)
     all[way.name] = {{"signed_mean", way.hole.signed_mean},
                      {"absolute_mean", way.hole.absolute_mean},
                      {"largest", way.hole.largest}};
@@ -143,12 +175,12 @@ void show_shapes(const shape_demo_command& options) {
   std::vector<gonio::image> rows;
   for (std::size_t i = 0; i < options.held_out; ++i) {
     const lab::ear_scan scan = scan_held_out(common, options, i);
-    const std::vector<judged_surface> ways = judge_ways(model, common, scan, options.threads);
-    if (!options.as_json) print_ways(i + 1, ways);
-    report["held_out"].push_back(json_of(ways));
+    const judged_ear ear = judge_ear(model, common, scan, options);
+    if (!options.as_json) print_ear(i + 1, ear);
+    report["held_out"].push_back(json_of(ear));
     if (options.folder.empty()) continue;
-    if (i == 0) write_example(options.folder, model, scan, ways);
-    if (i < 3) rows.push_back(demo_picture(model, scan, ways));
+    if (i == 0) write_example(options.folder, model, scan, ear.ways);
+    if (i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
   }
   if (options.as_json) std::cout << report.dump(2) << '\n';
   if (rows.empty()) return;
@@ -176,6 +208,12 @@ void add_shape_demo(CLI::App& shape) {
       ->capture_default_str();
   command->add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
       ->check(CLI::Range(0.0, 5.0))
+      ->capture_default_str();
+  command
+      ->add_option("--trials", options->trials,
+                   "Shapes left out for each ear, to see how sure it is and whether that is so; 0 for none, else 10 or "
+                   "more")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   add_threads_option(*command, options->threads);
   command->add_flag("--json", options->as_json, "Print figures as JSON");

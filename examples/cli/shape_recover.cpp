@@ -5,9 +5,11 @@
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>
 #include <gonio/render/false_colour.hpp>
+#include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -18,6 +20,7 @@ namespace {
 struct shape_recover_command {
   std::filesystem::path scan, model, output, truth, picture;
   double noise = 0.05;
+  std::size_t trials = 0;
   gonio::thread_count threads;
 };
 
@@ -31,13 +34,29 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
   }
 }
 
+/// How far vertices are expected to be off, by leaving shapes of the model out.
+void print_how_sure(const gonio::cross_validated_uncertainty& uncertainty, const gonio::triangle_mesh& recovered,
+                    const std::vector<Eigen::Index>& vertices) {
+  const gonio::point_columns normals = gonio::vertex_normals(recovered);
+  double across = 0.0, all = 0.0;
+  for (const Eigen::Index vertex : vertices) {
+    const Eigen::Matrix3d covariance = uncertainty.covariance(vertex);
+    across += normals.col(vertex).dot(covariance * normals.col(vertex));
+    all += covariance.trace();
+  }
+  const auto count = static_cast<double>(vertices.size());
+  std::cout << "expected error of these (root mean square, " << uncertainty.trials()
+            << " shapes left out): " << fixed(std::sqrt(across / count), 3) << " mm across the surface, "
+            << fixed(std::sqrt(all / count), 3) << " mm with what vertices slide along it\n";
+}
+
 void recover_shape(const shape_recover_command& options) {
   const gonio::shape_model model = gonio::io::read_shape_model(options.model);
   const gonio::triangle_mesh scan = gonio::io::read_mesh(options.scan);
   gonio::recovery_options how;
   how.fine.misplacement = options.noise;
+  const gonio::surface_index index = in_file(options.scan, [&] { return gonio::surface_index(scan); });
   const gonio::recovered_shape found = in_file(options.scan, [&] {
-    const gonio::surface_index index(scan);
     return gonio::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
   });
   gonio::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
@@ -47,6 +66,9 @@ void recover_shape(const shape_recover_command& options) {
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
     if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
+  if (options.trials > 0 && !missing.empty())
+    print_how_sure({model, index, found, {.trials = options.trials, .recovery = how}, options.threads}, found.surface,
+                   missing);
   Eigen::VectorXd distances;
   std::vector<gonio::rgb> colours;
   if (!options.truth.empty()) {
@@ -76,6 +98,12 @@ void add_shape_recover(CLI::App& shape) {
   command->add_option("--model", options->model, "From gonio shape learn")->required();
   command->add_option("--noise", options->noise, "Of the scan, mm")
       ->check(CLI::Range(1e-4, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--trials", options->trials,
+          "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
+      ->check(CLI::Range(0, 100000))
       ->capture_default_str();
   command->add_option("--truth", options->truth, "The whole surface, to compare with");
   command->add_option("--image", options->picture, "The recovered surface from two sides (.png)");

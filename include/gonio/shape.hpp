@@ -9,10 +9,12 @@
 #include <gonio/shape/bootstrap.hpp>
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
+#include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/geodesic.hpp>
 #include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/mesh_picture.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -24,4 +26,5 @@
 #include <gonio/shape/shape_uncertainty.hpp>
 #include <gonio/shape/surface_distance.hpp>
 #include <gonio/shape/surface_index.hpp>
+#include <gonio/shape/surface_noise.hpp>
 #include <gonio/shape/triangle_mesh.hpp>

@@ -144,6 +144,34 @@ TEST_CASE("shape learn: a model of meshes in correspondence, and what it recover
   CHECK(io::read_mesh(made.at("filled.ply")).triangles == model.triangles());
 }
 
+TEST_CASE("shape recover: how sure the recovered vertices are, from shapes that are left out") {
+  const auto& made = demonstrated();
+  const std::string told = run_shape("recover " + made.ear("scan.ply") + " --model " + made.ear("ears.shapes") +
+                                     " --trials 10 -o " + made.at("sure.ply"));
+  const double across = number_behind(told, " left out): "), all = number_behind(told, "across the surface, ");
+  CHECK(across > 0.02);
+  CHECK(across < 0.5);
+  CHECK(all > across);
+  CHECK(all < 2.0);
+  refuses_shape("recover " + made.ear("scan.ply") + " --model " + made.ear("ears.shapes") + " --trials 41 -o " +
+                    made.at("never.ply"),
+                "from 10 to 40 shapes can be left out, not 41");
+  CHECK_FALSE(std::filesystem::exists(made.at("never.ply")));
+}
+
+TEST_CASE("shape grow: what a model that grows makes of scans, good ones and others") {
+  const auto report = nlohmann::json::parse(run_shape("grow --scans 6 --defects 0.3 --json"));
+  CHECK(report["good"].get<int>() + report["defective"].get<int>() == 6);
+  CHECK(report["defective"] >= 1);
+  CHECK(report["accepted_good"] >= 1);
+  CHECK(report["accepted_defective"] == 0);
+  CHECK(report["refusals_of_defective"].size() == report["defective"]);
+  CHECK(report["accepted_good"].get<std::size_t>() + report["refusals_of_good"].size() == report["good"]);
+  CHECK(report["median_off"] > 0.0);
+  CHECK(report["largest_off"] < 2.5);
+  CHECK(report["too_far"] == 0);
+}
+
 TEST_CASE("shape recover: scans and models that are none are refused by name") {
   const auto& made = demonstrated();
   const auto refuses_to_recover = [&](const std::string& scan, const std::string& model, const std::string& words) {
@@ -196,4 +224,6 @@ TEST_CASE("shape: options out of range are refused") {
   refuses_shape("recover scan.ply --model x.shapes --noise 0 -o x.ply", "--noise");
   refuses_shape("demo --shapes 2", "--shapes");
   refuses_shape("demo --hole none", "--hole");
+  refuses_shape("grow --annotated 1", "--annotated");
+  refuses_shape("grow --defects 1.5", "--defects");
 }

@@ -16,6 +16,7 @@ namespace gonio {
 struct posed_scan {
   surface_index surface;
   similarity_transform pose;
+  Eigen::RowVectorXd trust = {};  ///< none, or how much each vertex of the surface counts: see `known_vertices`
 
   /// The nearest place to a point of the model's space, in that space.
   [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const {
@@ -34,6 +35,13 @@ struct posed_scan {
   /// The outward normal at a place that was found, in the model's space: see `surface_index::pseudonormal`.
   [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const {
     return pose.rotation * surface.pseudonormal(place);
+  }
+
+  /// How much a place counts: 1 if nothing is said about the surface's vertices.
+  [[nodiscard]] double trust_at(const surface_point& place) const {
+    if (trust.size() == 0) return 1.0;
+    const Eigen::Vector3i corners = surface.mesh().triangles.col(place.triangle);
+    return trust(corners).dot(place.barycentric);
   }
 
  private:
@@ -67,6 +75,7 @@ struct correspondence_options {
   const point_columns normals = vertex_normals(shape);
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
   point_columns places(3, shape.vertices.cols()), normals_there(3, shape.vertices.cols());
+  Eigen::VectorXd trust(shape.vertices.cols());
   std::vector<char> shown(count, 0);  // not bool: threads write neighbours
   for_each_block(
       count, 128,
@@ -76,13 +85,16 @@ struct correspondence_options {
           const surface_point found = scan.closest(shape.vertices.col(vertex));
           places.col(vertex) = found.position;
           normals_there.col(vertex) = scan.normal(found);
+          trust[vertex] = scan.trust_at(found);
           // What is missing in the scan is nearest to where it ends.
           shown[i] = !found.on_border && found.distance <= options.reach &&
                      normals_there.col(vertex).dot(normals.col(vertex)) >= options.normal_agreement;
         }
       },
       threads);
-  return shown_vertices(places, normals_there, shown, options.tangential);
+  known_vertices known = shown_vertices(places, normals_there, shown, options.tangential);
+  known.trust = trust(known.vertices);
+  return known;
 }
 
 }  // namespace gonio

@@ -10,6 +10,7 @@
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/shape_model.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/shape/surface_noise.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Geometry>
@@ -82,6 +83,12 @@ namespace detail {
   return (1.0 + (distances.array() / usual).square()).square().inverse();
 }
 
+/// Where a scan is noisy, vertices are off by its noise besides their misplacement.
+[[nodiscard]] inline Eigen::RowVectorXd trust_in_surface(const surface_index& scan, double misplacement) {
+  const Eigen::RowVectorXd noise = noise_variances(scan.mesh(), scan.topology());
+  return (1.0 + noise.array() / (misplacement * misplacement)).inverse();
+}
+
 /// The rigid motion that the last weights of a basis `with_motion` stand for.
 [[nodiscard]] inline similarity_transform motion_of(const Eigen::VectorXd& weights, const Eigen::Vector3d& centroid,
                                                     double freedom) {
@@ -108,11 +115,11 @@ namespace detail {
   triangle_mesh shape = part.mean();
   const Eigen::Vector3d centroid = shape.vertices.rowwise().mean();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
-  posed_scan posed{scan, pose};
+  posed_scan posed{scan, pose, detail::trust_in_surface(scan, options.misplacement)};
   for (int iteration = 1;; ++iteration) {
     known_vertices places = closest_places(posed, shape, options.correspondence, threads);
     require_shown(places, part);
-    if (options.robust) places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
     fitted_shape fit = estimator.fit(places);
     // The scan moves, not the shape.
     posed.pose = detail::motion_of(fit.weights(), centroid, freedom).inverse() * posed.pose;
@@ -121,7 +128,7 @@ namespace detail {
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
     places = closest_places(posed, shape, options.correspondence, threads);
-    if (options.robust) places.trust = detail::trust_in(places, shape.vertices, options.misplacement);
+    if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
     return {posed.pose, std::move(fit), std::move(places), solver, iteration};
   }
 }

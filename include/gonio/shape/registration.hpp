@@ -4,6 +4,7 @@
 /// C.V), section 2.
 
 #include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/surface_noise.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ struct registration_options {
   double reach = 2.0;                    ///< along a normal, mm
   int rounds = 20;                       ///< of smoothing and propagating, at most
   double tolerance = 0.01;               ///< the change that ends them, root mean square in mm
-  double most_missing = 0.08;            ///< share of the vertices that the scan may not show
+  double most_missing = 0.2;             ///< share of the vertices that the scan may not show
   double confidence = 0.999;             ///< that the weights of a shape of the family are not refused
   double least_angle = 15.0;             ///< of the 20th percentile of the triangles' smallest angles, degrees
   double least_normal_agreement = 0.75;  ///< mean cosine between the normals of the fit and the registration
@@ -51,24 +52,6 @@ struct registration {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
   std::ranges::nth_element(smallest, smallest.begin() + place);
   return smallest[static_cast<std::size_t>(place)];
-}
-
-/// Each column replaced by the mean of itself and its neighbours. Vertices on the border have neighbours on the border
-/// alone, lest the surface shrink.
-[[nodiscard]] inline point_columns averaged_over_neighbours(const mesh_topology& topology,
-                                                            const point_columns& values) {
-  point_columns means(3, values.cols());
-  for (Eigen::Index v = 0; v < values.cols(); ++v) {
-    Eigen::Vector3d sum = values.col(v);
-    double count = 1.0;
-    for (const int neighbour : topology.neighbours(v)) {
-      if (topology.on_border(v) && !topology.on_border(neighbour)) continue;
-      sum += values.col(neighbour);
-      count += 1.0;
-    }
-    means.col(v) = sum / count;
-  }
-  return means;
 }
 
 namespace detail {

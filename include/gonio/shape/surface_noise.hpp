@@ -1,0 +1,43 @@
+#pragma once
+/// How noisy a scan is, place by place, told from the scan alone.
+
+#include <gonio/shape/mesh_topology.hpp>
+#include <gonio/shape/triangle_mesh.hpp>
+
+#include <Eigen/Core>
+
+namespace gonio {
+
+/// Each column replaced by the mean of itself and its neighbours. Vertices on the border have neighbours on the border
+/// alone, lest the surface shrink.
+template <class Derived>
+[[nodiscard]] typename Derived::PlainObject averaged_over_neighbours(const mesh_topology& topology,
+                                                                     const Eigen::MatrixBase<Derived>& values) {
+  typename Derived::PlainObject means(values.rows(), values.cols());
+  for (Eigen::Index v = 0; v < values.cols(); ++v) {
+    means.col(v) = values.col(v);
+    double count = 1.0;
+    for (const int neighbour : topology.neighbours(v)) {
+      if (topology.on_border(v) && !topology.on_border(neighbour)) continue;
+      means.col(v) += values.col(neighbour);
+      count += 1.0;
+    }
+    means.col(v) /= count;
+  }
+  return means;
+}
+
+/// The variance of the noise along the normals about each vertex, in the squared unit of the mesh.
+///
+/// Taking means over neighbours away twice leaves nothing of a smooth surface but its fourth derivatives, and all of
+/// what differs from vertex to vertex: of independent noise the variance itself, within a few percent, where five to
+/// seven edges meet. Two more means gather it from about nineteen vertices. O(vertices + edges).
+[[nodiscard]] inline Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology) {
+  point_columns rough = mesh.vertices;
+  for (int twice = 0; twice < 2; ++twice) rough -= averaged_over_neighbours(topology, rough);
+  Eigen::RowVectorXd variances = rough.cwiseProduct(vertex_normals(mesh)).colwise().sum().cwiseAbs2();
+  for (int twice = 0; twice < 2; ++twice) variances = averaged_over_neighbours(topology, variances);
+  return variances;
+}
+
+}  // namespace gonio
