@@ -27,8 +27,9 @@ namespace gonio {
 struct fit_to_scan_options {
   correspondence_options correspondence;
   double explained_variance = 0.99;  ///< of the components that take part (section 2)
-  /// How far vertices are from where they should be on the scan though the weights are right, mm: by noise, and because
-  /// the closest place of a scan is not the corresponding one. Decides how much the scan is trusted against the family.
+  /// How far vertices are from where they should be on the scan though the weights are right, mm: by what the family
+  /// cannot say, and because the closest place of a scan is not the corresponding one. Decides how much the scan is
+  /// trusted against the family; where the scan is noisier than this, it is trusted less.
   double misplacement = 0.3;
   /// Are places that are far off for their number hardly trusted? Noise at the edges of holes is then left out, but a
   /// scan of something else is not told by its weights.
@@ -55,7 +56,9 @@ struct fit_to_scan_result {
   [[nodiscard]] Eigen::VectorXd weights() const { return fit.weights().head(fit.weights().size() - motions); }
   /// See `squared_mahalanobis`.
   [[nodiscard]] double squared_distance() const { return squared_mahalanobis(fit.functions(), weights()); }
-  /// How sure the vertices are, in the scan's space as in the model's: motion is as unsure as the rest.
+  /// How sure the vertices are, in the scan's space as in the model's, if the places are where they belong: motion is
+  /// as unsure as the rest. What vertices slide along the surface is not in it: `cross_validated_uncertainty` measures
+  /// it.
   [[nodiscard]] shape_uncertainty uncertainty() const { return {fit, places, solver}; }
 };
 

@@ -30,7 +30,7 @@ struct recovered_shape {
   triangle_mesh surface;
   known_vertices known;       ///< the vertices that the scan shows, and where
   similarity_transform pose;  ///< from the scan to the model
-  fit_to_scan_result fit;     ///< what the recovery is, or began with; `fit.uncertainty()` is that of its vertices
+  fit_to_scan_result fit;     ///< what the recovery is, or began with
 };
 
 namespace detail {
