@@ -20,6 +20,7 @@ struct shape_grow_command {
   double defects = 0.1;
   std::uint64_t seed = 77;
   double wrong = 2.5;
+  gonio::bootstrap_options how;
   bool as_json = false;
   gonio::thread_count threads;
 };
@@ -97,7 +98,7 @@ void grow_shapes(const shape_grow_command& options) {
   for (const lab::ear_scan& one : truths) scans.push_back({"scan-" + std::to_string(scans.size() + 1), one.mesh});
   progress_bar bar;
   const auto grown = gonio::bootstrap_shape_model(std::move(shapes), std::move(names), common.mesh().triangles, scans,
-                                                  {}, options.threads,
+                                                  options.how, options.threads,
                                                   [&](std::string_view stage, double done) { bar.draw(stage, done); });
   bar.wipe();
   const judged_bootstrap judged = judge_bootstrap(truths, grown.outcomes);
@@ -117,6 +118,11 @@ void add_shape_grow(CLI::App& shape) {
       ->capture_default_str();
   command->add_option("--scans", options->scans, "To grow by")->check(CLI::Range(1, 100000))->capture_default_str();
   command->add_option("--defects", options->defects, "Share of them that must be refused")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--most-missing", options->how.registration.most_missing,
+                   "Share of the vertices that a scan may not show")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--wrong", options->wrong, "Mean distance from the true vertices that is told as too far, mm")

@@ -20,7 +20,7 @@ struct registration_options {
   double reach = 2.0;                    ///< along a normal, mm
   int rounds = 20;                       ///< of smoothing and propagating, at most
   double tolerance = 0.01;               ///< the change that ends them, root mean square in mm
-  double most_missing = 0.2;             ///< share of the vertices that the scan may not show
+  double most_missing = 0.12;            ///< share of the vertices that the scan may not show
   double confidence = 0.999;             ///< that the weights of a shape of the family are not refused
   double least_angle = 15.0;             ///< of the 20th percentile of the triangles' smallest angles, degrees
   double least_normal_agreement = 0.75;  ///< mean cosine between the normals of the fit and the registration
