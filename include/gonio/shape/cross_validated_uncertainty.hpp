@@ -23,10 +23,10 @@ namespace gonio {
 
 /// How an uncertainty is measured.
 struct cross_validation_options {
-  std::size_t trials = 40;  ///< shapes that are left out and recovered
-  std::size_t parts = 5;    ///< of the shapes; one of them is left out at a time
-  recovery_options recovery;
-  std::uint64_t seed = 1;  ///< of the noise
+  std::size_t trials = 40;    ///< shapes that are left out and recovered
+  std::size_t parts = 5;      ///< of the shapes; one of them is left out at a time
+  recovery_options recovery;  ///< by which the scan was recovered
+  std::uint64_t seed = 1;     ///< of the noise
 };
 
 /// The covariance of a recovered surface's vertices, in the model's space.
