@@ -33,7 +33,7 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
     const gonio::registration& found = *grown.outcomes[i].registered;
     const gonio::point_columns truth = found.pose(truths[i].truth);
     // Twelve shapes do not keep vertices from sliding; `gonio shape grow` calls more than this too far.
-    CHECK((found.vertices - truth).colwise().norm().mean() < 2.5);
+    CHECK((found.vertices - truth).colwise().norm().mean() < 2.0);
     CHECK(found.angle > 15.0);
     CHECK(found.normal_agreement > 0.75);
   }

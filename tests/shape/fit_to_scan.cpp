@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 namespace {
 
 /// The true pose, turned by some degrees and shifted by some millimetres.
@@ -32,6 +34,35 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
   CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.explaining(0.99).basis().size()));
   // What little motion was left in the end is in the pose.
   CHECK(found.fit.weights().tail<6>().norm() * 1e3 < 0.05);
+}
+
+TEST_CASE("where a fit ends neither a motion nor other weights of the shape that was found bring it closer") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan scan = ears.scan(1);
+  gonio::fit_to_scan_options options;
+  options.tolerance = 1e-4;
+  const auto found =
+      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 6.0, 1.0), options);
+  REQUIRE(found.iterations < options.most_iterations);
+  const gonio::shape_basis moving =
+      gonio::with_motion(ears.model.explaining(options.explained_variance).basis(), found.shape());
+  const Eigen::VectorXd next = gonio::decomposition{moving, found.solver}.fit(found.places).weights();
+  const gonio::point_columns change = gonio::shape_of(moving, next) - found.shape();
+  CHECK(std::sqrt(change.squaredNorm() / static_cast<double>(change.cols())) < 1e-3);
+}
+
+TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
+  const small_ears& ears = small_ears::of_sixty();
+  const lab::ear_scan scan = ears.scan(3, small_ears::with_hole());
+  const gonio::surface_index index(scan.mesh);
+  gonio::fit_to_scan_options options;
+  options.misplacement = 0.05;
+  options.tolerance = 1e-4;
+  options.most_iterations = 1000;
+  const auto one = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 0.0, 0.0), options);
+  const auto other = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0), options);
+  const gonio::point_columns apart = one.pose.inverse()(one.shape()) - other.pose.inverse()(other.shape());
+  CHECK(apart.colwise().norm().mean() < 1e-3);
 }
 
 TEST_CASE("what a hole hides is not among the places") {

@@ -43,11 +43,13 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
     shown(Eigen::all, found.known.vertices) = found.known.positions;
     const auto known = gonio::marks_of(found.known, ears.model.vertices());
     thin_plate += judge.off(gonio::fill_smoothly(ears.model.topology(), shown, known), found.pose);
-    // Where nothing is known less is sure.
+    // Where nothing is known less is sure across the surface; along it little is anywhere.
     const gonio::shape_uncertainty uncertainty = found.fit.uncertainty();
+    const gonio::point_columns normals = gonio::vertex_normals(found.surface);
     double in_hole = 0.0, elsewhere = 0.0;
-    for (std::size_t v = 0; v < known.size(); ++v)
-      (judge.scan.covered[v] ? elsewhere : in_hole) += uncertainty.covariance(static_cast<Eigen::Index>(v)).trace();
+    for (Eigen::Index v = 0; v < normals.cols(); ++v)
+      (judge.scan.covered[static_cast<std::size_t>(v)] ? elsewhere : in_hole) +=
+          normals.col(v).dot(uncertainty.covariance(v) * normals.col(v));
     const auto missing = static_cast<double>(std::ranges::count(judge.scan.covered, false));
     CHECK(in_hole / missing > elsewhere / (static_cast<double>(known.size()) - missing));
   }

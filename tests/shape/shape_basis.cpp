@@ -49,17 +49,18 @@ TEST_CASE("a share of the variance keeps the fewest components that have it") {
                        "the explained variance must be above 0 and at most 1, not 0.000000", gonio::error);
 }
 
-TEST_CASE("the last functions of a basis with motion turn and shift the mean shape") {
+TEST_CASE("the last functions of a basis with motion turn and shift a shape") {
   const gonio::shape_basis basis = made_up_basis(made_up_shapes(8, 6, 3, 6));
   const double freedom = 100.0;
-  const gonio::shape_basis moving = gonio::with_motion(basis, freedom);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.size()) + 6);
+  weights.head(basis.size()) = basis.weights_of(4).col(0).cast<double>();
+  const gonio::point_columns shape = gonio::shape_of(basis, weights.head(basis.size()));
+  const gonio::shape_basis moving = gonio::with_motion(basis, shape, freedom);
   REQUIRE(moving.size() == basis.size() + 6);
-  const gonio::point_columns mean = gonio::mean_shape(basis);
-  const Eigen::Vector3d centroid = mean.rowwise().mean(), turn(0.01, -0.02, 0.03), shift(1.0, 2.0, -3.0);
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(moving.size()));
+  const Eigen::Vector3d centroid = shape.rowwise().mean(), turn(0.01, -0.02, 0.03), shift(1.0, 2.0, -3.0);
   weights.tail<6>() << turn / freedom, shift / freedom;
-  gonio::point_columns expected = mean.colwise() + shift;
-  for (Eigen::Index v = 0; v < mean.cols(); ++v) expected.col(v) += turn.cross(mean.col(v) - centroid);
+  gonio::point_columns expected = shape.colwise() + shift;
+  for (Eigen::Index v = 0; v < shape.cols(); ++v) expected.col(v) += turn.cross(shape.col(v) - centroid);
   CHECK((gonio::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
   // They are no shapes that were learned from.
   CHECK((gonio::shape_of(moving, moving.weights_of(2).col(0)) - gonio::shape_of(basis, basis.weights_of(2).col(0)))

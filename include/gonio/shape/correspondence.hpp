@@ -56,10 +56,10 @@ struct posed_scan {
 struct correspondence_options {
   double reach = 3.0;             ///< farther places belong to something else, mm
   double normal_agreement = 0.5;  ///< least cosine between the normals of shape and scan
-  double tangential = 0.01;       ///< how much a place counts along the surface: see `known_vertices`
+  double tangential = 0.0003;     ///< how much a place counts along the surface: see `known_vertices`
 };
 
-/// Places on a scan, and the normals there, of those vertices that it shows.
+/// Places on a scan of those vertices that it shows, with the normals of the shape that looked for them.
 [[nodiscard]] inline known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
                                                    const std::vector<char>& shown, double tangential) {
   known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
@@ -69,12 +69,16 @@ struct correspondence_options {
 }
 
 /// The place on the scan of each vertex of a shape that is there.
+///
+/// What is off across the surface is measured along the shape's normals, not the scan's: those of a triangle are off by
+/// some degrees where the scan is noisy by a tenth of its length, and vertices that slide along such a surface seem to
+/// leave it.
 [[nodiscard]] inline known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
                                                    const correspondence_options& options = {},
                                                    thread_count threads = {}) {
   const point_columns normals = vertex_normals(shape);
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
-  point_columns places(3, shape.vertices.cols()), normals_there(3, shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols());
   Eigen::VectorXd trust(shape.vertices.cols());
   std::vector<char> shown(count, 0);  // not bool: threads write neighbours
   for_each_block(
@@ -84,15 +88,14 @@ struct correspondence_options {
           const auto vertex = static_cast<Eigen::Index>(i);
           const surface_point found = scan.closest(shape.vertices.col(vertex));
           places.col(vertex) = found.position;
-          normals_there.col(vertex) = scan.normal(found);
           trust[vertex] = scan.trust_at(found);
           // What is missing in the scan is nearest to where it ends.
           shown[i] = !found.on_border && found.distance <= options.reach &&
-                     normals_there.col(vertex).dot(normals.col(vertex)) >= options.normal_agreement;
+                     scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
         }
       },
       threads);
-  known_vertices known = shown_vertices(places, normals_there, shown, options.tangential);
+  known_vertices known = shown_vertices(places, normals, shown, options.tangential);
   known.trust = trust(known.vertices);
   return known;
 }

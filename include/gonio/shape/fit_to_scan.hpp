@@ -112,19 +112,17 @@ namespace detail {
   constexpr double freedom = 1e3;
   const shape_model part = model.explaining(options.explained_variance);
   const tikhonov solver{static_cast<double>(part.shapes()) * options.misplacement * options.misplacement};
-  const shape_basis moving = with_motion(part.basis(), freedom);
-  const decomposition estimator{moving, solver, threads};
   const auto k = static_cast<Eigen::Index>(part.basis().size());
   triangle_mesh shape = part.mean();
-  const Eigen::Vector3d centroid = shape.vertices.rowwise().mean();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
   posed_scan posed{scan, pose, detail::trust_in_surface(scan, options.misplacement)};
   for (int iteration = 1;; ++iteration) {
     known_vertices places = closest_places(posed, shape, options.correspondence, threads);
     require_shown(places, part);
     if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
-    fitted_shape fit = estimator.fit(places);
+    fitted_shape fit = decomposition{with_motion(part.basis(), shape.vertices, freedom), solver, threads}.fit(places);
     // The scan moves, not the shape.
+    const Eigen::Vector3d centroid = shape.vertices.rowwise().mean();
     posed.pose = detail::motion_of(fit.weights(), centroid, freedom).inverse() * posed.pose;
     point_columns vertices = shape_of(part.basis(), fit.weights().head(k));
     const double change = (vertices - shape.vertices).norm();

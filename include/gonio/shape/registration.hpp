@@ -62,7 +62,7 @@ namespace detail {
                                                          const registration_options& options, thread_count threads) {
   const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
-  point_columns places(3, shape.vertices.cols()), normals_there(3, shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols());
   std::vector<char> shown(count, 0);
   for_each_block(
       count, 128,
@@ -72,14 +72,13 @@ namespace detail {
           if (!(normals.col(v).norm() > 0.0)) continue;
           const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
           if (!found || found->on_border) continue;
-          normals_there.col(v) = scan.normal(*found);
-          if (normals_there.col(v).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) continue;
+          if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) continue;
           places.col(v) = found->position;
           shown[i] = 1;
         }
       },
       threads);
-  return shown_vertices(places, normals_there, shown, options.fit.correspondence.tangential);
+  return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
 }
 
 /// The sentence of the first test that fails.

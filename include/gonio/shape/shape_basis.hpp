@@ -100,17 +100,20 @@ static_assert(tabulated_basis<shape_basis>);
 /// How many functions `with_motion` adds.
 inline constexpr Eigen::Index motions = 6;
 
-/// The same basis and, as its last six functions, what a small turn about each axis through the mean shape's centroid
-/// and a shift along each does to the mean shape. Their weights are the turn in radians and the shift in the unit of
-/// the mesh, each divided by `freedom`: the larger it is, the less a solver's penalty holds the shape in place.
-[[nodiscard]] inline shape_basis with_motion(const shape_basis& basis, double freedom = 1e3) {
+/// The same basis and, as its last six functions, what a small turn about each axis through the centroid of `shape` and
+/// a shift along each does to that shape. Their weights are the turn in radians and the shift in the unit of the mesh,
+/// each divided by `freedom`: the larger it is, the less a solver's penalty holds the shape in place.
+///
+/// What is moved is a shape of the family, not its mean: a turn of the mean differs from one of the shape by a change
+/// of shape, and a fit that may turn the mean only ends where the shape would still turn.
+[[nodiscard]] inline shape_basis with_motion(const shape_basis& basis, const point_columns& shape,
+                                             double freedom = 1e3) {
   const auto k = static_cast<Eigen::Index>(basis.size());
-  const point_columns mean = mean_shape(basis);
-  const Eigen::Vector3d centroid = mean.rowwise().mean();
+  const Eigen::Vector3d centroid = shape.rowwise().mean();
   cell_matrix functions(basis.components().rows(), k + motions);
   functions.leftCols(k) = basis.components();
-  for (Eigen::Index vertex = 0; vertex < mean.cols(); ++vertex) {
-    const Eigen::Vector3f arm = (mean.col(vertex) - centroid).cast<float>();
+  for (Eigen::Index vertex = 0; vertex < shape.cols(); ++vertex) {
+    const Eigen::Vector3f arm = (shape.col(vertex) - centroid).cast<float>();
     auto rows = functions.block<3, 6>(3 * vertex, k);
     rows << 0, arm.z(), -arm.y(), 1, 0, 0,  // turn x arm, and the shift
         -arm.z(), 0, arm.x(), 0, 1, 0,      //
