@@ -17,6 +17,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace cli {
 
@@ -43,6 +44,7 @@ struct judged_surface {
 /// All ways, and how sure ours says that it is.
 struct judged_ear {
   std::vector<judged_surface> ways;
+  std::size_t missing = 0;       ///< vertices in the hole
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
@@ -95,6 +97,7 @@ judged_ear judge_ear(const gonio::shape_model& model, const lab::ear_canal_templ
   const gonio::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
   const std::vector<Eigen::Index> hole = hole_of(common, scan);
   judged_ear judged;
+  judged.missing = hole.size();
   const auto judge = [&](std::string name, const gonio::point_columns& vertices, const auto& to_model) {
     gonio::point_columns placed = to_model.inverse()(vertices);
     const gonio::point_columns recovered = placed(Eigen::all, hole);
@@ -135,8 +138,26 @@ void print_ear(std::size_t number, const judged_ear& ear) {
   std::cout << std::endl;
 }
 
+/// What the ways are off in the mean over the ears, and the share of all ears' missing vertices in the ellipsoids.
+void print_means(const std::vector<judged_ear>& ears) {
+  std::cout << "all";
+  for (std::size_t way = 0; way < ears.front().ways.size(); ++way) {
+    double sum = 0.0;
+    for (const judged_ear& ear : ears) sum += ear.ways[way].hole.absolute_mean;
+    const std::string text = fixed(sum / static_cast<double>(ears.size()), 3);
+    std::cout << std::string(19 - text.size(), ' ') << text;
+  }
+  double inside = 0.0, missing = 0.0;
+  for (const judged_ear& ear : ears) {
+    inside += ear.inside.value_or(0.0) * static_cast<double>(ear.missing);
+    missing += static_cast<double>(ear.missing);
+  }
+  if (ears.front().inside) std::cout << "   " << fixed(100.0 * inside / missing, 1) << " %";
+  std::cout << std::endl;
+}
+
 json json_of(const judged_ear& ear) {
-  json all;
+  json all = {{"missing", ear.missing}};
   if (ear.inside) all["inside"] = *ear.inside;
   for (const judged_surface& way : ear.ways)
     all[way.name] = {{"signed_mean", way.hole.signed_mean},
@@ -173,16 +194,21 @@ void show_shapes(const shape_demo_command& options) {
   const gonio::shape_model model = learn_ear_canals(common, options);
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
+  std::vector<judged_ear> ears;
   for (std::size_t i = 0; i < options.held_out; ++i) {
     const lab::ear_scan scan = scan_held_out(common, options, i);
-    const judged_ear ear = judge_ear(model, common, scan, options);
+    judged_ear ear = judge_ear(model, common, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);
     report["held_out"].push_back(json_of(ear));
-    if (options.folder.empty()) continue;
-    if (i == 0) write_example(options.folder, model, scan, ear.ways);
-    if (i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
+    if (!options.folder.empty() && i == 0) write_example(options.folder, model, scan, ear.ways);
+    if (!options.folder.empty() && i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
+    for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // there may be many ears
+    ears.push_back(std::move(ear));
   }
-  if (options.as_json) std::cout << report.dump(2) << '\n';
+  if (options.as_json)
+    std::cout << report.dump(2) << '\n';
+  else
+    print_means(ears);
   if (rows.empty()) return;
   gonio::io::write_png(options.folder / "recovered.png", gonio::stacked(rows, 4));
   if (!options.as_json)

@@ -31,11 +31,11 @@ struct cross_validation_options {
 
 /// The covariance of a recovered surface's vertices, in the model's space.
 ///
-/// V{s1|s2} (see `shape_uncertainty`) takes known vertices to be where they belong. On a scan they are not: a surface
-/// looks nearly the same when vertices slide along it, the closest places bring them to one of many positions that fit
-/// it alike, and which of them it is depends on where the search began. No derivative at the place that was found tells
-/// how far the others are. So this repeats the whole recovery, from the alignment by shape context on, with shapes
-/// whose vertices are known.
+/// V{s1|s2} (see `shape_uncertainty`) takes known vertices to be where they belong, but for errors that are independent.
+/// On a scan they are not: a surface looks nearly the same when vertices slide along it, and what the family cannot say,
+/// hundredths of a millimetre, is off alike for neighbours and makes them slide by tenths. So this repeats the whole
+/// recovery, from the alignment by shape context on, with shapes whose vertices are known: see
+/// docs/decisions/0013-measured-uncertainty.md.
 class cross_validated_uncertainty {
  public:
   /// Of what `recover` made of a scan by a model. As long as so many recoveries; the same for any number of threads.
