@@ -62,6 +62,10 @@ TEST_CASE("it is the same for any number of threads, and another for another see
     CHECK(one.covariance(vertex) != other.covariance(vertex));
   }
   CHECK(one.squared_radius(0.9) == two.squared_radius(0.9));
+  // Ten shapes tell ten of eleven and no more.
+  REQUIRE(one.trials() == 10);
+  CHECK(one.squared_radius(0.9) < one.squared_radius(0.92));
+  CHECK(one.squared_radius(0.92) == one.squared_radius(0.999));
   for (const double share : {0.0, 1.0, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_AS((void)one.squared_radius(share), gonio::error);
 }

@@ -31,10 +31,10 @@ struct cross_validation_options {
 
 /// The covariance of a recovered surface's vertices, in the model's space.
 ///
-/// V{s1|s2} (see `shape_uncertainty`) takes known vertices to be where they belong, but for errors that are independent.
-/// On a scan they are not: a surface looks nearly the same when vertices slide along it, and what the family cannot say,
-/// hundredths of a millimetre, is off alike for neighbours and makes them slide by tenths. So this repeats the whole
-/// recovery, from the alignment by shape context on, with shapes whose vertices are known: see
+/// V{s1|s2} (see `shape_uncertainty`) takes known vertices to be where they belong, but for errors that are
+/// independent. On a scan they are not: a surface looks nearly the same when vertices slide along it, and what the
+/// family cannot say, hundredths of a millimetre, is off alike for neighbours and makes them slide by tenths. So this
+/// repeats the whole recovery, from the alignment by shape context on, with shapes whose vertices are known: see
 /// docs/decisions/0013-measured-uncertainty.md.
 class cross_validated_uncertainty {
  public:
@@ -64,13 +64,17 @@ class cross_validated_uncertainty {
     return covariances_[static_cast<std::size_t>(vertex)];
   }
 
-  /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) with this probability: so many of the
-  /// vertices that were left out are, by the covariance of the other trials. Throws gonio::error unless the share is
-  /// above 0 and below 1.
+  /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) with this probability. So many of the
+  /// vertices that were left out are, by the covariance of the other trials, and some more: the vertices of one shape
+  /// are off together, and of trials + 1 shapes the one that was scanned may be the farthest off (Lee, Barber, Willett,
+  /// "Distribution-free inference with hierarchical data", arXiv:2306.06342). Shares above trials / (trials + 1) cannot
+  /// be told; for them it is the largest that was measured. Throws gonio::error unless the share is above 0 and
+  /// below 1.
   [[nodiscard]] double squared_radius(double share) const {
     if (!(share > 0.0 && share < 1.0))
       throw error("a share of vertices must be above 0 and below 1, not " + std::to_string(share));
-    const double place = std::ceil(share * static_cast<double>(squared_distances_.size()));
+    const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
+    const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
     return squared_distances_[static_cast<std::size_t>(place) - 1];
   }
 
