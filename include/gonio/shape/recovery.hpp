@@ -49,7 +49,7 @@ inline void require_of_family(const fit_to_scan_result& fit, const shape_model& 
 }  // namespace detail
 
 /// Recovers what a scan does not show, from a pose that is about right, by the pose and the weights of the family that
-/// fit what it shows. About three seconds on one core for 3,000 vertices and 160 shapes.
+/// fit what it shows. About half a second on one core for 3,000 vertices and 160 shapes.
 ///
 /// Throws gonio::error if the scan shows hardly any vertex of the model, or if its shape is not of the family: the
 /// squared distance of its weights from the mean is above chi-square's quantile (section 2). A scan that shows all
