@@ -62,6 +62,8 @@ TEST_CASE("the last functions of a basis with motion turn and shift a shape") {
   gonio::point_columns expected = shape.colwise() + shift;
   for (Eigen::Index v = 0; v < shape.cols(); ++v) expected.col(v) += turn.cross(shape.col(v) - centroid);
   CHECK((gonio::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
+  CHECK_THROWS_WITH_AS((void)gonio::with_motion(basis, shape.leftCols(3)),
+                       "a shape of 3 vertices is to move with a basis of 8", gonio::error);
   // They are no shapes that were learned from.
   CHECK((gonio::shape_of(moving, moving.weights_of(2).col(0)) - gonio::shape_of(basis, basis.weights_of(2).col(0)))
             .cwiseAbs()

@@ -105,9 +105,13 @@ inline constexpr Eigen::Index motions = 6;
 /// each divided by `freedom`: the larger it is, the less a solver's penalty holds the shape in place.
 ///
 /// What is moved is a shape of the family, not its mean: a turn of the mean differs from one of the shape by a change
-/// of shape, and a fit that may turn the mean only ends where the shape would still turn.
+/// of shape, and a fit that may turn the mean only ends where the shape would still turn. Throws gonio::error for a
+/// shape of another number of vertices.
 [[nodiscard]] inline shape_basis with_motion(const shape_basis& basis, const point_columns& shape,
                                              double freedom = 1e3) {
+  if (shape.size() != basis.components().rows())
+    throw error("a shape of " + std::to_string(shape.cols()) + " vertices is to move with a basis of " +
+                std::to_string(basis.components().rows() / 3));
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::Vector3d centroid = shape.rowwise().mean();
   cell_matrix functions(basis.components().rows(), k + motions);
