@@ -14,6 +14,7 @@
 #include <gonio/shape/surface_distance.hpp>
 
 #include <array>
+#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -123,18 +124,20 @@ judged_ear judge_ear(const gonio::shape_model& model, const lab::ear_canal_templ
   return judged;
 }
 
+void print_column(const std::string& text) { std::cout << std::setw(19) << text; }
+
+void print_inside(double share) { std::cout << "   " << fixed(100.0 * share, 1) << " %"; }
+
 void print_ear(std::size_t number, const judged_ear& ear) {
   if (number == 1) {
     std::cout << "signed and absolute mean distance from the truth in the hole, mm\n  #";
-    for (const judged_surface& way : ear.ways) std::cout << std::string(19 - way.name.size(), ' ') << way.name;
+    for (const judged_surface& way : ear.ways) print_column(way.name);
     std::cout << (ear.inside ? "   inside the 95 % ellipsoid\n" : "\n");
   }
-  std::cout << std::string(number < 10 ? 2 : 1, ' ') << number;
-  for (const judged_surface& way : ear.ways) {
-    const std::string text = fixed(way.hole.signed_mean, 3) + " " + fixed(way.hole.absolute_mean, 3);
-    std::cout << std::string(19 - text.size(), ' ') << text;
-  }
-  if (ear.inside) std::cout << "   " << fixed(100.0 * *ear.inside, 1) << " %";
+  std::cout << std::setw(3) << number;
+  for (const judged_surface& way : ear.ways)
+    print_column(fixed(way.hole.signed_mean, 3) + " " + fixed(way.hole.absolute_mean, 3));
+  if (ear.inside) print_inside(*ear.inside);
   std::cout << std::endl;
 }
 
@@ -144,15 +147,14 @@ void print_means(const std::vector<judged_ear>& ears) {
   for (std::size_t way = 0; way < ears.front().ways.size(); ++way) {
     double sum = 0.0;
     for (const judged_ear& ear : ears) sum += ear.ways[way].hole.absolute_mean;
-    const std::string text = fixed(sum / static_cast<double>(ears.size()), 3);
-    std::cout << std::string(19 - text.size(), ' ') << text;
+    print_column(fixed(sum / static_cast<double>(ears.size()), 3));
   }
   double inside = 0.0, missing = 0.0;
   for (const judged_ear& ear : ears) {
     inside += ear.inside.value_or(0.0) * static_cast<double>(ear.missing);
     missing += static_cast<double>(ear.missing);
   }
-  if (ears.front().inside) std::cout << "   " << fixed(100.0 * inside / missing, 1) << " %";
+  if (ears.front().inside) print_inside(inside / missing);
   std::cout << std::endl;
 }
 
@@ -200,8 +202,10 @@ void show_shapes(const shape_demo_command& options) {
     judged_ear ear = judge_ear(model, common, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);
     report["held_out"].push_back(json_of(ear));
-    if (!options.folder.empty() && i == 0) write_example(options.folder, model, scan, ear.ways);
-    if (!options.folder.empty() && i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
+    if (!options.folder.empty()) {
+      if (i == 0) write_example(options.folder, model, scan, ear.ways);
+      if (i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
+    }
     for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // there may be many ears
     ears.push_back(std::move(ear));
   }

@@ -151,7 +151,7 @@ TEST_CASE("shape recover: how sure the recovered vertices are, from shapes that 
                                      " --trials 12 -o " + made.at("sure.ply"));
   const double across = number_behind(told, " left out): "), all = number_behind(told, "across the surface, ");
   CHECK(across > 0.02);
-  CHECK(across < 1.0);
+  CHECK(across < 0.5);
   CHECK(all > across);
   CHECK(all < 2.0);
   refuses_shape("recover " + made.ear("scan.ply") + " --model " + made.ear("ears.shapes") + " --trials 41 -o " +

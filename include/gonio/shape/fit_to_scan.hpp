@@ -92,9 +92,10 @@ namespace detail {
   return (1.0 + noise.array() / (misplacement * misplacement)).inverse();
 }
 
-/// The rigid motion that the last weights of a basis `with_motion` stand for.
-[[nodiscard]] inline similarity_transform motion_of(const Eigen::VectorXd& weights, const Eigen::Vector3d& centroid,
+/// The rigid motion that the last weights of a basis `with_motion` of a shape stand for.
+[[nodiscard]] inline similarity_transform motion_of(const Eigen::VectorXd& weights, const point_columns& shape,
                                                     double freedom) {
+  const Eigen::Vector3d centroid = shape.rowwise().mean();
   const Eigen::Vector3d turn = freedom * weights.tail<6>().head<3>(), shift = freedom * weights.tail<3>();
   const double angle = turn.norm();
   const Eigen::Matrix3d rotation = angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
@@ -122,8 +123,7 @@ namespace detail {
     if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
     fitted_shape fit = decomposition{with_motion(part.basis(), shape.vertices, freedom), solver, threads}.fit(places);
     // The scan moves, not the shape.
-    const Eigen::Vector3d centroid = shape.vertices.rowwise().mean();
-    posed.pose = detail::motion_of(fit.weights(), centroid, freedom).inverse() * posed.pose;
+    posed.pose = detail::motion_of(fit.weights(), shape.vertices, freedom).inverse() * posed.pose;
     point_columns vertices = shape_of(part.basis(), fit.weights().head(k));
     const double change = (vertices - shape.vertices).norm();
     shape.vertices = std::move(vertices);
