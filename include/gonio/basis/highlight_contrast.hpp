@@ -29,16 +29,10 @@ struct contrast_sums {
   explicit contrast_sums(Eigen::Index materials)
       : in_peak(Eigen::ArrayXd::Zero(materials)), off_peak(Eigen::ArrayXd::Zero(materials)) {}
 
-  contrast_sums& operator+=(const contrast_sums& other) {
-    in_peak += other.in_peak;
-    off_peak += other.off_peak;
-    in_weight += other.in_weight;
-    off_weight += other.off_weight;
-    return *this;
-  }
+  contrast_sums& operator+=(const contrast_sums& other);
 
   [[nodiscard]] bool complete() const noexcept { return in_weight > 0.0 && off_weight > 0.0; }
-  [[nodiscard]] Eigen::ArrayXd contrasts() const { return in_peak / in_weight - off_peak / off_weight; }
+  [[nodiscard]] Eigen::ArrayXd contrasts() const;
 
   Eigen::ArrayXd in_peak, off_peak;
   double in_weight = 0.0, off_weight = 0.0;
@@ -99,27 +93,13 @@ template <sample_range Samples>
 
 /// The same of a table: each of its cells is a sample of weight 1. Throws gonio::error if the grid has no cell in one
 /// of the regions. O(cells), same bytes for any number of threads.
-[[nodiscard]] inline double highlight_contrast(const log_relative& reference, const brdf_table& table,
-                                               const highlight_regions& regions = {}, thread_count threads = {}) {
-  return detail::cell_contrasts(
-      reference, table.cells(), 1, [&](std::size_t cell, Eigen::Index) { return luminance(table.at(cell)); }, regions,
-      threads)[0];
-}
+[[nodiscard]] double highlight_contrast(const log_relative& reference, const brdf_table& table,
+                                        const highlight_regions& regions = {}, thread_count threads = {});
 
 /// The same of each material of a set, in its order. Throws gonio::error as well if the set is not complete. O(cells
 /// materials), same bytes for any number of threads.
-[[nodiscard]] inline Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
-                                                        const highlight_regions& regions = {},
-                                                        thread_count threads = {}) {
-  require_complete(materials);
-  const auto luminance_of = [&](std::size_t cell, Eigen::Index material) {
-    const auto row = static_cast<Eigen::Index>(cell);
-    const Eigen::Array3f value = materials.values.row(row).segment<3>(3 * material).transpose();
-    return luminance(value.cast<double>());
-  };
-  return detail::cell_contrasts(reference, materials.cells, std::ssize(materials.names), luminance_of, regions,
-                                threads);
-}
+[[nodiscard]] Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
+                                                 const highlight_regions& regions = {}, thread_count threads = {});
 
 /// A database in two halves, and the contrast between them.
 struct soft_and_specular {
@@ -135,27 +115,12 @@ struct soft_and_specular {
 /// const auto reference = gonio::log_relative::to_median_of(materials);
 /// const auto [soft, specular, threshold] = gonio::split_by_contrast(materials, reference);
 /// ```
-[[nodiscard]] inline soft_and_specular split_by_contrast(const material_set& materials, const log_relative& reference,
-                                                         std::optional<double> threshold = {},
-                                                         const highlight_regions& regions = {},
-                                                         thread_count threads = {}) {
-  const Eigen::ArrayXd contrasts = highlight_contrasts(reference, materials, regions, threads);
-  std::vector<std::size_t> soft, specular;
-  for (std::size_t m = 0; m < materials.names.size(); ++m)
-    if (!std::isfinite(contrasts[static_cast<Eigen::Index>(m)]))
-      throw error("material '" + materials.names[m] + "' has no contrast: its table is not finite");
-  if (!threshold) {
-    std::vector<double> sorted(contrasts.begin(), contrasts.end());
-    std::ranges::sort(sorted);
-    threshold = (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2.0;
-  }
-  for (std::size_t m = 0; m < materials.names.size(); ++m)
-    (contrasts[static_cast<Eigen::Index>(m)] < *threshold ? soft : specular).push_back(m);
-  if (soft.empty() || specular.empty())
-    throw error("all " + std::to_string(materials.names.size()) + " materials are " +
-                (soft.empty() ? "specular" : "soft") + " at a threshold of " + std::to_string(*threshold) +
-                ": a prior needs some on either side");
-  return {materials.subset(soft), materials.subset(specular), *threshold};
-}
+[[nodiscard]] soft_and_specular split_by_contrast(const material_set& materials, const log_relative& reference,
+                                                  std::optional<double> threshold = {},
+                                                  const highlight_regions& regions = {}, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/highlight_contrast.ipp>
+#endif

@@ -20,15 +20,7 @@ namespace detail {
 }
 
 /// A pair whose light, or whose viewer, is turned by an angle towards one of four sides.
-[[nodiscard]] inline std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle) {
-  std::array<direction_pair, 8> pairs;
-  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-    const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;
-    pairs[2 * quarter] = {moved_above(meant.wi, angle, side), meant.wo};
-    pairs[2 * quarter + 1] = {meant.wi, moved_above(meant.wo, angle, side)};
-  }
-  return pairs;
-}
+[[nodiscard]] std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle);
 
 }  // namespace detail
 
@@ -70,3 +62,7 @@ template <error_metric Metric>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/misplacement.ipp>
+#endif

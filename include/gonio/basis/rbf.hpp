@@ -70,10 +70,7 @@ struct cubic_kernel {
 class gaussian_kernel {
  public:
   /// Throws gonio::error unless the width, in units of `radial_coordinates`, is positive and finite.
-  explicit gaussian_kernel(double width) : width_(width) {
-    if (!(width > 0.0 && std::isfinite(width)))
-      throw error("the width of a Gaussian kernel must be positive and finite, not " + std::to_string(width));
-  }
+  explicit gaussian_kernel(double width);
 
   [[nodiscard]] double width() const noexcept { return width_; }
   void apply(kernel_row squares) const noexcept { squares = (squares / (-width_ * width_)).exp(); }
@@ -90,34 +87,9 @@ inline constexpr std::size_t published_centre_count = 758;
 /// `count` cells such that each is the farthest, in radial coordinates, from those before it; the first is random. At
 /// most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error unless there
 /// are as many different places.
-[[nodiscard]] inline std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
-                                                                         std::size_t count = published_centre_count,
-                                                                         std::uint64_t seed = 0) {
-  constexpr std::size_t most_candidates = 60'000;
-  std::vector<std::size_t> all(cells.size()), candidates;
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  std::mt19937_64 generator(seed);
-  std::ranges::sample(all, std::back_inserter(candidates),
-                      static_cast<std::ptrdiff_t>(std::min(most_candidates, all.size())), generator);
-  Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();
-
-  std::vector<half_difference> centres;
-  Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
-  Eigen::ArrayXd nearest =  // squared distance to the nearest centre
-      Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
-  while (centres.size() < count && nearest[farthest] > 0.0) {
-    centres.push_back(cells.angles(candidates[static_cast<std::size_t>(farthest)]));
-    const Eigen::Array3d centre = places.col(farthest);
-    nearest = nearest.min((places.colwise() - centre).square().colwise().sum().transpose());
-    nearest.maxCoeff(&farthest);
-  }
-  if (centres.size() < count)
-    throw error("cannot choose " + std::to_string(count) + " different centres of radial basis functions among " +
-                std::to_string(centres.size()) + " places");
-  return centres;
-}
+[[nodiscard]] std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
+                                                                  std::size_t count = published_centre_count,
+                                                                  std::uint64_t seed = 0);
 
 /// Radial basis functions in the domain of a metric: one around each centre, and four that are affine in the radial
 /// coordinates. Rows are computed at the exact angles, O(centres), and never stored. A value type whose copies share
@@ -185,3 +157,7 @@ class rbf {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/rbf.ipp>
+#endif

@@ -27,31 +27,12 @@ struct calibration {
 namespace detail {
 
 /// The exposure times that all readings have, each once.
-[[nodiscard]] inline std::vector<double> times_in_common(std::span<const reading> readings) {
-  std::vector<double> times = readings.front().times;
-  std::ranges::sort(times);
-  times.erase(std::unique(times.begin(), times.end()), times.end());
-  std::erase_if(times, [&](double time) {
-    return std::ranges::any_of(readings, [&](const reading& each) { return !std::ranges::count(each.times, time); });
-  });
-  return times;
-}
+[[nodiscard]] std::vector<double> times_in_common(std::span<const reading> readings);
 
 /// The mean count of each reading's pixels at these times, or the largest if a pixel is saturated: their noise would
 /// weigh a pixel's brighter exposures more than its darker ones.
-[[nodiscard]] inline exposure_counts mean_counts(std::span<const reading> readings, std::span<const double> times,
-                                                 Eigen::Index channel, std::uint16_t largest_count) {
-  exposure_counts counts(std::ssize(readings), std::ssize(times));
-  for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-    const reading& each = readings[static_cast<std::size_t>(i)];
-    for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-      const auto at = std::ranges::find(each.times, times[static_cast<std::size_t>(j)]) - each.times.begin();
-      const auto pixels = each.frames[static_cast<std::size_t>(at)].col(channel);
-      counts(i, j) = pixels.maxCoeff() >= largest_count ? largest_count : pixels.cast<double>().mean();
-    }
-  }
-  return counts;
-}
+[[nodiscard]] exposure_counts mean_counts(std::span<const reading> readings, std::span<const double> times,
+                                          Eigen::Index channel, std::uint16_t largest_count);
 
 }  // namespace detail
 
@@ -60,20 +41,9 @@ namespace detail {
 ///
 /// Throws gonio::error if there is no reading, if they have less than two times in common, or as estimate_response
 /// does.
-[[nodiscard]] inline std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
-                                                                       std::uint16_t largest_count,
-                                                                       const response_options& options = {}) {
-  if (readings.empty()) throw error("a camera's response needs readings, and there is none");
-  const std::vector<double> times = detail::times_in_common(readings);
-  if (times.size() < 2)
-    throw error("a camera's response needs readings with two exposure times or more in common, not " +
-                std::to_string(times.size()));
-  const auto response_of = [&](Eigen::Index channel) {
-    return estimate_response(detail::mean_counts(readings, times, channel, largest_count), times, largest_count,
-                             options);
-  };
-  return {response_of(0), response_of(1), response_of(2)};
-}
+[[nodiscard]] std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
+                                                                std::uint16_t largest_count,
+                                                                const response_options& options = {});
 
 /// A BRDF's value in sr^-1 at a pair of directions, with the standard deviation of each channel.
 struct measured_reflectance {
@@ -84,9 +54,7 @@ struct measured_reflectance {
   [[nodiscard]] bool is_usable() const noexcept { return doubt.empty(); }
 
   /// Of the sum of the channels: a colour in which the material is black need not be known well.
-  [[nodiscard]] double relative_deviation() const noexcept {
-    return deviation.matrix().norm() / std::max(value.sum(), 0.0);
-  }
+  [[nodiscard]] double relative_deviation() const noexcept;
 
   /// The sample that estimators take, with the weight of its deviation. Not for values that mean nothing.
   [[nodiscard]] sample as_sample() const {
@@ -99,29 +67,13 @@ struct measured_reflectance {
 /// says where the surfaces lay, if not in the same place (Eq. 22).
 ///
 /// Throws gonio::error as merge_exposures, reference_light and reference_light::brdf do.
-[[nodiscard]] inline measured_reflectance measure_reflectance(const reading& material, const reading& reference,
-                                                              const direction_pair& at, const calibration& known,
-                                                              const illumination& material_at = {},
-                                                              const illumination& reference_at = {}) {
-  measured_reflectance result{at};
-  bool is_dark = true;
-  for (Eigen::Index channel = 0; channel < 3; ++channel) {
-    const camera_response& response = known.responses[static_cast<std::size_t>(channel)];
-    const auto radiance = [&](const reading& taken) {
-      return merge_exposures(taken, channel, response, known.noise, known.saturation);
-    };
-    const measured_radiance white = radiance(reference), seen = radiance(material);
-    if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
-    if (seen.saturated) result.doubt = "saturated in every exposure";
-    if (!result.is_usable()) return result;
-    const reference_light light({white.value, white.deviation}, known.reflectance, reference_at);
-    const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
-    result.value[channel] = f.value;
-    result.deviation[channel] = f.deviation;
-    is_dark = is_dark && seen.dark;
-  }
-  if (is_dark) result.doubt = "dark in every exposure";
-  return result;
-}
+[[nodiscard]] measured_reflectance measure_reflectance(const reading& material, const reading& reference,
+                                                       const direction_pair& at, const calibration& known,
+                                                       const illumination& material_at = {},
+                                                       const illumination& reference_at = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/capture/impl/calibration.ipp>
+#endif

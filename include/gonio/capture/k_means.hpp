@@ -35,128 +35,33 @@ struct point_clusters {
 
 namespace detail {
 
-inline void require_finite_points(const point_matrix_view& points) {
-  for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (!points.row(i).allFinite()) throw error("point " + std::to_string(i + 1) + " is not finite");
-}
+void require_finite_points(const point_matrix_view& points);
 
 /// How many of the points differ, but no more than `limit`. O(n limit).
-[[nodiscard]] inline Eigen::Index different_points(const point_matrix_view& points, Eigen::Index limit) {
-  point_matrix found(limit, points.cols());
-  Eigen::Index count = 0;
-  for (Eigen::Index i = 0; i < points.rows() && count < limit; ++i) {
-    Eigen::Index j = 0;
-    while (j < count && found.row(j) != points.row(i)) ++j;
-    if (j == count) found.row(count++) = points.row(i);
-  }
-  return count;
-}
+[[nodiscard]] Eigen::Index different_points(const point_matrix_view& points, Eigen::Index limit);
 
 /// The first centre is any point; each further one is a point chosen with a probability in proportion to its squared
 /// distance to the nearest centre so far. Of k or more different points.
-[[nodiscard]] inline point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k,
-                                               std::mt19937_64& generator) {
-  point_matrix centres(k, points.cols());
-  centres.row(0) = points.row(std::uniform_int_distribution<Eigen::Index>(0, points.rows() - 1)(generator));
-  Eigen::VectorXd squares = (points.rowwise() - centres.row(0)).rowwise().squaredNorm();
-  for (Eigen::Index c = 1; c < k; ++c) {
-    double rest = std::uniform_real_distribution<double>(0.0, squares.sum())(generator);
-    Eigen::Index chosen = 0;
-    // Rounding may leave some of the sum: the farthest point is as good a choice.
-    squares.maxCoeff(&chosen);
-    for (Eigen::Index i = 0; i < points.rows(); ++i) {
-      rest -= squares[i];
-      if (!(rest < 0.0)) continue;
-      chosen = i;
-      break;
-    }
-    centres.row(c) = points.row(chosen);
-    squares = squares.cwiseMin((points.rowwise() - centres.row(c)).rowwise().squaredNorm());
-  }
-  return centres;
-}
+[[nodiscard]] point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k, std::mt19937_64& generator);
 
 /// The nearest centre of each point, the first of equally near ones, and the squared distance to it. Says whether a
 /// label has changed. O(n k d).
-[[nodiscard]] inline bool assign(const point_matrix_view& points, const point_matrix& centres, Eigen::VectorXi& labels,
-                                 Eigen::VectorXd& squares, thread_count threads) {
-  const Eigen::VectorXi before = labels;
-  for_each_block(
-      static_cast<std::size_t>(points.rows()), 4096,
-      [&](block range) {
-        for (auto i = static_cast<Eigen::Index>(range.begin); i < static_cast<Eigen::Index>(range.end); ++i) {
-          squares[i] = std::numeric_limits<double>::infinity();
-          for (Eigen::Index c = 0; c < centres.rows(); ++c) {
-            const double square = (points.row(i) - centres.row(c)).squaredNorm();
-            if (!(square < squares[i])) continue;
-            squares[i] = square;
-            labels[i] = static_cast<int>(c);
-          }
-        }
-      },
-      threads);
-  return labels != before;
-}
+[[nodiscard]] bool assign(const point_matrix_view& points, const point_matrix& centres, Eigen::VectorXi& labels,
+                          Eigen::VectorXd& squares, thread_count threads);
 
 /// How many points each cluster has.
-[[nodiscard]] inline std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
-  std::vector<std::size_t> sizes(static_cast<std::size_t>(k));
-  for (const int label : labels) ++sizes[static_cast<std::size_t>(label)];
-  return sizes;
-}
+[[nodiscard]] std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k);
 
 /// A cluster without points takes the point that is farthest from its centre, of a cluster that keeps another.
-inline void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k) {
-  std::vector<std::size_t> sizes = cluster_sizes(labels, k);
-  for (std::size_t c = 0; c < sizes.size(); ++c) {
-    if (sizes[c] > 0) continue;
-    Eigen::Index farthest = -1;
-    for (Eigen::Index i = 0; i < labels.size(); ++i)
-      if (sizes[static_cast<std::size_t>(labels[i])] > 1 && (farthest < 0 || squares[i] > squares[farthest]))
-        farthest = i;
-    --sizes[static_cast<std::size_t>(labels[farthest])];
-    ++sizes[c];
-    labels[farthest] = static_cast<int>(c);
-    squares[farthest] = 0.0;
-  }
-}
+void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k);
 
 /// The means of clusters none of which is empty: k x d.
-[[nodiscard]] inline point_matrix cluster_means(const point_matrix_view& points, const Eigen::VectorXi& labels,
-                                                Eigen::Index k, thread_count threads) {
-  const point_matrix zero = point_matrix::Zero(k, points.cols() + 1);  // sums, and how many
-  const point_matrix sums = sum_over_blocks(
-      static_cast<std::size_t>(points.rows()), 4096, zero,
-      [&](point_matrix& sum, block range) {
-        for (auto i = static_cast<Eigen::Index>(range.begin); i < static_cast<Eigen::Index>(range.end); ++i) {
-          sum.row(labels[i]).head(points.cols()) += points.row(i);
-          sum(labels[i], points.cols()) += 1.0;
-        }
-      },
-      threads);
-  return sums.leftCols(points.cols()).array().colwise() / sums.col(points.cols()).array();
-}
+[[nodiscard]] point_matrix cluster_means(const point_matrix_view& points, const Eigen::VectorXi& labels, Eigen::Index k,
+                                         thread_count threads);
 
 /// Numbers the clusters by their size.
-[[nodiscard]] inline point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
-                                                    double inertia) {
-  const std::vector<std::size_t> sizes = cluster_sizes(labels, centres.rows());
-  std::vector<std::size_t> order(sizes.size()), rank(sizes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto centre = [&](std::size_t c) { return centres.row(static_cast<Eigen::Index>(c)); };
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    if (sizes[a] != sizes[b]) return sizes[a] > sizes[b];
-    return std::ranges::lexicographical_compare(centre(a), centre(b));
-  });
-  point_clusters ordered{labels, point_matrix(centres.rows(), centres.cols()), {}, inertia};
-  for (std::size_t r = 0; r < order.size(); ++r) {
-    rank[order[r]] = r;
-    ordered.centres.row(static_cast<Eigen::Index>(r)) = centre(order[r]);
-    ordered.sizes.push_back(sizes[order[r]]);
-  }
-  for (int& label : ordered.labels) label = static_cast<int>(rank[static_cast<std::size_t>(label)]);
-  return ordered;
-}
+[[nodiscard]] point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
+                                             double inertia);
 
 }  // namespace detail
 
@@ -164,26 +69,8 @@ inline void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squa
 /// points, until no point changes or for `most_steps` steps. A cluster that loses all its points takes the one farthest
 /// from its centre. Throws gonio::error if a number is not finite, dimensions differ, or there are fewer points than
 /// centres. O(n k d) a step, same bytes for any number of threads.
-[[nodiscard]] inline point_clusters refine_clusters(const point_matrix_view& points, point_matrix centres,
-                                                    thread_count threads = {}, int most_steps = 100) {
-  const Eigen::Index n = points.rows(), k = centres.rows();
-  if (k < 1 || n < k || points.cols() != centres.cols())
-    throw error(std::to_string(n) + " points of " + std::to_string(points.cols()) +
-                " numbers cannot be parted around " + std::to_string(k) + " centres of " +
-                std::to_string(centres.cols()));
-  detail::require_finite_points(points);
-  detail::require_finite_points(centres);
-  Eigen::VectorXi labels = Eigen::VectorXi::Constant(n, -1);
-  Eigen::VectorXd squares(n);
-  for (int step = 0; step < most_steps; ++step) {
-    if (!detail::assign(points, centres, labels, squares, threads)) break;
-    detail::refill_empty_clusters(labels, squares, k);
-    centres = detail::cluster_means(points, labels, k, threads);
-  }
-  // Squares are those of the centres before the last step.
-  for (Eigen::Index i = 0; i < n; ++i) squares[i] = (points.row(i) - centres.row(labels[i])).squaredNorm();
-  return detail::ordered_by_size(labels, centres, squares.sum());
-}
+[[nodiscard]] point_clusters refine_clusters(const point_matrix_view& points, point_matrix centres,
+                                             thread_count threads = {}, int most_steps = 100);
 
 /// The best of ten runs of Lloyd's algorithm from the seeds of k-means++, by inertia. Throws gonio::error if a point is
 /// not finite, or unless there are k different points and k is at least 1. The seed alone decides, not the number of
@@ -192,55 +79,18 @@ inline void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squa
 /// ```cpp
 /// const auto clusters = gonio::k_means(points, 3, seed);
 /// ```
-[[nodiscard]] inline point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
-                                            thread_count threads = {}) {
-  constexpr int restarts = 10;
-  if (k < 1) throw error("points are parted into at least one cluster, not " + std::to_string(k));
-  detail::require_finite_points(points);
-  if (const Eigen::Index different = detail::different_points(points, k); different < k)
-    throw error("only " + std::to_string(different) + " of " + std::to_string(points.rows()) +
-                " points differ: they cannot make " + std::to_string(k) + " clusters");
-  std::mt19937_64 generator(seed);
-  point_clusters best;
-  best.inertia = std::numeric_limits<double>::infinity();
-  for (int run = 0; run < restarts; ++run) {
-    point_clusters found = refine_clusters(points, detail::seed_centres(points, k, generator), threads);
-    if (found.inertia < best.inertia) best = std::move(found);
-  }
-  return best;
-}
+[[nodiscard]] point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
+                                     thread_count threads = {});
 
 /// How well clusters stand apart, from -1 to 1: the mean over the points of (b - a) / max(a, b), where a is a point's
 /// mean distance to the others of its cluster and b that to the points of the nearest other cluster. A point alone in
 /// its cluster counts 0 (Rousseeuw 1987), and so does every point if there is one cluster only. `labels` has a number
 /// from 0 on for each point, otherwise gonio::error is thrown. O(n^2 d): meant for thousands of points.
-[[nodiscard]] inline double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
-                                            thread_count threads = {}) {
-  if (labels.size() != points.rows() || points.rows() == 0 || labels.minCoeff() < 0)
-    throw error("a silhouette needs a point at least, and a label from 0 on for each");
-  const std::vector<std::size_t> sizes = detail::cluster_sizes(labels, labels.maxCoeff() + 1);
-  const auto own_size = [&](Eigen::Index i) { return sizes[static_cast<std::size_t>(labels[i])]; };
-  const auto width_of = [&](Eigen::Index i) {
-    if (own_size(i) < 2) return 0.0;
-    std::vector<double> distances(sizes.size());
-    for (Eigen::Index j = 0; j < points.rows(); ++j)
-      distances[static_cast<std::size_t>(labels[j])] += (points.row(i) - points.row(j)).norm();
-    const auto own = static_cast<std::size_t>(labels[i]);
-    const double a = distances[own] / static_cast<double>(sizes[own] - 1);
-    double b = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < sizes.size(); ++c)
-      if (c != own && sizes[c] > 0) b = std::min(b, distances[c] / static_cast<double>(sizes[c]));
-    const double larger = std::max(a, b);
-    return std::isfinite(b) && larger > 0.0 ? (b - a) / larger : 0.0;
-  };
-  const auto n = static_cast<std::size_t>(points.rows());
-  const double sum = sum_over_blocks(
-      n, 64, 0.0,
-      [&](double& total, block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) total += width_of(static_cast<Eigen::Index>(i));
-      },
-      threads);
-  return sum / static_cast<double>(n);
-}
+[[nodiscard]] double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
+                                     thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/capture/impl/k_means.ipp>
+#endif

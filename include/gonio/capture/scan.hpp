@@ -84,21 +84,7 @@ struct scan_outcome {
 namespace detail {
 
 /// Why a reading is none; empty if it is one.
-[[nodiscard]] inline std::string fault_of(const reading& taken, std::uint16_t largest_count) {
-  if (taken.frames.empty()) return "the camera gave no frame";
-  if (taken.frames.size() != taken.times.size())
-    return "the camera gave " + std::to_string(taken.frames.size()) + " frames for " +
-           std::to_string(taken.times.size()) + " exposures";
-  for (const camera_frame& each : taken.frames) {
-    if (each.rows() == 0 || each.rows() != taken.frames.front().rows())
-      return "a frame has " + std::to_string(each.rows()) + " pixels, the first " +
-             std::to_string(taken.frames.front().rows());
-    if (each.maxCoeff() > largest_count)
-      return "a pixel has " + std::to_string(each.maxCoeff()) + " counts, the largest is " +
-             std::to_string(largest_count);
-  }
-  return {};
-}
+[[nodiscard]] std::string fault_of(const reading& taken, std::uint16_t largest_count);
 
 /// Tries a pose until it is measured. Nothing, and why, if it fails every time.
 template <goniometer Machine>
@@ -152,3 +138,7 @@ scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Recor
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/capture/impl/scan.ipp>
+#endif

@@ -23,10 +23,8 @@ struct camera_pose {
   double yaw = 0.0;          ///< gamma of Eq. 5, about the z axis
 
   /// Turns the tool's axes to the robot's: first by the pitch, then by the yaw. The camera looks along the tool's x.
-  [[nodiscard]] Eigen::Quaterniond orientation() const {
-    return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
-  }
-  [[nodiscard]] direction looks_along() const { return orientation() * Eigen::Vector3d::UnitX(); }
+  [[nodiscard]] Eigen::Quaterniond orientation() const;
+  [[nodiscard]] direction looks_along() const;
 };
 
 /// The sphere on which the camera moves, and how its axes lie in the robot's.
@@ -37,22 +35,14 @@ struct camera_sphere {
   double arc_azimuth = std::numbers::pi / 2.0;
 
   /// Throws gonio::error unless the radius is positive and all is finite.
-  void require_usable() const {
-    if (!(radius > 0.0) || !std::isfinite(radius) || !centre.allFinite() || !std::isfinite(arc_azimuth))
-      throw error("a camera's sphere needs a positive radius and finite numbers");
-  }
+  void require_usable() const;
 
   /// The pose from which a sample is seen along a direction in the sample's axes: z is its normal, the arc lies above x
   /// (Eq. 1-5).
-  [[nodiscard]] camera_pose towards(const direction& wo) const {
-    const double theta = polar_angle(wo), phi = azimuth(wo) + arc_azimuth;
-    return {centre + radius * spherical_direction(theta, phi), std::numbers::pi / 2.0 + theta, phi};
-  }
+  [[nodiscard]] camera_pose towards(const direction& wo) const;
 
   /// The direction in the sample's axes from which a pose sees it: the inverse of `towards`.
-  [[nodiscard]] direction seen_from(const camera_pose& pose) const {
-    return turned_about_normal((pose.position - centre).normalized(), -arc_azimuth);
-  }
+  [[nodiscard]] direction seen_from(const camera_pose& pose) const;
 };
 
 /// Every n-th of a right angle, in radians: 7.5 degrees in the note.
@@ -60,46 +50,22 @@ struct angular_grid {
   double step = radians(7.5);
 
   /// Throws gonio::error unless the step divides 90 degrees.
-  [[nodiscard]] int steps_to_horizon() const {
-    const double steps = std::numbers::pi / 2.0 / step;
-    if (!(step > 0.0) || !(steps >= 1.0) || std::abs(steps - std::round(steps)) > 1e-9)
-      throw error("steps of " + std::to_string(degrees(step)) + " degrees do not divide a right angle");
-    return static_cast<int>(std::lround(steps));
-  }
+  [[nodiscard]] int steps_to_horizon() const;
 };
 
 /// Directions towards an arc's lamps in the sample's axes, from one end of the arc to the other, without the two at the
 /// horizon, which light nothing.
-[[nodiscard]] inline std::vector<direction> arc_lamps(const angular_grid& grid = {}) {
-  const int steps = grid.steps_to_horizon();
-  std::vector<direction> lamps;
-  for (int i = 1 - steps; i < steps; ++i)
-    lamps.push_back(spherical_direction(std::abs(i) * grid.step, i < 0 ? std::numbers::pi : 0.0));
-  return lamps;
-}
+[[nodiscard]] std::vector<direction> arc_lamps(const angular_grid& grid = {});
 
 /// Directions from which the camera sees the sample: rows of equal elevation from one step above the horizon up, each
 /// from azimuth 0 to 180 degrees, and last the one from right above. What lies on the other side of the arc's plane is
 /// the same by symmetry.
-[[nodiscard]] inline std::vector<direction> half_hemisphere(const angular_grid& grid = {}) {
-  const int steps = grid.steps_to_horizon();
-  std::vector<direction> seen;
-  for (int row = steps - 1; row > 0; --row)
-    for (int column = 0; column <= 2 * steps; ++column)
-      seen.push_back(spherical_direction(row * grid.step, column * grid.step));
-  seen.push_back(spherical_direction(0.0, 0.0));
-  return seen;
-}
+[[nodiscard]] std::vector<direction> half_hemisphere(const angular_grid& grid = {});
 
 /// A pair of directions as the arc measures it: both turned about the normal until the light lies above the arc's
 /// x axis, and the viewer, if need be, mirrored at the arc's plane to azimuths from 0 to 180 degrees. An isotropic
 /// material has the same BRDF there. A light right above leaves the viewer above the x axis.
-[[nodiscard]] inline direction_pair above_arc(const direction_pair& pair) {
-  const double turn = polar_angle(pair.wi) > 0.0 ? azimuth(pair.wi) : azimuth(pair.wo);
-  direction_pair turned{turned_about_normal(pair.wi, -turn), turned_about_normal(pair.wo, -turn)};
-  turned.wo.y() = std::abs(turned.wo.y());
-  return turned;
-}
+[[nodiscard]] direction_pair above_arc(const direction_pair& pair);
 
 /// A short way through some places: from the first always to the nearest that is left, then, until none shortens the
 /// way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958). `between(i, j)` is the way between
@@ -132,19 +98,10 @@ template <class Between>
 }
 
 /// The way through directions: the camera moves along its sphere, so that it never comes close to the sample.
-[[nodiscard]] inline std::vector<std::size_t> short_way(const std::vector<direction>& directions) {
-  return short_way(directions.size(),
-                   [&](std::size_t i, std::size_t j) { return angle_between(directions[i], directions[j]); });
-}
+[[nodiscard]] std::vector<std::size_t> short_way(const std::vector<direction>& directions);
 
 /// The length in radians of the way through directions in an order.
-[[nodiscard]] inline double length_of_way(const std::vector<direction>& directions,
-                                          const std::vector<std::size_t>& order) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < order.size(); ++i)
-    length += angle_between(directions[order[i - 1]], directions[order[i]]);
-  return length;
-}
+[[nodiscard]] double length_of_way(const std::vector<direction>& directions, const std::vector<std::size_t>& order);
 
 /// What a scan spends its time on.
 struct scan_pace {
@@ -156,11 +113,11 @@ struct scan_pace {
 
 /// Seconds that a scan takes along a way, in radians, with some stops, at each of which pictures are taken under some
 /// lamps, one after the other. Throws gonio::error for a speed that is not positive.
-[[nodiscard]] inline double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
-                                             const scan_pace& pace = {}) {
-  if (!(pace.radians_per_second > 0.0)) throw error("a robot's speed must be positive");
-  const double each = pace.settling + static_cast<double>(lamps) * (pace.exposure + pace.switching);
-  return length_of_way / pace.radians_per_second + static_cast<double>(stops) * each;
-}
+[[nodiscard]] double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
+                                      const scan_pace& pace = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/capture/impl/trajectory.ipp>
+#endif

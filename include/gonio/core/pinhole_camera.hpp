@@ -39,10 +39,7 @@ struct camera_intrinsics {
   double principal_x = 0.0, principal_y = 0.0;  ///< where the optical axis meets the picture
 
   /// A square picture of so many pixels a side that spans an angle in radians from its left to its right.
-  [[nodiscard]] static camera_intrinsics square(std::size_t pixels, double field_of_view) {
-    const double half = static_cast<double>(pixels) / 2.0, focal_length = half / std::tan(field_of_view / 2.0);
-    return {pixels, pixels, focal_length, focal_length, half, half};
-  }
+  [[nodiscard]] static camera_intrinsics square(std::size_t pixels, double field_of_view);
 };
 
 /// A camera at a place, in any unit of length that the scene is in.
@@ -51,34 +48,12 @@ class pinhole_camera {
   /// `rotation` takes directions of the world to those of the camera: its rows are the camera's axes. Throws
   /// gonio::error unless it is a rotation (to 1e-3, what a file with four decimals has), the focal lengths are
   /// positive, there are pixels and all is finite.
-  pinhole_camera(const camera_intrinsics& intrinsics, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position)
-      : intrinsics_(intrinsics), rotation_(rotation), position_(position) {
-    if (intrinsics.rows == 0 || intrinsics.columns == 0) throw error("a camera needs pixels");
-    const Eigen::Vector4d numbers(intrinsics.focal_length_x, intrinsics.focal_length_y, intrinsics.principal_x,
-                                  intrinsics.principal_y);
-    if (!numbers.allFinite() || !position.allFinite()) throw error("a camera's numbers must be finite");
-    if (!(intrinsics.focal_length_x > 0.0 && intrinsics.focal_length_y > 0.0))
-      throw error("a camera's focal lengths must be positive, not " + std::to_string(intrinsics.focal_length_x) +
-                  " and " + std::to_string(intrinsics.focal_length_y));
-    constexpr double tolerance = 1e-3;
-    if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < tolerance) ||
-        !(rotation.determinant() > 0.0))
-      throw error("a camera's rotation must be an orthogonal matrix of determinant 1");
-  }
+  pinhole_camera(const camera_intrinsics& intrinsics, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position);
 
   /// A camera that looks at a target, the upper edge of its picture towards `up`. Throws gonio::error if it is at the
   /// target or looks along `up`.
   [[nodiscard]] static pinhole_camera look_at(const camera_intrinsics& intrinsics, const Eigen::Vector3d& position,
-                                              const Eigen::Vector3d& target, const Eigen::Vector3d& up) {
-    const Eigen::Vector3d forward = target - position, right = forward.cross(up);
-    if (!(right.norm() > 1e-9 * forward.norm() * up.norm()))
-      throw error("a camera must look at another place than its own, and not along its own upward direction");
-    Eigen::Matrix3d rotation;
-    rotation.row(0) = right.normalized();
-    rotation.row(2) = forward.normalized();
-    rotation.row(1) = rotation.row(2).cross(rotation.row(0));
-    return {intrinsics, rotation, position};
-  }
+                                              const Eigen::Vector3d& target, const Eigen::Vector3d& up);
 
   [[nodiscard]] const camera_intrinsics& intrinsics() const noexcept { return intrinsics_; }
   [[nodiscard]] const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
@@ -106,3 +81,7 @@ class pinhole_camera {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/core/impl/pinhole_camera.ipp>
+#endif

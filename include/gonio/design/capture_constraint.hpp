@@ -34,33 +34,17 @@ struct capture_constraint {
   double light_tolerance = radians(0.5);  ///< by how much one may miss the light that is meant
   std::vector<forbidden_zone> forbidden;
 
-  [[nodiscard]] bool is_none() const noexcept {
-    const polar_range all;
-    const auto is_all = [&](const polar_range& range) {
-      return range.smallest <= all.smallest && range.largest >= all.largest;
-    };
-    return is_all(light) && is_all(viewer) && smallest_separation <= 0.0 && light_step <= 0.0 && forbidden.empty();
-  }
+  [[nodiscard]] bool is_none() const noexcept;
 
-  [[nodiscard]] bool operator()(const direction_pair& pair) const {
-    const double theta_i = polar_angle(pair.wi), theta_o = polar_angle(pair.wo);
-    if (!light.contains(theta_i) || !viewer.contains(theta_o)) return false;
-    if (angle_between(pair.wi, pair.wo) < smallest_separation) return false;
-    if (light_step > 0.0 && std::abs(theta_i - light_step * std::round(theta_i / light_step)) > light_tolerance)
-      return false;
-    return std::ranges::none_of(forbidden, [&](const forbidden_zone& zone) {
-      return zone.light.contains(theta_i) && zone.viewer.contains(theta_o);
-    });
-  }
+  [[nodiscard]] bool operator()(const direction_pair& pair) const;
 
   /// Light and viewer with these angles between them where they can be: as the angles have them, or by reciprocity in
   /// each other's place; nothing if neither can be.
-  [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const {
-    const direction_pair pair = to_directions(angles), exchanged{pair.wo, pair.wi};
-    if (is_none() || (*this)(pair)) return pair;
-    if ((*this)(exchanged)) return exchanged;
-    return {};
-  }
+  [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/capture_constraint.ipp>
+#endif

@@ -49,29 +49,11 @@ class point_geometry {
   [[nodiscard]] bool allows(std::size_t cell) const {
     return constraint_.is_none() || constraint_.pose_of(cells_.angles(cell)).has_value();
   }
-  [[nodiscard]] direction_pair centre(std::size_t cell) const {
-    const half_difference angles = cells_.angles(cell);
-    return constraint_.pose_of(angles).value_or(to_directions(angles));
-  }
-  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
-    const grid& grid = cells_.grid();
-    return cells_.representative(grid.linear(grid.nearest(to_half_difference(pair.wi, pair.wo))));
-  }
+  [[nodiscard]] direction_pair centre(std::size_t cell) const;
+  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const;
   [[nodiscard]] std::vector<half_difference> directions(std::size_t cell) const { return {cells_.angles(cell)}; }
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
-    const grid& grid = cells_.grid();
-    const grid_extents& extents = grid.extents();
-    const cell_index at = grid.cell(cells_.linear(from));
-    const int theta_h = at.theta_h + step[0], theta_d = at.theta_d + step[1];
-    if (theta_h < 0 || theta_h >= extents.theta_h || theta_d < 0 || theta_d >= extents.theta_d) return {};
-    const int phi_d = ((at.phi_d + step[2]) % extents.phi_d + extents.phi_d) % extents.phi_d;
-    const std::size_t linear = grid.linear({theta_h, theta_d, phi_d});
-    if (!cells_.contains(linear)) return {};
-    const std::size_t cell = cells_.representative(linear);
-    if (!allows(cell)) return {};
-    return cell;
-  }
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
 
  private:
   valid_cells cells_;
@@ -80,3 +62,7 @@ class point_geometry {
 static_assert(capture_geometry<point_geometry>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/capture_geometry.ipp>
+#endif

@@ -53,18 +53,7 @@ class cell_candidates {
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
   /// Y and W of some cells.
-  [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const {
-    const auto n = std::ssize(cells);
-    expected_error::rows rows(n, materials_.cols());
-    rows.noise.setOnes();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto cell = static_cast<Eigen::Index>(cells[static_cast<std::size_t>(i)]);
-      rows.materials().row(i) = materials_.row(cell).cast<double>();
-      rows.weighted().row(i) = weighted_.row(cell).cast<double>();
-      rows.own_eta[i] = double{own_etas_[cell]};
-    }
-    return rows;
-  }
+  [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const;
 
   /// E of measurements at some cells.
   [[nodiscard]] double operator()(std::span<const std::size_t> cells) const { return criterion_(rows_of(cells)); }
@@ -79,30 +68,10 @@ class cell_candidates {
 
   /// E of measurements at some cells and, in turn, at each cell beside them: one value a cell, infinity for those
   /// that the constraint excludes. 8 n m operations a cell for n measurements and m observations; reads Y and W once.
-  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> cells) const {
-    const extended_error<float> with(criterion_, rows_of(cells));
-    std::vector<float> errors(size());
-    for_each_block(
-        size(), 128,
-        [&](block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-          Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) = with(
-              materials_.middleRows(begin, count), weighted_.middleRows(begin, count), own_etas_.segment(begin, count));
-        },
-        threads_);
-    for (const std::size_t cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
-    return errors;
-  }
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> cells) const;
 
  private:
-  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> own_etas, std::size_t cells) {
-    if (own_etas.size() != cells)
-      throw error(std::to_string(own_etas.size()) + " etas of their own for " + std::to_string(cells) + " cells");
-    for (const double eta : own_etas)
-      if (!(eta >= 0.0 && std::isfinite(eta)))
-        throw error("a cell's own eta must be finite and not negative, not " + std::to_string(eta));
-    return Eigen::Map<const Eigen::ArrayXd>(own_etas.data(), std::ssize(own_etas)).cast<float>();
-  }
+  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> own_etas, std::size_t cells);
 
   point_geometry geometry_;
   expected_error criterion_;
@@ -113,3 +82,7 @@ class cell_candidates {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/cell_candidates.ipp>
+#endif

@@ -55,20 +55,10 @@ template <basis Basis>
 ///
 /// With R'R = V L V' these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution that is penalised by eta leaves eta / (eta
 /// + L) of a direction V unknown, which is hardly less than all where L is far below eta. O(n k min(n, k)).
-[[nodiscard]] inline component_rows compressed(const component_rows& rows, double negligible) {
-  const Eigen::MatrixXd& r = rows.components;
-  const bool tall = r.rows() > r.cols();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(tall ? Eigen::MatrixXd(r.transpose() * r)
-                                                                  : Eigen::MatrixXd(r * r.transpose()));
-  const Eigen::VectorXd& values = eigen.eigenvalues();  // smallest first
-  const auto dropped = std::ranges::count_if(values, [&](double value) { return !(value > negligible); });
-  const Eigen::Index kept = values.size() - dropped;
-  const auto vectors = eigen.eigenvectors().rightCols(kept);
-  const Eigen::VectorXd roots = values.tail(kept).cwiseSqrt();
-  if (tall)
-    return {roots.asDiagonal() * vectors.transpose(),
-            roots.cwiseInverse().asDiagonal() * (vectors.transpose() * (r.transpose() * rows.noise))};
-  return {vectors.transpose() * r, vectors.transpose() * rows.noise};
-}
+[[nodiscard]] component_rows compressed(const component_rows& rows, double negligible);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/compressed_rows.ipp>
+#endif

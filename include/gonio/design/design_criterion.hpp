@@ -29,32 +29,16 @@ concept design_criterion = requires(const Criterion& criterion, const Eigen::Mat
 /// 2014). From the eigenvalues of the smaller Gram matrix: up to 1e7, beyond which it may say infinity. O(n k min(n,
 /// k)).
 struct condition_number {
-  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
-    if (components.rows() == 1) return 1.0 / components.norm();
-    const Eigen::MatrixXd gram = components.rows() <= components.cols()
-                                     ? Eigen::MatrixXd(components * components.transpose())
-                                     : Eigen::MatrixXd(components.transpose() * components);
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
-    const double smallest = values[0], largest = values[values.size() - 1];
-    if (!(smallest > 1e-14 * largest)) return std::numeric_limits<double>::infinity();
-    return std::sqrt(largest / smallest);
-  }
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 };
 static_assert(design_criterion<condition_number>);
 
 namespace detail {
 
 /// The Cholesky factors of I + R R' / eta.
-[[nodiscard]] inline Eigen::LLT<Eigen::MatrixXd> certainty(const Eigen::MatrixXd& components, double eta) {
-  Eigen::MatrixXd gram = components * components.transpose() / eta;
-  gram.diagonal().array() += 1.0;
-  return gram.llt();
-}
+[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> certainty(const Eigen::MatrixXd& components, double eta);
 
-inline void require_positive_eta(double eta) {
-  if (!(eta > 0.0 && std::isfinite(eta))) throw error("eta must be positive, not " + std::to_string(eta));
-}
+void require_positive_eta(double eta);
 
 }  // namespace detail
 
@@ -67,9 +51,7 @@ class d_optimality {
   /// Throws gonio::error unless eta is positive.
   explicit d_optimality(double eta = 40.0) : eta_(eta) { detail::require_positive_eta(eta); }
 
-  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
-    return -detail::certainty(components, eta_).matrixLLT().diagonal().array().log().sum();
-  }
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 
  private:
   double eta_;
@@ -83,17 +65,9 @@ class a_optimality {
  public:
   /// `energies`: |Q e_j|^2 of each component j, which for scaled principal components is the singular value squared.
   /// Throws gonio::error unless eta is positive and the energies are finite, not negative, and not all zero.
-  explicit a_optimality(Eigen::VectorXd energies, double eta = 40.0) : energies_(std::move(energies)), eta_(eta) {
-    detail::require_positive_eta(eta);
-    if (!energies_.allFinite() || !(energies_.array() >= 0.0).all() || !(energies_.sum() > 0.0))
-      throw error("the components' energies must be finite, not negative, and not all zero");
-  }
+  explicit a_optimality(Eigen::VectorXd energies, double eta = 40.0);
 
-  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const {
-    // (R'R + eta I)^-1 = (I - R' K^-1 R / eta) / eta with K = I + R R' / eta = L L'.
-    const Eigen::MatrixXd known = detail::certainty(components, eta_).matrixL().solve(components);
-    return 1.0 - (known.array().square().matrix() * energies_).sum() / (eta_ * energies_.sum());
-  }
+  [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 
  private:
   Eigen::VectorXd energies_;
@@ -102,3 +76,7 @@ class a_optimality {
 static_assert(design_criterion<a_optimality>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/design_criterion.ipp>
+#endif

@@ -86,13 +86,7 @@ class expected_error {
   [[nodiscard]] const Eigen::VectorXd& energies() const noexcept { return energies_; }
 
   /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
-  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const {
-    rows measured(components.rows(), coefficients_.rows());
-    measured.materials().noalias() = components * coefficients_.transpose();
-    measured.weighted().noalias() = components * weighted_.transpose();
-    measured.noise = std::move(noise);
-    return measured;
-  }
+  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const;
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const {
     return prepare(components, Eigen::VectorXd::Ones(components.rows()));
   }
@@ -111,36 +105,10 @@ class expected_error {
     Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what noise adds to the weights
     double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
 
-    [[nodiscard]] double error(double noise) const {
-      return squared_errors.max(0.0).sqrt().mean() + noise * std::sqrt(std::max(noise_energy, 0.0));
-    }
+    [[nodiscard]] double error(double noise) const;
   };
 
-  [[nodiscard]] remainder state(const rows& measured) const {
-    const Eigen::Index n = measured.size();
-    remainder left;
-    left.squared_errors = energies_.array();
-    left.noise_response = Eigen::VectorXd::Zero(coefficients_.rows());
-    if (n == 0) return left;
-    const auto y = measured.materials();
-    Eigen::MatrixXd products(2 * n, n);
-    products.noalias() = measured.both * y.transpose();
-    Eigen::MatrixXd k = products.topRows(n);
-    k.diagonal() += (options_.eta + measured.own_eta.array()).matrix();
-    left.inverse = k.llt().solve(Eigen::MatrixXd::Identity(n, n));
-    // b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w), for all observations by one product with Y and W.
-    Eigen::MatrixXd factors(n, 2 * n);
-    factors << left.inverse * products.bottomRows(n) * left.inverse, -2.0 * left.inverse;
-    const auto spread = factors.leftCols(n);
-    row_matrix changed(n, y.cols());
-    changed.noalias() = factors * measured.both;
-    left.squared_errors += changed.cwiseProduct(y).colwise().sum().transpose().array();
-    left.own_variances = measured.own_eta / static_cast<double>(coefficients_.rows());
-    if ((left.own_variances.array() > 0.0).any()) left.squared_errors += left.own_variances.dot(spread.diagonal());
-    left.noise_response = y.transpose() * (left.inverse * measured.noise);
-    left.noise_energy = measured.noise.dot(spread * measured.noise);
-    return left;
-  }
+  [[nodiscard]] remainder state(const rows& measured) const;
 
  private:
   expected_error_options options_;
@@ -233,3 +201,7 @@ class extended_error {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/expected_error.ipp>
+#endif

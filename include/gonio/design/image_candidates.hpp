@@ -19,21 +19,7 @@ namespace gonio {
 namespace detail {
 
 /// Measurements of both, one after the other.
-[[nodiscard]] inline expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m) {
-  Eigen::Index n = 0;
-  for (const auto* part : parts) n += part->size();
-  expected_error::rows all(n, m);
-  Eigen::Index begin = 0;
-  for (const auto* part : parts) {
-    const Eigen::Index count = part->size();
-    all.materials().middleRows(begin, count) = part->materials();
-    all.weighted().middleRows(begin, count) = part->weighted();
-    all.noise.segment(begin, count) = part->noise;
-    all.own_eta.segment(begin, count) = part->own_eta;
-    begin += count;
-  }
-  return all;
-}
+[[nodiscard]] expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m);
 
 }  // namespace detail
 
@@ -149,3 +135,7 @@ class image_candidates {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/image_candidates.ipp>
+#endif

@@ -28,12 +28,7 @@ struct near_field_options {
 
 /// The camera of such a picture: at distance 1 in the direction wo, its square picture just around the disc, whose
 /// radius is tan(field_of_view / 2).
-[[nodiscard]] inline pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels) {
-  // The disc is inside a ball of its radius, which spans its arcsine to all sides at distance 1.
-  const double half = std::asin(std::tan(field_of_view / 2.0));
-  const direction up = std::abs(wo.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
-  return pinhole_camera::look_at(camera_intrinsics::square(pixels, 2.0 * half), wo, Eigen::Vector3d::Zero(), up);
-}
+[[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels);
 
 /// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. An azimuth and
 /// its negative give mirror images of one another: they are from 0 to pi.
@@ -41,25 +36,7 @@ class near_field_geometry {
  public:
   /// Throws gonio::error unless the field of view is from 0 to 90 degrees, the step and the largest angle positive, and
   /// there is at least one candidate.
-  explicit near_field_geometry(const near_field_options& options = {}) : options_(options) {
-    const auto refuse = [](const std::string& what) { throw error("near-field pictures: " + what); };
-    if (!(options.field_of_view > 0.0 && options.field_of_view < std::numbers::pi / 2.0))
-      refuse("the field of view must be from 0 to 90 degrees, not " + std::to_string(degrees(options.field_of_view)));
-    if (options.pixels == 0) refuse("there must be pixels");
-    if (!(options.step > 0.0)) refuse("the step between candidates must be positive");
-    if (!(options.largest_polar_angle > 0.0 && options.largest_polar_angle < std::numbers::pi / 2.0))
-      refuse("the largest polar angle must be between 0 and 90 degrees, not " +
-             std::to_string(degrees(options.largest_polar_angle)));
-    for (const auto& fixed : {options.fixed_camera, options.fixed_light})
-      if (fixed && !(*fixed >= 0.0 && *fixed < std::numbers::pi / 2.0))
-        refuse("a fixed direction must be above the horizon, not at " + std::to_string(degrees(*fixed)) + " degrees");
-    const auto steps = [&](double range) { return 1 + static_cast<int>(std::floor(range / options.step + 1e-9)); };
-    extents_ = {options.fixed_light ? 1 : steps(options.largest_polar_angle),
-                options.fixed_camera ? 1 : steps(options.largest_polar_angle), steps(std::numbers::pi)};
-    bool any = false;
-    for (std::size_t candidate = 0; candidate < size() && !any; ++candidate) any = allows(candidate);
-    if (!any) refuse("the constraint leaves no candidate");
-  }
+  explicit near_field_geometry(const near_field_options& options = {});
 
   [[nodiscard]] const near_field_options& options() const noexcept { return options_; }
   [[nodiscard]] std::size_t size() const noexcept {
@@ -68,58 +45,18 @@ class near_field_geometry {
   }
 
   /// Azimuths are all the same where light or camera is at the zenith: the first stands for them.
-  [[nodiscard]] bool allows(std::size_t candidate) const {
-    const grid_step at = place(candidate);
-    const direction_pair pose = centre(candidate);
-    const bool at_zenith = polar(options_.fixed_light, at[0]) == 0.0 || polar(options_.fixed_camera, at[1]) == 0.0;
-    return !(at_zenith && at[2] > 0) && options_.constraint(pose);
-  }
+  [[nodiscard]] bool allows(std::size_t candidate) const;
 
   /// Light and camera as seen from the centre of the sample; the camera in the half plane of positive x.
-  [[nodiscard]] direction_pair centre(std::size_t candidate) const {
-    const grid_step at = place(candidate);
-    return {spherical_direction(polar(options_.fixed_light, at[0]), options_.step * at[2]),
-            spherical_direction(polar(options_.fixed_camera, at[1]), 0.0)};
-  }
+  [[nodiscard]] direction_pair centre(std::size_t candidate) const;
 
   /// The candidate whose light and camera are next to those of a pair.
-  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
-    const auto step_of = [&](double angle, int extent) {
-      return std::clamp(static_cast<int>(std::lround(angle / options_.step)), 0, extent - 1);
-    };
-    const double azimuth = std::atan2(std::abs(pair.wo.x() * pair.wi.y() - pair.wo.y() * pair.wi.x()),
-                                      pair.wo.x() * pair.wi.x() + pair.wo.y() * pair.wi.y());
-    grid_step at{step_of(polar_angle(pair.wi), extents_[0]), step_of(polar_angle(pair.wo), extents_[1]),
-                 step_of(azimuth, extents_[2])};
-    if (!allows(number(at))) at[2] = 0;
-    return number(at);
-  }
+  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const;
 
   /// One direction for each pixel whose ray meets the disc, and which the light and the camera are above.
-  [[nodiscard]] std::vector<half_difference> directions(std::size_t candidate) const {
-    const direction_pair pose = centre(candidate);
-    const double radius = std::tan(options_.field_of_view / 2.0);
-    const pinhole_camera camera = near_field_camera(pose.wo, options_.field_of_view, options_.pixels);
-    std::vector<half_difference> seen;
-    for (std::size_t row = 0; row < options_.pixels; ++row)
-      for (std::size_t column = 0; column < options_.pixels; ++column) {
-        const ray line = camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
-        const auto point = line.at_ground();
-        if (point && point->norm() <= radius) seen.push_back(to_half_difference(pose.wi, -line.towards));
-      }
-    if (seen.empty()) seen.push_back(to_half_difference(pose.wi, pose.wo));
-    return seen;
-  }
+  [[nodiscard]] std::vector<half_difference> directions(std::size_t candidate) const;
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
-    grid_step at = place(from);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      at[axis] += step[axis];
-      if (at[axis] < 0 || at[axis] >= extents_[axis]) return {};
-    }
-    if (!allows(number(at))) return {};
-    return number(at);
-  }
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
 
  private:
   [[nodiscard]] double polar(const std::optional<double>& fixed, int steps) const noexcept {
@@ -141,3 +78,7 @@ class near_field_geometry {
 static_assert(capture_geometry<near_field_geometry>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/near_field_geometry.ipp>
+#endif

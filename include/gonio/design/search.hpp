@@ -63,10 +63,7 @@ template <capture_geometry Geometry, class Generator>
 }
 
 /// The candidates of a plan without the one at a position.
-[[nodiscard]] inline std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position) {
-  candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
-  return candidates;
-}
+[[nodiscard]] std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position);
 
 /// The value of a plan as a function of what is at one position; infinity for what the plan has already.
 template <plan_objective Objective>
@@ -193,3 +190,7 @@ template <capture_geometry Geometry, plan_objective Objective>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/search.ipp>
+#endif

@@ -26,31 +26,12 @@ class sphere_geometry {
     return static_cast<std::size_t>(cells_.grid().nearest(to_half_difference(pair.wi, pair.wo)).theta_d);
   }
 
-  [[nodiscard]] std::vector<half_difference> directions(std::size_t slice) const {
-    std::vector<half_difference> seen;
-    for (const std::size_t cell : cells_of(slice)) seen.push_back(cells_.angles(cell));
-    return seen;
-  }
+  [[nodiscard]] std::vector<half_difference> directions(std::size_t slice) const;
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const {
-    if (step[0] != 0 || step[2] != 0) return {};
-    const auto slice = static_cast<std::ptrdiff_t>(from) + step[1];
-    if (slice < 0 || slice >= std::ssize(*this)) return {};
-    const auto to = static_cast<std::size_t>(slice);
-    if (!allows(to)) return {};
-    return to;
-  }
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
 
   /// The valid cells of a slice.
-  [[nodiscard]] std::vector<std::size_t> cells_of(std::size_t slice) const {
-    std::vector<std::size_t> found;
-    const auto layers = static_cast<std::size_t>(cells_.grid().extents().theta_h);
-    for (std::size_t theta_h = 0; theta_h < layers; ++theta_h) {
-      const std::size_t row = theta_h * size() + slice;
-      for (std::size_t cell = cells_.row_begin(row); cell < cells_.row_begin(row + 1); ++cell) found.push_back(cell);
-    }
-    return found;
-  }
+  [[nodiscard]] std::vector<std::size_t> cells_of(std::size_t slice) const;
 
  private:
   valid_cells cells_;
@@ -58,3 +39,7 @@ class sphere_geometry {
 static_assert(capture_geometry<sphere_geometry>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/sphere_geometry.ipp>
+#endif

@@ -31,17 +31,7 @@ struct located_samples {
   [[nodiscard]] channel_values channels() const { return values.transpose().array().cast<float>(); }
 
   /// Some of the samples, by their positions.
-  [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const {
-    const auto count = std::ssize(positions);
-    located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
-      some.at[i] = at[positions[i]];
-      some.values.row(to) = values.row(from);
-      some.weights[to] = weights[from];
-    }
-    return some;
-  }
+  [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const;
 };
 
 /// Samples on given cells. Those of weight zero are left out: whatever looks at all samples, as outlier weights do,
@@ -78,25 +68,8 @@ template <sample_range Samples>
 }
 
 /// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
-[[nodiscard]] inline located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
-                                                    thread_count threads = {}) {
-  const bool own = table.cells() == cells;
-  const auto count = static_cast<Eigen::Index>(table.cells().size());
-  located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
-                        Eigen::VectorXd::Ones(count)};
-  for_each_block(
-      found.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          if (!table.at(cell).isFinite().all())
-            throw error("cell " + std::to_string(cell) + " of a table is not finite");
-          found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
-          found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
-        }
-      },
-      threads);
-  return found;
-}
+[[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
+                                             thread_count threads = {});
 
 /// Reflectances at given places under a metric: 3 x n.
 template <error_metric Metric>
@@ -147,3 +120,7 @@ template <tabulated_brdf Fit>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/located_samples.ipp>
+#endif

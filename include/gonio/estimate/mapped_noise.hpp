@@ -23,19 +23,7 @@ struct mapped_noise {
 namespace detail {
 
 /// The middles of `count` equally likely parts of the standard normal distribution, by bisection.
-[[nodiscard]] inline std::vector<double> normal_quantiles(int count) {
-  std::vector<double> quantiles;
-  for (int i = 0; i < count; ++i) {
-    const double share = (i + 0.5) / count;
-    double low = -10.0, high = 10.0;
-    for (int halving = 0; halving < 60; ++halving) {
-      const double middle = (low + high) / 2.0;
-      (0.5 * std::erfc(-middle / std::sqrt(2.0)) < share ? low : high) = middle;
-    }
-    quantiles.push_back((low + high) / 2.0);
-  }
-  return quantiles;
-}
+[[nodiscard]] std::vector<double> normal_quantiles(int count);
 
 }  // namespace detail
 
@@ -75,3 +63,7 @@ template <basis Basis>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/mapped_noise.ipp>
+#endif

@@ -110,25 +110,8 @@ struct outlier_mixture {
 
 /// Estimates a mixture from residuals and the densities of outliers at their measurements, by expectation-maximisation
 /// from `start`. O(n) for each of at most 50 steps.
-[[nodiscard]] inline outlier_mixture estimate_mixture(const std::vector<double>& residuals,
-                                                      const std::vector<double>& outliers, outlier_mixture start = {}) {
-  constexpr double nu = outlier_mixture::degrees_of_freedom;
-  const Eigen::ArrayXd all = Eigen::ArrayXd::Map(residuals.data(), std::ssize(residuals));
-  const Eigen::ArrayXd densities = Eigen::ArrayXd::Map(outliers.data(), std::ssize(outliers));
-  outlier_mixture now = start;
-  for (int step = 0; step < 50; ++step) {
-    const Eigen::ArrayXd shares = now.probability(all, densities);
-    const double good = shares.sum();
-    const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
-    const outlier_mixture next{std::clamp(good / static_cast<double>(all.size()), 0.02, 0.999),
-                               std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
-    const bool settled =
-        std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
-    now = next;
-    if (settled) break;
-  }
-  return now;
-}
+[[nodiscard]] outlier_mixture estimate_mixture(const std::vector<double>& residuals,
+                                               const std::vector<double>& outliers, outlier_mixture start = {});
 
 /// What is added to reflectance before its logarithm is taken, in sr^-1: a hundredth of the median measurement of a
 /// channel, so that the darkest measurements, which are mostly noise, do not decide; at least 0.0001.
@@ -147,39 +130,13 @@ struct automatic_weights {
   /// weighed): a fit that is good elsewhere must not make outliers of a highlight that it misses.
   std::shared_ptr<const sample_regions> regions = {};
 
-  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
-    const deviations found = deviate(measured, estimated);
-    const outlier_density density(subset(found.logarithm));
-    const outlier_mixture mixture = estimate_from(found, density);
-    const Eigen::ArrayXd residuals = found.residual.cast<double>();
-    const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
-    Eigen::ArrayXd weights(residuals.size());
-    if (regions) {
-      const double typical = half_of_the_good(found.residual, regions->all(), mixture.good_share);
-      for (std::size_t region = 0; region < regions->count(); ++region) {
-        const std::span<const std::size_t> here = (*regions)[region];
-        const double ratio = half_of_the_good(found.residual, here, mixture.good_share) / typical;
-        weights(here) =
-            weigh(rescaled(mixture, ratio), Eigen::ArrayXd(residuals(here)), Eigen::ArrayXd(outliers(here)));
-      }
-    } else {
-      weights = weigh(mixture, residuals, outliers);
-    }
-    return weights.cast<float>().transpose().replicate<3, 1>();
-  }
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
 
   /// The share of good samples and the scale of their residuals.
-  [[nodiscard]] outlier_mixture mixture(const channel_values& measured, const channel_values& estimated) const {
-    const deviations found = deviate(measured, estimated);
-    return estimate_from(found, outlier_density(subset(found.logarithm)));
-  }
+  [[nodiscard]] outlier_mixture mixture(const channel_values& measured, const channel_values& estimated) const;
 
   /// `logarithm_offset` of each channel.
-  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured) {
-    return {static_cast<float>(logarithm_offset(measured.row(0))),
-            static_cast<float>(logarithm_offset(measured.row(1))),
-            static_cast<float>(logarithm_offset(measured.row(2)))};
-  }
+  [[nodiscard]] static Eigen::Array3f offsets(const channel_values& measured);
 
  private:
   struct deviations {
@@ -187,51 +144,28 @@ struct automatic_weights {
     Eigen::ArrayXf logarithm;  // mean of the channels' logarithms
   };
 
-  [[nodiscard]] static deviations deviate(const channel_values& measured, const channel_values& estimated) {
-    const Eigen::Array3f offset = offsets(measured);
-    const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
-    const channel_values differences = logarithms - (estimated.colwise() + offset).log();
-    return {differences.square().colwise().mean().sqrt().transpose(), logarithms.colwise().mean().transpose()};
-  }
+  [[nodiscard]] static deviations deviate(const channel_values& measured, const channel_values& estimated);
 
   [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const Eigen::ArrayXd& residuals,
-                                     const Eigen::ArrayXd& outliers) const {
-    const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
-    return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(residuals)) : good;
-  }
+                                     const Eigen::ArrayXd& outliers) const;
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
   [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const std::size_t> samples,
-                                               double good_share) {
-    std::vector<float> sorted;
-    for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
-    const auto middle =
-        sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * good_share * static_cast<double>(sorted.size()));
-    std::ranges::nth_element(sorted, middle);
-    return std::max(double{*middle}, 1e-6);
-  }
+                                               double good_share);
 
   /// As many samples are good, and their scale is another one; above 1 it would tell nothing.
-  [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio) {
-    return {mixture.good_share,
-            std::clamp(ratio * mixture.scale, outlier_mixture::smallest_scale, std::max(mixture.scale, 1.0))};
-  }
+  [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio);
 
   /// Every so many values, at most 20,000: enough to know two parameters and a density to a percent.
-  [[nodiscard]] static std::vector<double> subset(const Eigen::ArrayXf& values) {
-    const Eigen::Index step = (values.size() + 19'999) / 20'000;
-    std::vector<double> chosen;
-    for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
-    return chosen;
-  }
+  [[nodiscard]] static std::vector<double> subset(const Eigen::ArrayXf& values);
 
-  [[nodiscard]] static outlier_mixture estimate_from(const deviations& found, const outlier_density& density) {
-    std::vector<double> outliers = subset(found.logarithm);
-    for (double& value : outliers) value = density(value);
-    return estimate_mixture(subset(found.residual), outliers);
-  }
+  [[nodiscard]] static outlier_mixture estimate_from(const deviations& found, const outlier_density& density);
 };
 
 static_assert(outlier_weighting<automatic_weights>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/outlier_mixture.ipp>
+#endif

@@ -46,12 +46,7 @@ static_assert(outlier_weighting<trust_all>);
 struct relative_deviation_weights {
   double gamma = 3.0;
 
-  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
-    const channel_values estimate = estimated.max(1e-6f);
-    const channel_values weights = (-static_cast<float>(gamma) * (measured - estimate).abs() / estimate).exp();
-    // Far out Eigen's vectorised exponential ends at the smallest normal number, not at zero.
-    return (weights - std::numeric_limits<float>::min()).max(0.0f);
-  }
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
 };
 
 static_assert(outlier_weighting<relative_deviation_weights>);
@@ -78,19 +73,13 @@ struct tukey_weights {
   /// Added to measurement and estimate before the logarithm, in sr^-1.
   float offset = 1e-3f;
 
-  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const {
-    const channel_values deviation = ((measured.max(0.0f) + offset).log() - (estimated + offset).log()).abs();
-    channel_values weights(3, measured.cols());
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      // Rounding is no deviation.
-      const float limit =
-          static_cast<float>(cutoff) * std::max(1.4826f * detail::upper_median(deviation.row(c)), 1e-6f);
-      weights.row(c) = (1.0f - (deviation.row(c) / limit).square()).max(0.0f).square();
-    }
-    return weights;
-  }
+  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
 };
 
 static_assert(outlier_weighting<tukey_weights>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/outlier_weights.ipp>
+#endif

@@ -18,19 +18,7 @@ class sample_regions {
   static constexpr std::size_t fewest_samples = 8;
 
   /// O(n log n).
-  explicit sample_regions(const std::vector<location>& places)
-      : order_(places.size()), strips_(at_most(6, places.size())), parts_(at_most(4, places.size() / strips_)) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    const auto sort_by = [&](double half_difference::*angle, std::span<std::size_t> some) {
-      std::ranges::sort(some, [&](std::size_t one, std::size_t other) {
-        const double first = places[one].angles.*angle, second = places[other].angles.*angle;
-        return first != second ? first < second : one < other;
-      });
-    };
-    sort_by(&half_difference::theta_h, order_);
-    for (std::size_t strip = 0; strip < strips_; ++strip)
-      sort_by(&half_difference::theta_d, part_of<std::size_t>(order_, strip, strips_));
-  }
+  explicit sample_regions(const std::vector<location>& places);
 
   [[nodiscard]] std::size_t count() const noexcept { return strips_ * parts_; }
 
@@ -59,3 +47,7 @@ class sample_regions {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/sample_regions.ipp>
+#endif

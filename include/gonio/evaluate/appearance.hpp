@@ -35,10 +35,7 @@ class appearance_judge {
   [[nodiscard]] const sphere_operator& environment() const noexcept { return environment_.sphere(); }
 
   /// What an observer sees of a table. Throws gonio::error if it is over other cells.
-  [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const {
-    constexpr double exposure = 1.0;
-    return {lights_.look(table, exposure, threads), environment_.look(table, exposure, threads)};
-  }
+  [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;
 
   /// Mean difference of two appearances of the same judge: keep a truth's to compare many estimates with it.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
@@ -56,3 +53,7 @@ class appearance_judge {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/appearance.ipp>
+#endif

@@ -10,12 +10,7 @@
 namespace gonio {
 
 /// The ten materials that Nielsen et al. 2015 leave out of the prior (their Figure 2).
-[[nodiscard]] inline const std::vector<std::string>& nielsen_test_materials() {
-  static const std::vector<std::string> names{
-      "black-soft-plastic", "blue-acrylic",          "blue-metallic-paint2",     "green-fabric",     "light-red-paint",
-      "pink-jasper",        "silver-metallic-paint", "specular-violet-phenolic", "two-layer-silver", "white-fabric"};
-  return names;
-}
+[[nodiscard]] const std::vector<std::string>& nielsen_test_materials();
 
 /// How one material came out.
 struct material_result {
@@ -32,3 +27,7 @@ template <class Measure>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/material_result.ipp>
+#endif

@@ -17,12 +17,7 @@ namespace gonio {
 namespace detail {
 
 /// d L* / d Y of a grey of luminance Y on a display, whose white is 1 and which shows nothing beyond it.
-[[nodiscard]] inline double lightness_slope(double luminance) noexcept {
-  constexpr double knee = 6.0 / 29.0;
-  if (luminance >= 1.0) return 0.0;
-  if (luminance <= knee * knee * knee) return 116.0 / (3.0 * knee * knee);
-  return 116.0 / (3.0 * std::cbrt(luminance * luminance));
-}
+[[nodiscard]] double lightness_slope(double luminance) noexcept;
 
 /// How the lightness of one point of a sphere changes with the weights, for each observation of a basis: m x k.
 template <error_metric Metric>
@@ -99,3 +94,7 @@ template <error_metric Metric>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/perceived_norm.ipp>
+#endif

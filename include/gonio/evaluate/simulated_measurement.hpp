@@ -33,16 +33,8 @@ template <class Generator>
 
 /// The table's values, interpolated, where light and viewer are each off their directions by an angle in radians, as
 /// samples of the directions that were meant.
-[[nodiscard]] inline sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
-                                                  double angle, std::uint64_t seed = 0) {
-  std::mt19937_64 generator(seed);
-  sample_set samples;
-  for (const auto& [wi, wo] : pairs) {
-    const direction light = misplaced(wi, angle, generator), viewer = misplaced(wo, angle, generator);
-    samples.push_back({to_half_difference(wi, wo), table(light, viewer), 1.0});
-  }
-  return samples;
-}
+[[nodiscard]] sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs, double angle,
+                                           std::uint64_t seed = 0);
 
 /// How many of `all` a share of them, between 0 and 1, is: at least one.
 [[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
@@ -50,45 +42,15 @@ template <class Generator>
 }
 
 /// `count` different ones of the numbers 0 ... all - 1 at random, in increasing order; `count` is at most `all`.
-[[nodiscard]] inline std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<std::size_t> chosen(all);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  // The first steps of a Fisher-Yates shuffle.
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
-    std::swap(chosen[i], chosen[rest(generator)]);
-  }
-  chosen.resize(count);
-  std::ranges::sort(chosen);
-  return chosen;
-}
+[[nodiscard]] std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed);
 
 /// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
 /// between 1 and the number of cells.
-[[nodiscard]] inline std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count,
-                                                           std::uint64_t seed) {
-  if (count == 0 || count > cells.size())
-    throw error("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
-  return random_choice(cells.size(), count, seed);
-}
+[[nodiscard]] std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed);
 
 /// The cells nearest to directions, the same cell twice if two directions share it. Throws gonio::error
 /// naming a direction that falls on no valid cell.
-[[nodiscard]] inline std::vector<std::size_t> cells_at(const valid_cells& cells,
-                                                       std::span<const half_difference> directions) {
-  std::vector<std::size_t> chosen;
-  for (const half_difference& angles : directions) {
-    const std::size_t linear = cells.grid().linear(cells.grid().nearest(angles));
-    if (!cells.contains(linear))
-      throw error("direction " + std::to_string(chosen.size() + 1) + " (theta_h " +
-                  std::to_string(degrees(angles.theta_h)) + ", theta_d " + std::to_string(degrees(angles.theta_d)) +
-                  ", phi_d " + std::to_string(degrees(angles.phi_d)) +
-                  " degrees) is below the horizon or not in the table");
-    chosen.push_back(cells.representative(linear));
-  }
-  return chosen;
-}
+[[nodiscard]] std::vector<std::size_t> cells_at(const valid_cells& cells, std::span<const half_difference> directions);
 
 /// Gives samples defects, which come from the seed alone: `any_value(generator)` is what an outlier's value becomes.
 /// Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
@@ -120,15 +82,8 @@ template <class AnyValue>
 
 /// The table's values at cells, at the cells' own angles, with defects: an outlier has the value of a random cell.
 /// Throws as `spoil` does.
-[[nodiscard]] inline sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
-                                        const measurement_defects& defects = {}, std::uint64_t seed = 0) {
-  sample_set samples;
-  samples.reserve(cells.size());
-  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
-  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
-  return spoil(std::move(samples), defects, seed,
-               [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
-}
+[[nodiscard]] sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
+                                 const measurement_defects& defects = {}, std::uint64_t seed = 0);
 
 /// Measurements parted in two.
 struct parted_samples {
@@ -137,14 +92,10 @@ struct parted_samples {
 
 /// `count` of the samples, at random, and the others, both in their order. Throws gonio::error if there are not as
 /// many.
-[[nodiscard]] inline parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed) {
-  if (count > samples.size())
-    throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
-  std::vector<bool> chosen(samples.size());
-  for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
-  parted_samples parts;
-  for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
-  return parts;
-}
+[[nodiscard]] parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/simulated_measurement.ipp>
+#endif

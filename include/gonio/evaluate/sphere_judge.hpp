@@ -56,31 +56,16 @@ class sphere_judge {
 
   /// What an observer sees of a truth, at its own exposure. A black sphere, which no exposure brightens, is seen at
   /// exposure 1. Throws gonio::error if the table is over other cells.
-  [[nodiscard]] sphere_appearance expose(const brdf_table& truth, thread_count threads = {}) const {
-    const sphere_colours colours = visible_colours(truth, threads);
-    double sum = 0.0;
-    for (Eigen::Index point = 0; point < colours.rows(); ++point) sum += luminance(colours.row(point).transpose());
-    const double mean = sum / static_cast<double>(colours.rows());
-    return seen_at(mean > 0.0 ? mean_luminance_ / mean : 1.0, colours);
-  }
+  [[nodiscard]] sphere_appearance expose(const brdf_table& truth, thread_count threads = {}) const;
 
   /// What an observer sees of a table at a given exposure. Throws gonio::error if the table is over other cells.
-  [[nodiscard]] sphere_appearance look(const brdf_table& table, double exposure, thread_count threads = {}) const {
-    GONIO_ASSERT(exposure > 0.0);
-    return seen_at(exposure, visible_colours(table, threads));
-  }
+  [[nodiscard]] sphere_appearance look(const brdf_table& table, double exposure, thread_count threads = {}) const;
 
   /// Delta E*ab (CIE 1976) at each of the sphere's points between two appearances of the same judge.
-  [[nodiscard]] static Eigen::ArrayXd differences(const sphere_appearance& a, const sphere_appearance& b) {
-    GONIO_ASSERT(a.lab.rows() == b.lab.rows());
-    return (a.lab - b.lab).matrix().rowwise().norm();
-  }
+  [[nodiscard]] static Eigen::ArrayXd differences(const sphere_appearance& a, const sphere_appearance& b);
 
   /// Mean Delta E*ab over the sphere's points.
-  [[nodiscard]] static double difference(const sphere_appearance& a, const sphere_appearance& b) {
-    GONIO_ASSERT(a.lab.rows() == b.lab.rows());
-    return (a.lab - b.lab).matrix().rowwise().norm().mean();
-  }
+  [[nodiscard]] static double difference(const sphere_appearance& a, const sphere_appearance& b);
 
   /// Mean Delta E*ab of an estimate, seen at the truth's exposure: keep a truth's appearance to compare many estimates
   /// with it.
@@ -96,40 +81,21 @@ class sphere_judge {
 
   /// The picture of differences of the paper's Fig. 3: each point in the false colour of its Delta E*ab.
   [[nodiscard]] image difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                       const false_colour_range& range = {},
-                                       const rgb& background = rgb::Zero()) const {
-    const Eigen::ArrayXd values = differences(a, b);
-    sphere_colours colours(values.size(), 3);
-    for (Eigen::Index point = 0; point < values.size(); ++point)
-      colours.row(point) = false_colour(values[point], range).transpose();
-    return sphere_.to_image(colours, background);
-  }
+                                       const false_colour_range& range = {}, const rgb& background = rgb::Zero()) const;
 
  private:
-  [[nodiscard]] static double checked(double mean_luminance) {
-    if (!(mean_luminance > 0.0 && std::isfinite(mean_luminance)))
-      throw error("a sphere cannot be exposed to a mean luminance of " + std::to_string(mean_luminance) +
-                  ", expected a positive number");
-    return mean_luminance;
-  }
+  [[nodiscard]] static double checked(double mean_luminance);
 
-  [[nodiscard]] sphere_colours visible_colours(const brdf_table& table, thread_count threads) const {
-    const auto negative = [](float value) { return value < 0.0f; };
-    if (std::ranges::none_of(table.values(), negative)) return sphere_.apply(table, threads);
-    brdf_table clamped = table;
-    std::ranges::replace_if(clamped.values(), negative, 0.0f);
-    return sphere_.apply(clamped, threads);
-  }
+  [[nodiscard]] sphere_colours visible_colours(const brdf_table& table, thread_count threads) const;
 
-  [[nodiscard]] static sphere_appearance seen_at(double exposure, const sphere_colours& colours) {
-    sphere_appearance seen{sphere_colours(colours.rows(), 3), exposure};
-    for (Eigen::Index point = 0; point < colours.rows(); ++point)
-      seen.lab.row(point) = to_lab(exposure * colours.row(point).transpose()).transpose();
-    return seen;
-  }
+  [[nodiscard]] static sphere_appearance seen_at(double exposure, const sphere_colours& colours);
 
   double mean_luminance_;
   sphere_operator sphere_;
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/sphere_judge.ipp>
+#endif

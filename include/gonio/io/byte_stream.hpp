@@ -32,10 +32,7 @@ class byte_writer {
   }
 
   /// A length of 32 bits and the characters.
-  void put_text(const std::string& text) {
-    put(static_cast<std::uint32_t>(text.size()));
-    put_all(std::span<const char>(text));
-  }
+  void put_text(const std::string& text);
 
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
 
@@ -67,25 +64,21 @@ class byte_reader {
     return values;
   }
 
-  [[nodiscard]] std::string take_text() {
-    const auto characters = take_all<char>(take<std::uint32_t>());
-    return {characters.begin(), characters.end()};
-  }
+  [[nodiscard]] std::string take_text();
 
-  [[nodiscard]] std::span<const std::byte> take_bytes(std::size_t count) {
-    if (count > bytes_.size()) fail();
-    const auto taken = bytes_.first(count);
-    bytes_ = bytes_.subspan(count);
-    return taken;
-  }
+  [[nodiscard]] std::span<const std::byte> take_bytes(std::size_t count);
 
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
 
  private:
-  [[noreturn]] void fail() const { throw error(name_ + ": the file is truncated or its counts are wrong"); }
+  [[noreturn]] void fail() const;
 
   std::span<const std::byte> bytes_;
   std::string name_;
 };
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/byte_stream.ipp>
+#endif

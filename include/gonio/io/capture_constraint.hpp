@@ -22,50 +22,20 @@ namespace gonio::io {
 namespace detail {
 
 /// A range of polar angles from two numbers in degrees.
-[[nodiscard]] inline polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
-  const double smallest = rule.numbers[first], largest = rule.numbers[first + 1];
-  if (!(smallest >= 0.0 && smallest <= largest && largest <= 90.0))
-    place.refuse("a range of polar angles is two numbers from 0 to 90, the smaller one first");
-  return {radians(smallest), radians(largest)};
-}
+[[nodiscard]] polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place);
 
-inline void apply_rule(const text_rule& rule, capture_constraint& constraint, const text_place& place) {
-  if (rule.name == "light" || rule.name == "viewer") {
-    require_numbers(rule, {2}, place);
-    (rule.name == "light" ? constraint.light : constraint.viewer) = parse_polar_range(rule, 0, place);
-  } else if (rule.name == "separation") {
-    require_numbers(rule, {1}, place);
-    if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0)) place.refuse("a separation is from 0 to 180 degrees");
-    constraint.smallest_separation = radians(rule.numbers[0]);
-  } else if (rule.name == "light_step") {
-    require_numbers(rule, {1, 2}, place);
-    if (!(rule.numbers[0] > 0.0)) place.refuse("a step between lights must be positive");
-    constraint.light_step = radians(rule.numbers[0]);
-    if (rule.numbers.size() == 2) constraint.light_tolerance = radians(rule.numbers[1]);
-  } else if (rule.name == "forbid") {
-    require_numbers(rule, {4}, place);
-    constraint.forbidden.push_back({parse_polar_range(rule, 0, place), parse_polar_range(rule, 2, place)});
-  } else {
-    place.refuse(quoted(rule.name) + " is no rule: expected light, viewer, separation, light_step or forbid");
-  }
-}
+void apply_rule(const text_rule& rule, capture_constraint& constraint, const text_place& place);
 
 }  // namespace detail
 
 /// Throws gonio::error naming the line that is no rule; `name` is what errors call the text.
-[[nodiscard]] inline capture_constraint parse_capture_constraint(std::string_view text, const std::string& name) {
-  capture_constraint constraint;
-  detail::text_place place{name};
-  detail::for_each_line(text, place, [&](std::string_view line) {
-    detail::apply_rule(detail::parse_rule(line, place), constraint, place);
-  });
-  return constraint;
-}
+[[nodiscard]] capture_constraint parse_capture_constraint(std::string_view text, const std::string& name);
 
 /// Reads a file of rules. Throws gonio::error naming the file and the line.
-[[nodiscard]] inline capture_constraint read_capture_constraint(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  return parse_capture_constraint(detail::as_text(bytes), path.string());
-}
+[[nodiscard]] capture_constraint read_capture_constraint(const std::filesystem::path& path);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/capture_constraint.ipp>
+#endif

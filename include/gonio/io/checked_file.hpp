@@ -30,52 +30,23 @@ namespace detail {
 /// More than any plausible payload, so that a corrupt size is refused before memory is asked for.
 inline constexpr std::uint64_t payload_size_limit = std::uint64_t{4} << 30;
 
-[[nodiscard]] inline std::uint32_t checksum(std::span<const std::byte> bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
-}
+[[nodiscard]] std::uint32_t checksum(std::span<const std::byte> bytes);
 
 }  // namespace detail
 
 /// A payload as the bytes of a file.
-[[nodiscard]] inline std::vector<std::byte> encode_checked(const checked_file_kind& kind,
-                                                           std::span<const std::byte> payload) {
-  byte_writer file;
-  file.put_all(std::span<const char>(kind.magic));
-  file.put(kind.version);
-  file.put(std::uint64_t{payload.size()});
-  file.put(detail::checksum(payload));
-  file.put_all(std::span<const std::byte>(compress_bytes(payload)));
-  return {file.bytes().begin(), file.bytes().end()};
-}
+[[nodiscard]] std::vector<std::byte> encode_checked(const checked_file_kind& kind, std::span<const std::byte> payload);
 
 /// The payload in the bytes of a file. Throws gonio::error starting with `name` where they are not of the kind, of
 /// another version, damaged (checksum), truncated or over-long.
-[[nodiscard]] inline std::vector<std::byte> decode_checked(const checked_file_kind& kind,
-                                                           std::span<const std::byte> bytes, const std::string& name) {
-  const std::string noun(kind.noun);
-  byte_reader file(bytes, name);
-  const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
-  if (!std::ranges::equal(magic, std::as_bytes(std::span(kind.magic))))
-    throw error(name + ": not a gonio " + noun + " (it does not start with '" + std::string(kind.magic) + "')");
-  const auto version = file.take<std::uint32_t>();
-  if (version != kind.version)
-    throw error(name + ": " + noun + " format version " + std::to_string(version) + ", this program reads version " +
-                std::to_string(kind.version));
-  const auto size = file.take<std::uint64_t>();
-  if (size > detail::payload_size_limit)
-    throw error(name + ": a " + noun + " of " + std::to_string(size) + " bytes is not believable");
-  const auto expected = file.take<std::uint32_t>();
-  std::vector<std::byte> payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
-  if (detail::checksum(payload) != expected) throw error(name + ": the checksum does not match, the file is damaged");
-  return payload;
-}
+[[nodiscard]] std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
+                                                    const std::string& name);
 
 /// Does the file start as this kind does?
-[[nodiscard]] inline bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string start(kind.magic.size(), '\0');
-  return file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == kind.magic;
-}
+[[nodiscard]] bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/checked_file.ipp>
+#endif

@@ -31,58 +31,29 @@ enum class deflate_format : int { zlib = MAX_WBITS, gzip = MAX_WBITS + 16 };
 /// Expands one deflated stream after another out of a buffer.
 class inflater {
  public:
-  inflater(std::span<const std::byte> bytes, deflate_format format, std::string name)
-      : left_(bytes), name_(std::move(name)) {
-    if (inflateInit2(&stream_, static_cast<int>(format)) != Z_OK) throw std::bad_alloc();
-  }
+  inflater(std::span<const std::byte> bytes, deflate_format format, std::string name);
   inflater(const inflater&) = delete;
   inflater& operator=(const inflater&) = delete;
   ~inflater() { inflateEnd(&stream_); }
 
   /// Fills `out` unless the stream ends before; returns how many bytes there are.
-  [[nodiscard]] std::size_t read(std::span<std::byte> out) {
-    std::size_t size = 0;
-    while (size < out.size() && !ended_) {
-      const uInt offered = at_most_a_gigabyte(left_.size());
-      const uInt room = at_most_a_gigabyte(out.size() - size);
-      // zlib's interface predates const; it does not write to its input.
-      stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(left_.data()));
-      stream_.avail_in = offered;
-      stream_.next_out = reinterpret_cast<Bytef*>(out.data() + size);
-      stream_.avail_out = room;
-      const int status = inflate(&stream_, Z_NO_FLUSH);
-      left_ = left_.subspan(offered - stream_.avail_in);
-      size += room - stream_.avail_out;
-      if (status == Z_STREAM_END)
-        ended_ = true;
-      else if (status != Z_OK)
-        fail(status);
-    }
-    return size;
-  }
+  [[nodiscard]] std::size_t read(std::span<std::byte> out);
 
   /// Has the stream, checksum included, ended?
   [[nodiscard]] bool ended() const noexcept { return ended_; }
   [[nodiscard]] std::span<const std::byte> left() const noexcept { return left_; }
 
   /// Turns to the stream that follows.
-  void restart() {
-    inflateReset(&stream_);
-    ended_ = false;
-  }
+  void restart();
 
-  [[noreturn]] void refuse(const std::string& what) const { throw error(name_ + ": " + what); }
+  [[noreturn]] void refuse(const std::string& what) const;
 
  private:
   [[nodiscard]] static uInt at_most_a_gigabyte(std::size_t size) noexcept {
     return static_cast<uInt>(std::min<std::size_t>(size, 1u << 30));
   }
 
-  [[noreturn]] void fail(int status) const {
-    if (status == Z_MEM_ERROR) throw std::bad_alloc();
-    if (status == Z_BUF_ERROR) refuse("the compressed data is truncated");
-    refuse(std::string("the compressed data is corrupt (") + (stream_.msg ? stream_.msg : zError(status)) + ")");
-  }
+  [[noreturn]] void fail(int status) const;
 
   z_stream stream_{};
   std::span<const std::byte> left_;
@@ -92,20 +63,10 @@ class inflater {
 
 /// Expands the current stream into `result` from `size` on until it ends or `limit` bytes are full; returns
 /// their number. The buffer grows with what really comes.
-[[nodiscard]] inline std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size,
-                                        std::size_t limit) {
-  while (true) {
-    size += stream.read(std::span(result).subspan(size));
-    if (stream.ended() || result.size() == limit) return size;
-    result.resize(std::min(std::max<std::size_t>(2 * result.size(), 4096), limit));
-  }
-}
+[[nodiscard]] std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size, std::size_t limit);
 
 /// A first size for the buffer: what is claimed, as long as the compression is an ordinary one.
-[[nodiscard]] inline std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed) {
-  constexpr std::size_t ordinary = 64;
-  return std::vector<std::byte>(std::min(claimed, ordinary * compressed));
-}
+[[nodiscard]] std::vector<std::byte> first_buffer(std::size_t claimed, std::size_t compressed);
 
 }  // namespace detail
 
@@ -115,67 +76,22 @@ class inflater {
 }
 
 /// Expands a gzip file of any number of members to at most `maximum_size` bytes.
-[[nodiscard]] inline std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
-                                                   const std::string& name) {
-  detail::inflater stream(bytes, detail::deflate_format::gzip, name);
-  if (!is_gzip(bytes)) stream.refuse("is not gzip data");
-  // One byte more than allowed shows that there is more, and lets an exact fit reach its checksum.
-  const std::size_t limit = std::min(maximum_size, std::numeric_limits<std::size_t>::max() - 1) + 1;
-  // A file of one member ends with its size, modulo 2^32.
-  std::uint32_t claimed = 0;
-  if (bytes.size() >= sizeof claimed) std::memcpy(&claimed, bytes.last(sizeof claimed).data(), sizeof claimed);
-  std::vector<std::byte> result = detail::first_buffer(std::min(std::size_t{claimed} + 1, limit), bytes.size());
-  std::size_t size = 0;
-  while (true) {
-    size = detail::expand(stream, result, size, limit);
-    if (size > maximum_size)
-      stream.refuse("expands to more than the expected " + std::to_string(maximum_size) + " bytes");
-    if (stream.left().empty()) break;
-    if (!is_gzip(stream.left()))
-      stream.refuse(std::to_string(stream.left().size()) + " bytes follow the compressed data");
-    stream.restart();
-  }
-  result.resize(size);
-  return result;
-}
+[[nodiscard]] std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
+                                            const std::string& name);
 
 /// The first `count` bytes, or fewer if there are fewer, of what a gzip file's first member expands to.
-[[nodiscard]] inline std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
-                                                          const std::string& name) {
-  detail::inflater stream(bytes, detail::deflate_format::gzip, name);
-  if (!is_gzip(bytes)) stream.refuse("is not gzip data");
-  std::vector<std::byte> result(count);
-  result.resize(stream.read(result));
-  return result;
-}
+[[nodiscard]] std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
+                                                   const std::string& name);
 
 /// Deflates to a zlib stream; level 1 is fast, 9 is small.
-[[nodiscard]] inline std::vector<std::byte> compress_bytes(std::span<const std::byte> bytes, int level = 9) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::vector<std::byte> result(size);
-  const int status = compress2(reinterpret_cast<Bytef*>(result.data()), &size,
-                               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), level);
-  if (status != Z_OK) throw std::bad_alloc();
-  result.resize(size);
-  return result;
-}
+[[nodiscard]] std::vector<std::byte> compress_bytes(std::span<const std::byte> bytes, int level = 9);
 
 /// Expands a zlib stream that must hold exactly `expected_size` bytes and nothing after it.
-[[nodiscard]] inline std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes,
-                                                             std::size_t expected_size, const std::string& name) {
-  detail::inflater stream(bytes, detail::deflate_format::zlib, name);
-  const std::string expected = "the expected " + std::to_string(expected_size) + " bytes";
-  if (expected_size / detail::deflate_limit > bytes.size())
-    stream.refuse("the compressed data is truncated: its " + std::to_string(bytes.size()) + " bytes cannot hold " +
-                  expected);
-  std::vector<std::byte> result = detail::first_buffer(expected_size, bytes.size());
-  const std::size_t size = detail::expand(stream, result, 0, expected_size);
-  if (size < expected_size) stream.refuse("expands to " + std::to_string(size) + " bytes, not to " + expected);
-  // The stream ends only when its checksum has been read, which takes room for one more byte.
-  std::array<std::byte, 1> surplus{};
-  if (stream.read(surplus) != 0) stream.refuse("expands to more than " + expected);
-  if (!stream.left().empty()) stream.refuse(std::to_string(stream.left().size()) + " bytes follow the compressed data");
-  return result;
-}
+[[nodiscard]] std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes, std::size_t expected_size,
+                                                      const std::string& name);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/gzip.ipp>
+#endif

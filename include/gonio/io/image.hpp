@@ -37,27 +37,16 @@ struct stb_deleter {
 template <class T>
 using stb_pixels = std::unique_ptr<T[], stb_deleter>;
 
-inline void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
-  if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
-    throw error(name + ": a picture of " + std::to_string(columns) + " x " + std::to_string(rows) +
-                " pixels, expected from 1 to " + std::to_string(image_limit) + " each way");
-}
+void check_image_size(std::size_t rows, std::size_t columns, const std::string& name);
 
 /// stb counts bytes in int.
-[[nodiscard]] inline int stb_size(std::span<const std::byte> bytes, const std::string& name) {
-  if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw error(name + ": has " + std::to_string(bytes.size()) + " bytes, expected less than 2 GiB");
-  return static_cast<int>(bytes.size());
-}
+[[nodiscard]] int stb_size(std::span<const std::byte> bytes, const std::string& name);
 
 [[nodiscard]] inline const stbi_uc* stb_bytes(std::span<const std::byte> bytes) noexcept {
   return reinterpret_cast<const stbi_uc*>(bytes.data());
 }
 
-[[noreturn]] inline void refuse_by_stb(const std::string& name) {
-  const char* reason = stbi_failure_reason();
-  throw error(name + ": cannot be decoded (" + (reason ? reason : "no reason given") + ")");
-}
+[[noreturn]] void refuse_by_stb(const std::string& name);
 
 /// Linear light of a display value in [0, 1], the inverse of `encode_srgb`.
 [[nodiscard]] inline double decode_srgb(double encoded) noexcept {
@@ -75,73 +64,16 @@ struct png_header {
   bool interlaced = false;
 
   /// Bytes of the filtered rows before compression.
-  [[nodiscard]] std::size_t raw_size() const noexcept {
-    const auto size_of = [&](std::size_t across, std::size_t down) {
-      return across == 0 ? 0 : down * (1 + (across * channels * depth + 7) / 8);
-    };
-    if (!interlaced) return size_of(columns, rows);
-    struct pass {
-      std::size_t x, y, dx, dy;
-    };
-    constexpr std::array<pass, 7> adam7{
-        {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}}};
-    std::size_t sum = 0;
-    for (const auto& [x, y, dx, dy] : adam7)
-      sum += size_of(columns > x ? (columns - x + dx - 1) / dx : 0, rows > y ? (rows - y + dy - 1) / dy : 0);
-    return sum;
-  }
+  [[nodiscard]] std::size_t raw_size() const noexcept;
 };
 
-[[nodiscard]] inline std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept {
-  std::uint32_t value = 0;
-  for (const std::byte b : bytes.first(4)) value = value << 8 | std::to_integer<std::uint32_t>(b);
-  return value;
-}
+[[nodiscard]] std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept;
 
-[[nodiscard]] inline png_header parse_png_header(std::span<const std::byte> data, const std::string& name) {
-  if (data.size() != 13)
-    throw error(name + ": the PNG header has " + std::to_string(data.size()) + " bytes, expected 13");
-  // Channels of colour types 0 (grey), 2 (RGB), 3 (palette), 4 (grey and alpha), 6 (RGB and alpha).
-  constexpr std::array<std::size_t, 7> channels{1, 0, 3, 1, 2, 0, 4};
-  const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(data[i]); };
-  const std::size_t type = byte_at(9);
-  const png_header header{big_endian(data), big_endian(data.subspan(4)), byte_at(8),
-                          type < channels.size() ? channels[type] : 0, byte_at(12) == 1};
-  check_image_size(header.rows, header.columns, name);
-  constexpr std::array<std::size_t, 5> depths{1, 2, 4, 8, 16};
-  if (header.channels == 0 || std::ranges::find(depths, header.depth) == depths.end())
-    throw error(name + ": PNG colour type " + std::to_string(type) + " with " + std::to_string(header.depth) +
-                " bits is unknown");
-  return header;
-}
+[[nodiscard]] png_header parse_png_header(std::span<const std::byte> data, const std::string& name);
 
 /// Walks a PNG's chunks: throws gonio::error unless all are whole with right checksums, the last is IEND with
 /// nothing after it, and the pixels expand to exactly the size that the header promises.
-inline void check_png(std::span<const std::byte> bytes, const std::string& name) {
-  constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
-  if (!std::ranges::equal(bytes.first(std::min(signature.size(), bytes.size())), std::as_bytes(std::span(signature))))
-    throw error(name + ": is not a PNG file");
-  png_header header;
-  std::vector<std::byte> pixels;
-  std::string_view type;
-  for (std::span<const std::byte> left = bytes.subspan(signature.size()); type != "IEND";) {
-    const std::size_t length = left.size() < 12 ? 0 : big_endian(left);
-    if (left.size() < 12 || length > left.size() - 12) throw error(name + ": the PNG file is truncated");
-    const std::span<const std::byte> data = left.subspan(8, length);
-    const std::span<const std::byte> checked = left.subspan(4, 4 + length);
-    if (crc32_z(0, stb_bytes(checked), checked.size()) != big_endian(left.subspan(8 + length)))
-      throw error(name + ": the checksum of a PNG chunk is wrong, the file is damaged");
-    const bool first = type.empty();
-    type = {reinterpret_cast<const char*>(checked.data()), 4};
-    if (first != (type == "IHDR")) throw error(name + ": the PNG header is missing or appears twice");
-    if (first) header = parse_png_header(data, name);
-    if (type == "IDAT") pixels.insert(pixels.end(), data.begin(), data.end());
-    left = left.subspan(12 + length);
-    if (type == "IEND" && !left.empty())
-      throw error(name + ": " + std::to_string(left.size()) + " bytes follow the end of the PNG file");
-  }
-  static_cast<void>(decompress_bytes(pixels, header.raw_size(), name));
-}
+void check_png(std::span<const std::byte> bytes, const std::string& name);
 
 // ---- Radiance HDR: stb fills what is missing with zeros, or waits for it for ever -------------
 
@@ -152,27 +84,8 @@ struct byte_source {
   bool started = false;
   bool truncated = false;
 
-  static int read(void* user, char* out, int wanted) {
-    auto& source = *static_cast<byte_source*>(user);
-    // stb fills its buffer of 128 bytes; it asks for less only where it needs all of that.
-    constexpr int whole_buffer = 128;
-    constexpr int signature = 11;
-    const int count = wanted < whole_buffer ? wanted : source.started ? 1 : signature;
-    source.started = true;
-    for (int i = 0; i < count; ++i) {
-      out[i] = source.left.empty() ? '\xFF' : static_cast<char>(source.left.front());
-      if (source.left.empty())
-        source.truncated = true;
-      else
-        source.left = source.left.subspan(1);
-    }
-    return count;
-  }
-  static void skip(void* user, int count) {
-    auto& source = *static_cast<byte_source*>(user);
-    const std::size_t some = std::min(static_cast<std::size_t>(std::max(count, 0)), source.left.size());
-    source.left = source.left.subspan(some);
-  }
+  static int read(void* user, char* out, int wanted);
+  static void skip(void* user, int count);
   static int eof(void* user) { return static_cast<byte_source*>(user)->left.empty() ? 1 : 0; }
 };
 
@@ -184,17 +97,7 @@ struct byte_source {
 
 /// The colour that RGBE holds for this one: three mantissas of eight bits, rounded, below a common exponent.
 /// stb would cut them off instead.
-[[nodiscard]] inline std::array<float, 3> round_to_rgbe(const float* pixel) noexcept {
-  const float largest = std::max({pixel[0], pixel[1], pixel[2]});
-  if (!(largest > 1e-32f)) return {};
-  int exponent = 0;
-  static_cast<void>(std::frexp(largest, &exponent));
-  if (std::round(std::ldexp(largest, 8 - exponent)) > 255.0f) ++exponent;
-  std::array<float, 3> rounded{};
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    rounded[channel] = std::ldexp(std::round(std::ldexp(std::max(pixel[channel], 0.0f), 8 - exponent)), exponent - 8);
-  return rounded;
-}
+[[nodiscard]] std::array<float, 3> round_to_rgbe(const float* pixel) noexcept;
 
 // ---- writing --------------------------------------------------------------------------------
 
@@ -203,16 +106,7 @@ struct byte_sink {
   std::vector<std::byte> bytes;
   bool failed = false;
 
-  static void write(void* user, void* data, int size) noexcept {
-    auto& sink = *static_cast<byte_sink*>(user);
-    const std::span<const std::byte> more(static_cast<const std::byte*>(data),
-                                          static_cast<std::size_t>(std::max(size, 0)));
-    try {
-      sink.bytes.insert(sink.bytes.end(), more.begin(), more.end());
-    } catch (...) {
-      sink.failed = true;
-    }
-  }
+  static void write(void* user, void* data, int size) noexcept;
 };
 
 struct stb_extents {
@@ -221,39 +115,12 @@ struct stb_extents {
 };
 
 /// Checks a picture before it is written; `brightest` is the largest value that the format can hold.
-[[nodiscard]] inline stb_extents check_pixels(const image& picture, float brightest, const std::string& name) {
-  const std::size_t rows = picture.shape(0), columns = picture.shape(1);
-  if (picture.shape(2) != 3)
-    throw error(name + ": a picture of " + std::to_string(picture.shape(2)) + " channels, expected 3");
-  check_image_size(rows, columns, name);
-  const auto bad =
-      std::find_if(picture.data(), picture.data() + picture.size(), [&](float v) { return !(v <= brightest); });
-  if (const auto at = static_cast<std::size_t>(bad - picture.data()); at < picture.size())
-    throw error(name + ": pixel (row " + std::to_string(at / 3 / columns) + ", column " +
-                std::to_string(at / 3 % columns) + ") is " + std::to_string(*bad) + ", which the file cannot hold");
-  return {static_cast<int>(columns), static_cast<int>(rows)};
-}
+[[nodiscard]] stb_extents check_pixels(const image& picture, float brightest, const std::string& name);
 
 }  // namespace detail
 
 /// Reads a PNG of any kind: palettes are resolved, grey becomes RGB, 16 bits become 8, alpha is dropped.
-[[nodiscard]] inline image read_png(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  const std::string name = path.string();
-  detail::check_png(bytes, name);
-  int columns = 0, rows = 0, channels = 0;
-  const detail::stb_pixels<stbi_uc> pixels(
-      stbi_load_from_memory(detail::stb_bytes(bytes), detail::stb_size(bytes, name), &columns, &rows, &channels, 3));
-  if (!pixels) detail::refuse_by_stb(name);
-
-  std::array<float, 256> linear{};
-  for (std::size_t code = 0; code < linear.size(); ++code)
-    linear[code] = static_cast<float>(detail::decode_srgb(static_cast<double>(code) / 255.0));
-  image picture({static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), std::size_t{3}});
-  std::transform(pixels.get(), pixels.get() + picture.size(), picture.data(),
-                 [&](stbi_uc code) { return linear[code]; });
-  return picture;
-}
+[[nodiscard]] image read_png(const std::filesystem::path& path);
 
 /// What a PNG stores, before any meaning is given to it: the counts of a camera that writes such files.
 struct stored_codes {
@@ -267,83 +134,21 @@ struct stored_codes {
 };
 
 /// Reads the codes of a PNG of 8 or 16 bits as they are: grey becomes three equal channels, alpha is dropped.
-[[nodiscard]] inline stored_codes read_png_codes(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  const std::string name = path.string();
-  detail::check_png(bytes, name);
-  const stbi_uc* data = detail::stb_bytes(bytes);
-  const int size = detail::stb_size(bytes, name);
-  int columns = 0, rows = 0, channels = 0;
-  stored_codes codes;
-  const auto keep = [&](const auto& pixels) {
-    if (!pixels) detail::refuse_by_stb(name);
-    codes.rows = static_cast<std::size_t>(rows);
-    codes.columns = static_cast<std::size_t>(columns);
-    codes.values.assign(pixels.get(), pixels.get() + 3 * codes.rows * codes.columns);
-  };
-  if (stbi_is_16_bit_from_memory(data, size) != 0) {
-    codes.largest = 65535;
-    keep(detail::stb_pixels<stbi_us>(stbi_load_16_from_memory(data, size, &columns, &rows, &channels, 3)));
-  } else {
-    keep(detail::stb_pixels<stbi_uc>(stbi_load_from_memory(data, size, &columns, &rows, &channels, 3)));
-  }
-  return codes;
-}
+[[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
-inline void write_png(const std::filesystem::path& path, const image& picture) {
-  const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), path.string());
-  std::vector<stbi_uc> codes(picture.size());
-  std::transform(picture.data(), picture.data() + picture.size(), codes.begin(),
-                 [](float value) { return static_cast<stbi_uc>(std::lround(255.0 * encode_srgb(double{value}))); });
-  detail::byte_sink sink;
-  if (stbi_write_png_to_func(detail::byte_sink::write, &sink, columns, rows, 3, codes.data(), 3 * columns) == 0 ||
-      sink.failed)
-    throw error(path.string() + ": the picture cannot be encoded");
-  write_atomically(path, sink.bytes);
-}
+void write_png(const std::filesystem::path& path, const image& picture);
 
 /// Reads a Radiance HDR picture whose rows run from top to bottom, as nearly all do. EXPOSURE is not
 /// applied: values are those stored.
-[[nodiscard]] inline image read_hdr(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  const std::string name = path.string();
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
-    throw error(name + ": is not a Radiance HDR file");
-  int columns = 0, rows = 0, channels = 0;
-  if (stbi_info_from_memory(detail::stb_bytes(bytes), detail::stb_size(bytes, name), &columns, &rows, &channels) == 0)
-    throw error(
-        name + ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)");
-  const auto across = static_cast<std::size_t>(std::max(columns, 0)),
-             down = static_cast<std::size_t>(std::max(rows, 0));
-  detail::check_image_size(down, across, name);
-  if (bytes.size() < detail::least_hdr_size(down, across)) throw error(name + ": the HDR file is truncated");
-
-  detail::byte_source source{bytes};
-  const stbi_io_callbacks callbacks{detail::byte_source::read, detail::byte_source::skip, detail::byte_source::eof};
-  const detail::stb_pixels<float> pixels(stbi_loadf_from_callbacks(&callbacks, &source, &columns, &rows, &channels, 3));
-  if (source.truncated) throw error(name + ": the HDR file is truncated");
-  if (!pixels) detail::refuse_by_stb(name);
-  if (!source.left.empty())
-    throw error(name + ": " + std::to_string(source.left.size()) + " bytes follow the end of the HDR file");
-  image picture({down, across, std::size_t{3}});
-  std::copy_n(pixels.get(), picture.size(), picture.data());
-  return picture;
-}
+[[nodiscard]] image read_hdr(const std::filesystem::path& path);
 
 /// Writes a Radiance HDR picture. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,
 /// are refused.
-inline void write_hdr(const std::filesystem::path& path, const image& picture) {
-  constexpr float brightest = 1.69e38f;
-  const auto [columns, rows] = detail::check_pixels(picture, brightest, path.string());
-  std::vector<float> rounded(picture.size());
-  for (std::size_t i = 0; i < rounded.size(); i += 3)
-    std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
-  detail::byte_sink sink;
-  if (stbi_write_hdr_to_func(detail::byte_sink::write, &sink, columns, rows, 3, rounded.data()) == 0 || sink.failed)
-    throw error(path.string() + ": the picture cannot be encoded");
-  write_atomically(path, sink.bytes);
-}
+void write_hdr(const std::filesystem::path& path, const image& picture);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/image.ipp>
+#endif

@@ -10,14 +10,7 @@
 namespace gonio::io::detail {
 
 /// Takes the next word off the front of a line; it is empty where the line ends.
-[[nodiscard]] inline std::string_view take_word(std::string_view& line) noexcept {
-  constexpr auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  const auto begin = std::ranges::find_if_not(line, is_blank);
-  const auto end = std::ranges::find_if(begin, line.end(), is_blank);
-  const std::string_view word(begin, end);
-  line = std::string_view(end, line.end());
-  return word;
-}
+[[nodiscard]] std::string_view take_word(std::string_view& line) noexcept;
 
 /// What a file held so far.
 struct mesh_parts {
@@ -33,12 +26,7 @@ class polygon_fan {
  public:
   explicit polygon_fan(std::vector<int>& corners) noexcept : corners_(corners) {}
 
-  void add(int vertex) {
-    if (size_ >= 2) corners_.insert(corners_.end(), {first_, last_, vertex});
-    if (size_ == 0) first_ = vertex;
-    last_ = vertex;
-    ++size_;
-  }
+  void add(int vertex);
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
  private:
@@ -50,3 +38,7 @@ class polygon_fan {
 inline constexpr int mesh_vertex_limit = std::numeric_limits<int>::max();
 
 }  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/mesh_parts.ipp>
+#endif

@@ -50,10 +50,7 @@ inline constexpr std::array<setup_entry, 14> setup_entries{{{"size", 2},
 /// The entries of a file, each at most once, and where they are.
 class setup_text {
  public:
-  setup_text(std::string_view text, const std::string& name) : name_(name) {
-    text_place place{name};
-    for_each_line(text, place, [&](std::string_view line) { add(parse_rule(line, place), place); });
-  }
+  setup_text(std::string_view text, const std::string& name);
 
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   [[nodiscard]] const std::vector<double>& numbers(std::string_view name) const { return at(name).rule.numbers; }
@@ -64,26 +61,14 @@ class setup_text {
   }
 
   /// A number that counts something.
-  [[nodiscard]] std::size_t count(std::string_view name, std::size_t which, std::size_t smallest) const {
-    constexpr std::size_t most = 1'000'000;
-    const double value = numbers(name)[which];
-    if (!(value >= static_cast<double>(smallest) && value <= static_cast<double>(most) && value == std::floor(value)))
-      refuse(name, shortest(value) + " is not a whole number from " + std::to_string(smallest) + " to " +
-                       std::to_string(most));
-    return static_cast<std::size_t>(value);
-  }
+  [[nodiscard]] std::size_t count(std::string_view name, std::size_t which, std::size_t smallest) const;
 
   [[noreturn]] void refuse(std::string_view name, const std::string& what) const {
     at(name).place.refuse(quoted(name) + ": " + what);
   }
 
   /// Refuses a file with none of these entries.
-  void require(std::initializer_list<std::string_view> names) const {
-    if (std::ranges::any_of(names, [&](std::string_view name) { return has(name); })) return;
-    std::string missing;
-    for (const std::string_view name : names) missing += (missing.empty() ? "" : " or ") + quoted(name);
-    throw error(name_ + ": " + missing + " is missing");
-  }
+  void require(std::initializer_list<std::string_view> names) const;
 
   /// Refuses a file that says in two ways what `subject` is.
   void require_one_of(std::string_view one, std::string_view other, const std::string& subject) const {
@@ -106,118 +91,35 @@ class setup_text {
     text_place place;
   };
 
-  void add(text_rule rule, const text_place& place) {
-    const auto known = std::ranges::find(setup_entries, rule.name, &setup_entry::name);
-    if (known == setup_entries.end()) {
-      std::string names;
-      for (const setup_entry& entry : setup_entries) names += (names.empty() ? "" : ", ") + std::string(entry.name);
-      place.refuse(quoted(rule.name) + " is unknown, expected one of " + names);
-    }
-    if (const placed_rule* before = find(rule.name))
-      place.refuse(quoted(rule.name) + " is already in line " + std::to_string(before->place.line));
-    if (known->or_numbers > 0)
-      require_numbers(rule, {known->numbers, known->or_numbers}, place);
-    else
-      require_numbers(rule, {known->numbers}, place);
-    rules_.push_back({std::move(rule), place});
-  }
+  void add(text_rule rule, const text_place& place);
 
-  [[nodiscard]] const placed_rule* find(std::string_view name) const {
-    const auto found = std::ranges::find(rules_, name, [](const placed_rule& each) { return each.rule.name; });
-    return found == rules_.end() ? nullptr : &*found;
-  }
+  [[nodiscard]] const placed_rule* find(std::string_view name) const;
 
-  [[nodiscard]] const placed_rule& at(std::string_view name) const {
-    require({name});
-    return *find(name);
-  }
+  [[nodiscard]] const placed_rule& at(std::string_view name) const;
 
   std::string name_;
   std::vector<placed_rule> rules_;
 };
 
-[[nodiscard]] inline camera_intrinsics setup_intrinsics(const setup_text& text) {
-  camera_intrinsics intrinsics;
-  intrinsics.columns = text.count("size", 0, 1);
-  intrinsics.rows = text.count("size", 1, 1);
-  const auto& focal_length = text.numbers("focal_length");
-  intrinsics.focal_length_x = focal_length.front();
-  intrinsics.focal_length_y = focal_length.back();
-  const bool given = text.has("principal_point");
-  intrinsics.principal_x = given ? text.numbers("principal_point")[0] : static_cast<double>(intrinsics.columns) / 2.0;
-  intrinsics.principal_y = given ? text.numbers("principal_point")[1] : static_cast<double>(intrinsics.rows) / 2.0;
-  return intrinsics;
-}
+[[nodiscard]] camera_intrinsics setup_intrinsics(const setup_text& text);
 
-[[nodiscard]] inline pinhole_camera setup_camera(const setup_text& text) {
-  const camera_intrinsics intrinsics = setup_intrinsics(text);
-  const Eigen::Vector3d position = text.vector("position");
-  text.require({"target", "rotation"});
-  for (const std::string_view other : {"target", "up"}) text.require_one_of("rotation", other, "how the camera stands");
-  if (text.has("rotation")) {
-    using row_major = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    const Eigen::Matrix3d rotation = row_major::Map(text.numbers("rotation").data());
-    return text.naming_file([&] { return pinhole_camera(intrinsics, rotation, position); });
-  }
-  const Eigen::Vector3d target = text.vector("target");
-  const Eigen::Vector3d up = text.has("up") ? text.vector("up") : Eigen::Vector3d(0.0, 0.0, 1.0);
-  return text.naming_file([&] { return pinhole_camera::look_at(intrinsics, position, target, up); });
-}
+[[nodiscard]] pinhole_camera setup_camera(const setup_text& text);
 
-[[nodiscard]] inline distant_light setup_light(const setup_text& text) {
-  distant_light light;
-  text.require({"light", "light_angles"});
-  text.require_one_of("light", "light_angles", "where the light is");
-  if (text.has("light")) {
-    light.towards = text.vector("light");
-    const double length = light.towards.norm();
-    if (!(length > 0.0 && std::isfinite(length))) text.refuse("light", "a direction needs a length that is not 0");
-    light.towards /= length;
-  } else {
-    const double theta = text.numbers("light_angles")[0], phi = text.numbers("light_angles")[1];
-    if (!(theta >= 0.0 && theta < 90.0))
-      text.refuse("light_angles", shortest(theta) + " degrees, expected at least 0 and less than 90");
-    if (!(std::abs(phi) <= 360.0)) text.refuse("light_angles", shortest(phi) + " degrees, expected from -360 to 360");
-    light.towards = spherical_direction(radians(theta), radians(phi));
-  }
-  if (text.has("irradiance")) {
-    const auto& values = text.numbers("irradiance");
-    light.irradiance = values.size() == 1 ? rgb::Constant(values[0]) : rgb(values[0], values[1], values[2]);
-  }
-  return light;
-}
+[[nodiscard]] distant_light setup_light(const setup_text& text);
 
-[[nodiscard]] inline near_field_setup make_setup(const setup_text& text) {
-  near_field_setup setup{.camera = setup_camera(text), .light = setup_light(text)};
-  text.require({"region", "window"});
-  if (text.has("region")) {
-    const auto& region = text.numbers("region");
-    setup.disc = sample_disc{region[0]};
-    if (region.size() == 3) setup.disc->centre = {region[1], region[2]};
-  }
-  if (text.has("window"))
-    setup.window = pixel_window{text.count("window", 0, 0), text.count("window", 1, 0), text.count("window", 2, 1),
-                                text.count("window", 3, 1)};
-  if (text.has("saturation")) setup.saturation = text.numbers("saturation")[0];
-  if (text.has("block")) setup.block = text.count("block", 0, 1);
-  return setup;
-}
+[[nodiscard]] near_field_setup make_setup(const setup_text& text);
 
 }  // namespace detail
 
 /// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
 /// entry that is missing, and as `require_usable` does; `name` is what errors call the text.
-[[nodiscard]] inline near_field_setup parse_near_field_setup(std::string_view text, const std::string& name) {
-  const detail::setup_text entries(text, name);
-  near_field_setup setup = detail::make_setup(entries);
-  entries.naming_file([&] { require_usable(setup); });
-  return setup;
-}
+[[nodiscard]] near_field_setup parse_near_field_setup(std::string_view text, const std::string& name);
 
 /// Reads the set-up of a picture. Throws gonio::error naming the file and the line.
-[[nodiscard]] inline near_field_setup read_near_field_setup(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  return parse_near_field_setup(detail::as_text(bytes), path.string());
-}
+[[nodiscard]] near_field_setup read_near_field_setup(const std::filesystem::path& path);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/near_field_setup.ipp>
+#endif

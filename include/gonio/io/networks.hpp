@@ -19,51 +19,10 @@ namespace gonio::io {
 
 /// Reads one name a line; blanks around a name do not count. Throws gonio::error naming the line where a
 /// name is empty or appears twice.
-[[nodiscard]] inline std::vector<std::string> read_names(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  std::vector<std::string> names;
-  std::set<std::string_view> seen;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view name = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    name.remove_prefix(std::min(name.find_first_not_of(" \t\r"), name.size()));
-    name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
-    const std::string place = path.string() + ", line " + std::to_string(names.size() + 1) + ": ";
-    if (name.empty()) throw error(place + "the name is empty");
-    if (!seen.insert(name).second) throw error(place + "the name '" + std::string(name) + "' appears twice");
-    names.emplace_back(name);
-  }
-  return names;
-}
+[[nodiscard]] std::vector<std::string> read_names(const std::filesystem::path& path);
 
 /// Reads networks and their names.
-[[nodiscard]] inline named_networks read_networks(const std::filesystem::path& path,
-                                                  const std::filesystem::path& names_path) {
-  const xt::xtensor<float, 2> rows = read_npy<float, 2>(path);
-  constexpr std::size_t columns = network_brdf::parameter_count;
-  if (rows.shape(1) != columns)
-    throw error(path.string() + ": has " + std::to_string(rows.shape(1)) + " columns, expected " +
-                std::to_string(columns));
-  if (rows.shape(0) == 0) throw error(path.string() + ": holds no network, expected at least one");
-  named_networks materials{read_names(names_path), {}};
-  if (materials.names.size() != rows.shape(0))
-    throw error(names_path.string() + ": has " + std::to_string(materials.names.size()) + " names, expected " +
-                std::to_string(rows.shape(0)) + " as there are networks in " + path.string());
-
-  materials.networks.reserve(rows.shape(0));
-  for (std::size_t i = 0; i < rows.shape(0); ++i) {
-    const std::span<const float, columns> parameters(rows.data() + i * columns, columns);
-    const auto bad = std::ranges::find_if(parameters, [](float value) { return !std::isfinite(value); });
-    if (bad != parameters.end())
-      throw error(path.string() + ": column " + std::to_string(bad - parameters.begin()) + " of row " +
-                  std::to_string(i) + " (" + materials.names[i] + ") is " + std::to_string(*bad) +
-                  ", expected a finite number");
-    materials.networks.emplace_back(parameters);
-  }
-  return materials;
-}
+[[nodiscard]] named_networks read_networks(const std::filesystem::path& path, const std::filesystem::path& names_path);
 
 /// Reads networks with the names in `merl_names.txt` beside them.
 [[nodiscard]] inline named_networks read_networks(const std::filesystem::path& path) {
@@ -71,3 +30,7 @@ namespace gonio::io {
 }
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/networks.ipp>
+#endif

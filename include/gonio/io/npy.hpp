@@ -55,108 +55,27 @@ class npy_header_parser {
  public:
   npy_header_parser(std::string_view text, const std::string& name) : text_(text), name_(name) {}
 
-  [[nodiscard]] npy_layout parse() {
-    expect('{');
-    while (!accept('}')) {
-      parse_entry();
-      if (accept(',')) continue;
-      expect('}');
-      break;
-    }
-    skip_blanks();
-    if (!text_.empty()) refuse("expected nothing after the dictionary");
-    if (!descr_) refuse("the key 'descr' is missing");
-    if (!order_) refuse("the key 'fortran_order' is missing");
-    if (!shape_) refuse("the key 'shape' is missing");
-    return layout();
-  }
+  [[nodiscard]] npy_layout parse();
 
  private:
-  void parse_entry() {
-    const std::string_view key = quoted_text();
-    expect(':');
-    if (key == "descr" && !descr_)
-      descr_ = quoted_text();
-    else if (key == "fortran_order" && !order_)
-      order_ = boolean();
-    else if (key == "shape" && !shape_)
-      shape_ = tuple();
-    else
-      refuse("the key '" + std::string(key) + "' is unknown or appears twice");
-  }
+  void parse_entry();
 
-  [[nodiscard]] npy_layout layout() const {
-    if (*descr_ != "<f4" && *descr_ != "<f8")
-      refuse("holds elements of type '" + std::string(*descr_) + "', expected '<f4' or '<f8' (little-endian floats)");
-    if (*order_) refuse("holds an array in Fortran order, expected C order (numpy.ascontiguousarray makes it so)");
-    npy_layout found{*descr_ == "<f4" ? std::size_t{4} : std::size_t{8}, *shape_};
-    constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / 8;
-    // An extent of 0 must not hide that the others overflow.
-    std::size_t product = 1;
-    for (const std::size_t extent : found.shape) {
-      const std::size_t factor = std::max<std::size_t>(extent, 1);
-      if (product > most / factor) refuse("the product of the shape is too large");
-      product *= factor;
-      found.count *= extent;
-    }
-    return found;
-  }
+  [[nodiscard]] npy_layout layout() const;
 
-  [[nodiscard]] std::string_view quoted_text() {
-    skip_blanks();
-    const char quote = text_.empty() ? '\0' : text_.front();
-    if (quote != '\'' && quote != '"') refuse("expected a quoted text");
-    const std::size_t end = text_.find(quote, 1);
-    if (end == std::string_view::npos) refuse("a quoted text has no end");
-    const std::string_view inside = text_.substr(1, end - 1);
-    text_.remove_prefix(end + 1);
-    return inside;
-  }
+  [[nodiscard]] std::string_view quoted_text();
 
-  [[nodiscard]] bool boolean() {
-    skip_blanks();
-    for (const auto& [word, value] :
-         {std::pair{std::string_view("True"), true}, std::pair{std::string_view("False"), false}}) {
-      if (!text_.starts_with(word)) continue;
-      text_.remove_prefix(word.size());
-      return value;
-    }
-    refuse("fortran_order is neither True nor False");
-  }
+  [[nodiscard]] bool boolean();
 
-  [[nodiscard]] std::vector<std::size_t> tuple() {
-    std::vector<std::size_t> extents;
-    expect('(');
-    while (!accept(')')) {
-      extents.push_back(count());
-      if (extents.size() > 32) refuse("the shape has more than 32 dimensions");
-      if (accept(',')) continue;
-      expect(')');
-      break;
-    }
-    return extents;
-  }
+  [[nodiscard]] std::vector<std::size_t> tuple();
 
-  [[nodiscard]] std::size_t count() {
-    skip_blanks();
-    std::size_t value = 0;
-    const auto [end, failed] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-    if (failed != std::errc()) refuse("an extent of the shape is not a number from 0 on");
-    text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
-    return value;
-  }
+  [[nodiscard]] std::size_t count();
 
   void skip_blanks() { text_.remove_prefix(std::min(text_.find_first_not_of(" \n"), text_.size())); }
-  [[nodiscard]] bool accept(char c) {
-    skip_blanks();
-    if (!text_.starts_with(c)) return false;
-    text_.remove_prefix(1);
-    return true;
-  }
+  [[nodiscard]] bool accept(char c);
   void expect(char c) {
     if (!accept(c)) refuse(std::string("expected '") + c + "'");
   }
-  [[noreturn]] void refuse(const std::string& what) const { throw error(name_ + ": npy header: " + what); }
+  [[noreturn]] void refuse(const std::string& what) const;
 
   std::string_view text_;
   const std::string& name_;
@@ -166,27 +85,7 @@ class npy_header_parser {
 };
 
 /// Takes the magic, version and header off the front of a file's bytes.
-[[nodiscard]] inline npy_layout take_npy_header(std::span<const std::byte>& bytes, const std::string& name) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with(npy_magic)) throw error(name + ": is no npy file, expected it to start with \\x93NUMPY");
-  const std::size_t version_at = npy_magic.size();
-  const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
-  if (bytes.size() < version_at + 2) throw error(name + ": npy header: truncated");
-  const std::size_t version = byte_at(version_at);
-  if (version < 1 || version > 3 || byte_at(version_at + 1) != 0)
-    throw error(name + ": npy version " + std::to_string(version) + "." + std::to_string(byte_at(version_at + 1)) +
-                ", expected 1.0, 2.0 or 3.0");
-
-  // The length of the header takes two bytes in version 1, four in later ones.
-  const std::size_t begin = version_at + 2 + (version == 1 ? 2 : 4);
-  if (bytes.size() < begin) throw error(name + ": npy header: truncated");
-  std::size_t length = 0;
-  for (std::size_t i = begin; i > version_at + 2; --i) length = length * 256 + byte_at(i - 1);
-  if (bytes.size() - begin < length) throw error(name + ": npy header: truncated");
-  npy_layout layout = npy_header_parser(text.substr(begin, length), name).parse();
-  bytes = bytes.subspan(begin + length);
-  return layout;
-}
+[[nodiscard]] npy_layout take_npy_header(std::span<const std::byte>& bytes, const std::string& name);
 
 template <std::floating_point Stored, std::floating_point T>
 void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std::string& name) {
@@ -254,3 +153,7 @@ void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& ar
 }
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/npy.ipp>
+#endif

@@ -19,63 +19,20 @@ class obj_parser {
  public:
   obj_parser(std::string_view text, const std::string& name) : text_(text), place_{name} {}
 
-  [[nodiscard]] mesh_parts parse() {
-    for_each_line(text_, place_, [&](std::string_view line) { add(line.substr(0, line.find('#'))); });
-    // A face may name vertices of lines that follow.
-    if (largest_ > parts_.vertices()) {
-      place_.line = largest_line_;
-      refuse_vertex(std::to_string(largest_));
-    }
-    return std::move(parts_);
-  }
+  [[nodiscard]] mesh_parts parse();
 
  private:
-  void add(std::string_view line) {
-    // What neither moves nor renumbers the vertices and polygons. Anything else may be damage.
-    constexpr std::array<std::string_view, 18> ignored{
-        "vt",     "vn",  "vp",     "l",      "p",      "o",     "g",        "s",        "mg",
-        "mtllib", "lod", "usemtl", "maplib", "usemap", "bevel", "c_interp", "d_interp", "shadow_obj"};
-    const std::string_view keyword = take_word(line);
-    if (keyword == "v") return add_vertex(line);
-    if (keyword == "f") return add_face(line);
-    if (std::ranges::find(ignored, keyword) == ignored.end())
-      place_.refuse(quoted(keyword) + " is not known of an OBJ file of polygons");
-  }
+  void add(std::string_view line);
 
   /// Weights and colours may follow the coordinates.
-  void add_vertex(std::string_view line) {
-    for (int axis = 0; axis < 3; ++axis)
-      parts_.coordinates.push_back(parse_number(take_word(line), place_, [] { return std::string("a coordinate"); }));
-  }
+  void add_vertex(std::string_view line);
 
-  void add_face(std::string_view line) {
-    polygon_fan fan(parts_.corners);
-    for (std::string_view word = take_word(line); !word.empty(); word = take_word(line)) fan.add(vertex_of(word));
-    if (fan.size() < 3) place_.refuse("a face has " + std::to_string(fan.size()) + " vertices, expected at least 3");
-  }
+  void add_face(std::string_view line);
 
   /// The vertex of v, v/vt, v//vn or v/vt/vn: from 1 on, or backwards from -1, the latest one.
-  [[nodiscard]] int vertex_of(std::string_view corner) {
-    const std::string_view digits = corner.substr(0, corner.find('/'));
-    long long number = 0;
-    const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (failed != std::errc() || end != digits.data() + digits.size() ||
-        corner.find_first_not_of("-0123456789/") != std::string_view::npos)
-      place_.refuse(quoted(corner) + ", expected a vertex of a face as v, v/vt, v//vn or v/vt/vn");
-    const auto vertices = static_cast<long long>(parts_.vertices());
-    if (number == 0 || number < -vertices) refuse_vertex(digits);
-    if (number < 0) return static_cast<int>(vertices + number);
-    if (const auto named = static_cast<std::size_t>(number); named > largest_) {
-      largest_ = named;
-      largest_line_ = place_.line;
-    }
-    return static_cast<int>(number - 1);
-  }
+  [[nodiscard]] int vertex_of(std::string_view corner);
 
-  [[noreturn]] void refuse_vertex(std::string_view number) const {
-    place_.refuse("a face names vertex " + std::string(number) + " of " + std::to_string(parts_.vertices()) +
-                  ", which are counted from 1");
-  }
+  [[noreturn]] void refuse_vertex(std::string_view number) const;
 
   std::string_view text_;
   text_place place_;
@@ -84,3 +41,7 @@ class obj_parser {
 };
 
 }  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/obj.ipp>
+#endif

@@ -85,101 +85,25 @@ class ply_header_parser {
  public:
   ply_header_parser(std::string_view& text, text_place& place) : text_(text), place_(place) {}
 
-  [[nodiscard]] ply_header parse() {
-    if (!text_.starts_with("ply")) throw error(place_.name + ": is no PLY file, expected it to begin with 'ply'");
-    for (std::string_view line = next_line(); line != "end_header"; line = next_line()) add(line);
-    if (!header_.encoding) place_.refuse("the header ends without a format");
-    for (const ply_element& element : header_.elements) check(element);
-    return header_;
-  }
+  [[nodiscard]] ply_header parse();
 
  private:
-  [[nodiscard]] std::string_view next_line() {
-    ++place_.line;
-    const std::size_t end = text_.find('\n');
-    if (end == std::string_view::npos) place_.refuse("the file is truncated: its header has no line 'end_header'");
-    const std::string_view line = trimmed(text_.substr(0, end));
-    text_.remove_prefix(end + 1);
-    return line;
-  }
+  [[nodiscard]] std::string_view next_line();
 
-  void add(std::string_view line) {
-    const std::string_view whole = line, keyword = take_word(line);
-    if (keyword == "comment" || keyword == "obj_info" || (place_.line == 1 && whole == "ply")) return;
-    if (keyword == "format") return set_encoding(trimmed(line));
-    if (keyword == "element") return add_element(line);
-    if (keyword == "property") return add_property(line);
-    place_.refuse(quoted(whole) + ", expected format, comment, element, property or end_header");
-  }
+  void add(std::string_view line);
 
-  void set_encoding(std::string_view format) {
-    if (header_.encoding) place_.refuse("the format is given twice");
-    if (format == "ascii 1.0") header_.encoding = ply_encoding::ascii;
-    if (format == "binary_little_endian 1.0") header_.encoding = ply_encoding::little_endian;
-    if (format == "binary_big_endian 1.0") header_.encoding = ply_encoding::big_endian;
-    if (!header_.encoding)
-      place_.refuse("format " + quoted(format) + ", expected ascii, binary_little_endian or binary_big_endian 1.0");
-  }
+  void set_encoding(std::string_view format);
 
-  void add_element(std::string_view line) {
-    const std::string_view name = take_word(line);
-    const std::string_view digits = trimmed(line);
-    std::size_t count = 0;
-    const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-    if (failed != std::errc() || end != digits.data() + digits.size())
-      place_.refuse("element " + quoted(name) + ": " + quoted(digits) + ", expected a count");
-    if (std::ranges::find(header_.elements, name, &ply_element::name) != header_.elements.end())
-      place_.refuse("element " + quoted(name) + " is given twice");
-    header_.elements.push_back({name, count, {}});
-    if (name != "vertex") return;
-    if (std::cmp_greater(count, mesh_vertex_limit))
-      place_.refuse(std::to_string(count) + " vertices, expected less than 2^31");
-    header_.vertices = count;
-  }
+  void add_element(std::string_view line);
 
-  void add_property(std::string_view line) {
-    if (header_.elements.empty()) place_.refuse("a property comes before the first element");
-    ply_element& element = header_.elements.back();
-    std::string_view type = take_word(line);
-    std::optional<ply_type> count;
-    if (type == "list") {
-      count = type_named(take_word(line));
-      type = take_word(line);
-    }
-    ply_property property{trimmed(line), count, type_named(type)};
-    property.role = role_of(element, property);
-    const bool must_be_whole = property.role == ply_role::corners;
-    if ((count && !count->whole) || (must_be_whole && !property.value.whole))
-      place_.refuse("property " + quoted(property.name) + ": a count or vertex number must have a type of integers");
-    if (property.role != ply_role::ignored && element.has(property.role))
-      place_.refuse("property " + quoted(property.name) + " is given twice");
-    element.properties.push_back(property);
-  }
+  void add_property(std::string_view line);
 
-  [[nodiscard]] ply_type type_named(std::string_view name) const {
-    const auto type = std::ranges::find_if(
-        ply_types, [&](const ply_type& known) { return known.name == name || known.newer_name == name; });
-    if (type == ply_types.end()) place_.refuse(quoted(name) + " is no type that PLY has");
-    return *type;
-  }
+  [[nodiscard]] ply_type type_named(std::string_view name) const;
 
-  [[nodiscard]] static ply_role role_of(const ply_element& element, const ply_property& property) {
-    const std::string_view name = property.name;
-    if (element.name == "face" && property.count && (name == "vertex_indices" || name == "vertex_index"))
-      return ply_role::corners;
-    if (element.name != "vertex" || property.count) return ply_role::ignored;
-    return name == "x" ? ply_role::x : name == "y" ? ply_role::y : name == "z" ? ply_role::z : ply_role::ignored;
-  }
+  [[nodiscard]] static ply_role role_of(const ply_element& element, const ply_property& property);
 
   /// Rows without properties take no bytes, so that any count of them would be believed.
-  void check(const ply_element& element) const {
-    if (element.properties.empty() && element.count > 0)
-      place_.refuse("element " + quoted(element.name) + " has no properties");
-    if (element.name == "vertex" && !(element.has(ply_role::x) && element.has(ply_role::y) && element.has(ply_role::z)))
-      place_.refuse("element 'vertex' lacks a property x, y or z");
-    if (element.name == "face" && !element.has(ply_role::corners))
-      place_.refuse("element 'face' lacks a list vertex_indices");
-  }
+  void check(const ply_element& element) const;
 
   std::string_view& text_;
   text_place& place_;
@@ -201,7 +125,7 @@ class ply_binary_rows {
   void end() const {
     if (bytes_.left() > 0) refuse(std::to_string(bytes_.left()) + " bytes follow what its header counts");
   }
-  [[noreturn]] void refuse(const std::string& what) const { throw error(name_ + ": " + what); }
+  [[noreturn]] void refuse(const std::string& what) const;
 
  private:
   byte_reader bytes_;
@@ -223,10 +147,7 @@ class ply_text_rows {
   void skip(const ply_type&, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) static_cast<void>(take_field());
   }
-  void end_row() const {
-    if (const std::string_view more = trimmed(row_); !more.empty())
-      refuse(quoted(more) + " follows the values that the header names");
-  }
+  void end_row() const;
   void end() {
     if (next_line()) refuse(quoted(row_) + " follows what the header counts");
   }
@@ -234,19 +155,8 @@ class ply_text_rows {
 
  private:
   /// Goes to the next line that holds something, if there is one.
-  [[nodiscard]] bool next_line() {
-    for (row_ = {}; row_.empty() && !left_.empty(); ++place_.line) {
-      const std::size_t end = left_.find('\n');
-      row_ = trimmed(left_.substr(0, end));
-      left_.remove_prefix(end == std::string_view::npos ? left_.size() : end + 1);
-    }
-    return !row_.empty();
-  }
-  [[nodiscard]] std::string_view take_field() {
-    const std::string_view field = take_word(row_);
-    if (field.empty()) refuse("the line ends before the values that the header names");
-    return field;
-  }
+  [[nodiscard]] bool next_line();
+  [[nodiscard]] std::string_view take_field();
 
   std::string_view left_, row_;
   text_place& place_;
@@ -298,10 +208,10 @@ template <class Rows>
   return parts;
 }
 
-[[nodiscard]] inline mesh_parts parse_ply(std::string_view text, text_place place) {
-  const ply_header header = ply_header_parser(text, place).parse();
-  if (header.encoding == ply_encoding::ascii) return take_ply_elements(header, ply_text_rows(text, place));
-  return take_ply_elements(header, ply_binary_rows(text, header.encoding == ply_encoding::big_endian, place));
-}
+[[nodiscard]] mesh_parts parse_ply(std::string_view text, text_place place);
 
 }  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/ply.ipp>
+#endif

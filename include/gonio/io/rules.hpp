@@ -17,28 +17,13 @@ struct text_rule {
   std::vector<double> numbers;
 };
 
-[[nodiscard]] inline text_rule parse_rule(std::string_view line, const text_place& place) {
-  line = trimmed(line.substr(0, line.find('#')));
-  text_rule rule;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find_first_of(" \t"), line.size());
-    const std::string_view word = line.substr(0, end);
-    if (rule.name.empty())
-      rule.name = word;
-    else
-      rule.numbers.push_back(parse_number(word, place, [&] { return "number of " + quoted(rule.name); }));
-    line = trimmed(line.substr(end));
-  }
-  return rule;
-}
+[[nodiscard]] text_rule parse_rule(std::string_view line, const text_place& place);
 
 /// Refuses a rule unless it has one of these counts of numbers.
-inline void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place) {
-  if (std::ranges::find(counts, rule.numbers.size()) != counts.end()) return;
-  std::string expected;
-  for (const std::size_t count : counts) expected += (expected.empty() ? "" : " or ") + std::to_string(count);
-  place.refuse(quoted(rule.name) + " takes " + expected + (expected == "1" ? " number" : " numbers") + ", not " +
-               std::to_string(rule.numbers.size()));
-}
+void require_numbers(const text_rule& rule, std::initializer_list<std::size_t> counts, const text_place& place);
 
 }  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/rules.ipp>
+#endif

@@ -36,53 +36,21 @@ struct recorded_scan {
 namespace detail {
 
 /// A line's fields followed by the CRC-32 of their text: a line that was cut short, or damaged, does not have it.
-[[nodiscard]] inline std::string with_checksum(std::string fields) {
-  const auto sum = crc32_z(0, reinterpret_cast<const unsigned char*>(fields.data()), fields.size());
-  return fields + " " + std::to_string(sum) + "\n";
-}
+[[nodiscard]] std::string with_checksum(std::string fields);
 
-[[nodiscard]] inline bool has_checksum(std::string_view line) {
-  const std::size_t last = line.find_last_of(' ');
-  return last != std::string_view::npos && with_checksum(std::string(line.substr(0, last))) == std::string(line) + "\n";
-}
+[[nodiscard]] bool has_checksum(std::string_view line);
 
-[[nodiscard]] inline std::string format_scan_header(std::span<const direction_pair> poses,
-                                                    std::uint16_t largest_count) {
-  std::string text = "# gonio scan: wi and wo of each pose; number, frames, times, pixels and counts of each reading\n";
-  text += "largest_count " + std::to_string(largest_count) + "\n";
-  for (const direction_pair& pose : poses) {
-    text += "pose";
-    for (const direction& w : {pose.wi, pose.wo})
-      for (const double component : w) text += ' ' + shortest(component);
-    text += '\n';
-  }
-  return text;
-}
+[[nodiscard]] std::string format_scan_header(std::span<const direction_pair> poses, std::uint16_t largest_count);
 
-[[nodiscard]] inline std::string format_reading(std::size_t pose, const reading& taken) {
-  std::string fields = "reading " + std::to_string(pose) + ' ' + std::to_string(taken.frames.size());
-  for (const double time : taken.times) fields += ' ' + shortest(time);
-  fields += ' ' + std::to_string(taken.frames.front().rows());
-  for (const camera_frame& each : taken.frames)
-    for (const std::uint16_t count : each.reshaped()) fields += ' ' + std::to_string(count);
-  return with_checksum(std::move(fields));
-}
+[[nodiscard]] std::string format_reading(std::size_t pose, const reading& taken);
 
 /// Takes a line's numbers one after the other.
 class number_reader {
  public:
   number_reader(const text_rule& rule, const text_place& place) : rule_(rule), place_(place) {}
 
-  double next() {
-    if (used_ == rule_.numbers.size()) place_.refuse("ends after " + std::to_string(used_) + " numbers");
-    return rule_.numbers[used_++];
-  }
-  std::size_t next_whole(double most, const std::string& what) {
-    const double value = next();
-    if (!(value >= 0.0 && value <= most && value == std::floor(value)))
-      place_.refuse(what + " is " + shortest(value) + ", expected a whole number up to " + shortest(most));
-    return static_cast<std::size_t>(value);
-  }
+  double next();
+  std::size_t next_whole(double most, const std::string& what);
   [[nodiscard]] std::size_t left() const noexcept { return rule_.numbers.size() - used_; }
 
  private:
@@ -91,147 +59,42 @@ class number_reader {
   std::size_t used_ = 0;
 };
 
-[[nodiscard]] inline reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
-                                           const text_place& place) {
-  reading taken;
-  const std::size_t frames = numbers.next_whole(1000, "the number of frames");
-  for (std::size_t i = 0; i < frames; ++i) {
-    taken.times.push_back(numbers.next());
-    if (!(taken.times.back() > 0.0)) place.refuse("an exposure time must be positive");
-  }
-  const std::size_t pixels = numbers.next_whole(1e6, "the number of pixels");
-  if (frames == 0 || pixels == 0) place.refuse("a reading needs a frame, and a frame a pixel");
-  if (numbers.left() != frames * pixels * 3 + 1)  // and the checksum
-    place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
-                 " counts, expected " + std::to_string(frames * pixels * 3));
-  for (std::size_t i = 0; i < frames; ++i) {
-    camera_frame each(static_cast<Eigen::Index>(pixels), 3);
-    for (std::uint16_t& count : each.reshaped())
-      count = static_cast<std::uint16_t>(numbers.next_whole(largest_count, "a count"));
-    taken.frames.push_back(std::move(each));
-  }
-  return taken;
-}
+[[nodiscard]] reading parse_reading(number_reader& numbers, std::uint16_t largest_count, const text_place& place);
 
-[[nodiscard]] inline direction_pair parse_pose(const text_rule& rule, const text_place& place) {
-  require_numbers(rule, {6}, place);
-  const direction_pair pose{direction::Map(rule.numbers.data()), direction::Map(rule.numbers.data() + 3)};
-  for (const direction& w : {pose.wi, pose.wo})
-    if (!(std::abs(w.norm() - 1.0) < 1e-6) || !(w.z() > 0.0))
-      place.refuse("a pose is two unit vectors above the horizon");
-  return pose;
-}
+[[nodiscard]] direction_pair parse_pose(const text_rule& rule, const text_place& place);
 
 /// `has_reading`: was there one in a line before?
-inline void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, bool& has_reading) {
-  const text_rule rule = parse_rule(line, place);
-  number_reader numbers(rule, place);
-  if (rule.name == "largest_count") {
-    require_numbers(rule, {1}, place);
-    scan.largest_count = static_cast<std::uint16_t>(numbers.next_whole(65535, "the largest count"));
-  } else if (rule.name == "pose") {
-    if (has_reading) place.refuse("a pose after the first reading");
-    scan.poses.push_back(parse_pose(rule, place));
-    scan.readings.emplace_back();
-  } else if (rule.name == "reading") {
-    if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
-    const std::size_t pose = numbers.next_whole(1e9, "the pose");
-    if (pose >= scan.poses.size())
-      place.refuse("pose " + std::to_string(pose) + " of " + std::to_string(scan.poses.size()));
-    if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " is read a second time");
-    scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
-    has_reading = true;
-  } else {
-    place.refuse(quoted(rule.name) + " is unknown, expected largest_count, pose or reading");
-  }
-}
+void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, bool& has_reading);
 
 /// The text without what a process that was killed, or a machine that lost its power, left of the last line.
-[[nodiscard]] inline std::string_view whole_lines(std::string_view text) {
-  text = text.substr(0, text.find_last_of('\n') + 1);
-  if (text.empty()) return text;
-  const std::size_t begin = text.substr(0, text.size() - 1).find_last_of('\n') + 1;
-  const std::string_view last = text.substr(begin, text.size() - 1 - begin);
-  return last.starts_with("reading") && !has_checksum(last) ? text.substr(0, begin) : text;
-}
+[[nodiscard]] std::string_view whole_lines(std::string_view text);
 
 }  // namespace detail
 
 /// Throws gonio::error naming the line that is damaged or not what it should be; a last line that is not whole is left
 /// out. `name` is what errors call the text.
-[[nodiscard]] inline recorded_scan parse_scan(std::string_view text, const std::string& name) {
-  recorded_scan scan;
-  detail::text_place place{name};
-  bool has_reading = false;
-  detail::for_each_line(detail::whole_lines(text), place,
-                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, has_reading); });
-  if (scan.largest_count == 0) throw error(name + ": the line largest_count is missing");
-  if (scan.poses.empty()) throw error(name + ": there is no pose");
-  return scan;
-}
+[[nodiscard]] recorded_scan parse_scan(std::string_view text, const std::string& name);
 
 /// Reads a scan, whole or not. Throws gonio::error naming the file and the line.
-[[nodiscard]] inline recorded_scan read_scan(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  return parse_scan(detail::as_text(bytes), path.string());
-}
+[[nodiscard]] recorded_scan read_scan(const std::filesystem::path& path);
 
 /// A scan's record in a file: a scan_record. One process at a time can have it open.
 class scan_journal {
  public:
   /// Goes on with a scan, or begins it if there is no such file. Throws gonio::error if the file is one of other poses
   /// or of another camera, is damaged, cannot be written, or is open in another process.
-  scan_journal(const std::filesystem::path& path, std::span<const direction_pair> poses, std::uint16_t largest_count)
-      : path_(path) {
-    if (poses.empty()) throw error(path.string() + ": a scan needs a pose, and there is none");
-    if (!std::filesystem::exists(path)) {
-      const std::string header = detail::format_scan_header(poses, largest_count);
-      write_atomically(path, std::as_bytes(std::span(header)));
-    }
-    open();
-    const auto bytes = read_bytes(path);
-    const std::string_view text = detail::as_text(bytes);
-    scan_ = parse_scan(text, path.string());
-    require_same(poses, largest_count);
-    // The next line must not be joined to what a killed process left of its last.
-    if (::ftruncate(file_.get(), static_cast<off_t>(detail::whole_lines(text).size())) != 0) fail();
-  }
+  scan_journal(const std::filesystem::path& path, std::span<const direction_pair> poses, std::uint16_t largest_count);
 
   [[nodiscard]] bool has(std::size_t pose) const { return scan_.readings.at(pose).has_value(); }
   [[nodiscard]] const recorded_scan& scan() const noexcept { return scan_; }
 
   /// Returns when the reading is on the disk. Throws gonio::error if it cannot be written, or is there already.
-  void add(std::size_t pose, const reading& taken) {
-    if (has(pose)) throw error(path_.string() + ": pose " + std::to_string(pose) + " is read already");
-    const std::string line = detail::format_reading(pose, taken);
-    for (std::string_view left = line; !left.empty();) {
-      const ssize_t count = ::write(file_.get(), left.data(), left.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) fail();
-      left.remove_prefix(static_cast<std::size_t>(count));
-    }
-    if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
-    scan_.readings[pose] = taken;
-  }
+  void add(std::size_t pose, const reading& taken);
 
  private:
-  void open() {
-    file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-    if (!file_.is_open()) fail();
-    if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
-    if (errno == EWOULDBLOCK) throw error(path_.string() + ": another process is scanning into this file");
-    fail();
-  }
+  void open();
 
-  void require_same(std::span<const direction_pair> poses, std::uint16_t largest_count) const {
-    if (scan_.largest_count != largest_count)
-      throw error(path_.string() + ": is a scan by a camera of " + std::to_string(scan_.largest_count) +
-                  " counts, not " + std::to_string(largest_count));
-    const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
-    if (!std::ranges::equal(scan_.poses, poses, same))
-      throw error(path_.string() + ": is a scan of " + std::to_string(scan_.poses.size()) +
-                  " other poses, expected the " + std::to_string(poses.size()) + " of this plan");
-  }
+  void require_same(std::span<const direction_pair> poses, std::uint16_t largest_count) const;
 
   [[noreturn]] void fail() const { detail::refuse_file(path_, "cannot be written: " + detail::system_reason(errno)); }
 
@@ -243,3 +106,7 @@ class scan_journal {
 static_assert(scan_record<scan_journal>);
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/scan_journal.ipp>
+#endif

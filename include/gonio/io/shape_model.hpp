@@ -18,25 +18,7 @@ namespace detail {
 
 inline constexpr checked_file_kind shape_model_kind{"gonio-shapes", 1, "shape model"};
 
-inline void put_shape_model(byte_writer& out, const shape_model& model) {
-  const shape_basis& basis = model.basis();
-  out.put(static_cast<std::uint32_t>(model.vertices()));
-  out.put(static_cast<std::uint32_t>(model.triangles().cols()));
-  out.put(static_cast<std::uint32_t>(basis.size()));
-  out.put(static_cast<std::uint32_t>(basis.names().size()));
-  out.put(basis.explained_variance());
-  out.put_text(basis.source());
-  for (const std::string& name : basis.names()) out.put_text(name);
-  const auto put_matrix = [&](const auto& matrix) {
-    using number = typename std::remove_cvref_t<decltype(matrix)>::Scalar;
-    out.put_all(std::span<const number>(matrix.data(), static_cast<std::size_t>(matrix.size())));
-  };
-  put_matrix(model.triangles());
-  put_matrix(basis.singular_values());
-  put_matrix(basis.coefficients());
-  out.put_all(std::span<const float>(basis.mean()));
-  put_matrix(basis.components());
-}
+void put_shape_model(byte_writer& out, const shape_model& model);
 
 /// A matrix of so many rows and columns, as its numbers lie in memory.
 template <class Matrix>
@@ -45,58 +27,16 @@ template <class Matrix>
   return Eigen::Map<const Matrix>(numbers.data(), static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
 }
 
-[[nodiscard]] inline shape_model take_shape_model(byte_reader& in, const std::string& name) {
-  const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
-                    components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
-  if (components == 0 || components > shapes || shapes > in.left())
-    throw error(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
-                " shapes are impossible");
-  const auto explained_variance = in.take<double>();
-  std::string source = in.take_text();
-  std::vector<std::string> names(shapes);
-  for (std::string& shape : names) shape = in.take_text();
-  auto corners = take_matrix<triangle_columns>(in, 3, triangles);
-  const auto singular_values = take_matrix<Eigen::VectorXd>(in, components, 1);
-  const auto coefficients = take_matrix<Eigen::MatrixXf>(in, shapes, components);
-  auto mean = in.take_all<float>(3 * vertices);
-  auto functions = take_matrix<cell_matrix>(in, 3 * vertices, components);
-  if (in.left() != 0) throw error(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
-  const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
-                      functions.allFinite() &&
-                      std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
-  if (!finite) throw error(name + ": a value of the shape model is not finite");
-  try {
-    return {shape_basis({{vertices},
-                         lin{},
-                         std::move(names),
-                         singular_values,
-                         std::move(functions),
-                         std::move(mean),
-                         coefficients,
-                         explained_variance,
-                         std::move(source)}),
-            std::move(corners)};
-  } catch (const error& refusal) {
-    throw error(name + ": " + refusal.what());
-  }
-}
+[[nodiscard]] shape_model take_shape_model(byte_reader& in, const std::string& name);
 
 }  // namespace detail
 
 /// A model as the bytes of a file: nothing is lost.
-[[nodiscard]] inline std::vector<std::byte> encode_shape_model(const shape_model& model) {
-  byte_writer payload;
-  detail::put_shape_model(payload, model);
-  return encode_checked(detail::shape_model_kind, payload.bytes());
-}
+[[nodiscard]] std::vector<std::byte> encode_shape_model(const shape_model& model);
 
 /// The model in the bytes of a file. Throws gonio::error starting with `name` for what `decode_checked` refuses, counts
 /// that lie, values that are not finite, and triangles that are no surface.
-[[nodiscard]] inline shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name) {
-  const auto payload = decode_checked(detail::shape_model_kind, bytes, name);
-  byte_reader in(payload, name);
-  return detail::take_shape_model(in, name);
-}
+[[nodiscard]] shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name);
 
 /// Writes a model. An existing file is replaced only once the new one is complete.
 inline void write_shape_model(const std::filesystem::path& path, const shape_model& model) {
@@ -109,3 +49,7 @@ inline void write_shape_model(const std::filesystem::path& path, const shape_mod
 }
 
 }  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/shape_model.ipp>
+#endif

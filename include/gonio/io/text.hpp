@@ -22,26 +22,13 @@ struct text_place {
   std::string name;
   std::size_t line = 0;
 
-  [[noreturn]] void refuse(const std::string& what) const {
-    throw error(name + ", line " + std::to_string(line) + ": " + what);
-  }
+  [[noreturn]] void refuse(const std::string& what) const;
 };
 
 /// A field in quotes, short and printable whatever a broken file holds.
-[[nodiscard]] inline std::string quoted(std::string_view field) {
-  constexpr std::size_t longest = 40;
-  std::string text(field.substr(0, longest));
-  std::ranges::replace_if(
-      text, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + text + (field.size() > longest ? "...'" : "'");
-}
+[[nodiscard]] std::string quoted(std::string_view field);
 
-[[nodiscard]] inline std::string_view trimmed(std::string_view text) noexcept {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
-}
+[[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
 /// Calls `use(line)` for each line that holds something, trimmed, `place` being there. Lines that start with # are
 /// comments.
@@ -74,15 +61,14 @@ template <class Describe>
 }
 
 /// The shortest text that reads back as the same number.
-[[nodiscard]] inline std::string shortest(double value) {
-  std::array<char, 32> text{};
-  const auto [end, failed] = std::to_chars(text.data(), text.data() + text.size(), value);
-  GONIO_ASSERT(failed == std::errc());
-  return {text.data(), end};
-}
+[[nodiscard]] std::string shortest(double value);
 
 [[nodiscard]] inline std::string_view as_text(std::span<const std::byte> bytes) noexcept {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 }  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/text.ipp>
+#endif

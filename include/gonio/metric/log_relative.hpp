@@ -27,31 +27,10 @@ class log_relative {
 
   /// `reference` has one value in sr^-1 for each cell. Throws gonio::error if their numbers differ or a
   /// value is negative or not finite.
-  log_relative(valid_cells cells, std::vector<float> reference) : cells_(std::move(cells)) {
-    if (reference.size() != cells_.size())
-      throw error("a reference BRDF over " + std::to_string(cells_.size()) + " cells has " +
-                  std::to_string(reference.size()) + " values");
-    if (!std::ranges::all_of(reference, [](float value) { return value >= 0.0f && std::isfinite(value); }))
-      throw error("a reference BRDF must be finite and not negative");
-    reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
-  }
+  log_relative(valid_cells cells, std::vector<float> reference);
 
   /// The metric relative to the median of all columns at each cell (Eq. 3). O(cells x columns).
-  [[nodiscard]] static log_relative to_median_of(const material_set& materials, thread_count threads = {}) {
-    if (materials.values.cols() == 0) throw error("the median of no material is not defined");
-    std::vector<float> reference(materials.cells.size());
-    for_each_block(
-        reference.size(), 1024,
-        [&](block range) {
-          std::vector<float> row(static_cast<std::size_t>(materials.values.cols()));
-          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-            std::copy_n(materials.values.row(static_cast<Eigen::Index>(cell)).data(), row.size(), row.begin());
-            reference[cell] = std::max(median(row), 0.0f);
-          }
-        },
-        threads);
-    return {materials.cells, std::move(reference)};
-  }
+  [[nodiscard]] static log_relative to_median_of(const material_set& materials, thread_count threads = {});
 
   /// c of Eq. 2.
   [[nodiscard]] static double cosine_weight(const cosine_pair& cosine) noexcept {
@@ -79,12 +58,7 @@ class log_relative {
   }
 
   /// The same metric over other cells, its reference interpolated.
-  [[nodiscard]] log_relative on(const valid_cells& cells) const {
-    std::vector<float> moved(cells.size());
-    for (std::size_t cell = 0; cell < moved.size(); ++cell)
-      moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
-    return {cells, std::move(moved)};
-  }
+  [[nodiscard]] log_relative on(const valid_cells& cells) const;
 
   /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
   static constexpr int companions = 1;
@@ -118,12 +92,7 @@ class log_relative {
   [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
 
  private:
-  [[nodiscard]] static float median(std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    if (values.size() % 2 != 0) return *middle;
-    return 0.5f * (*middle + *std::ranges::max_element(values.begin(), middle));
-  }
+  [[nodiscard]] static float median(std::vector<float>& values);
 
   valid_cells cells_;
   std::shared_ptr<const std::vector<float>> reference_;
@@ -132,3 +101,7 @@ class log_relative {
 static_assert(row_metric<log_relative>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/metric/impl/log_relative.ipp>
+#endif

@@ -16,10 +16,7 @@ namespace gonio {
 class root : public place_free_metric<root> {
  public:
   /// Throws gonio::error unless p is finite and at least 1.
-  explicit root(double p = 2.0) : p_(p) {
-    if (!(p >= 1.0 && std::isfinite(p)))
-      throw error("the root of a metric must be finite and at least 1, not " + std::to_string(p));
-  }
+  explicit root(double p = 2.0);
 
   [[nodiscard]] double p() const noexcept { return p_; }
 
@@ -51,3 +48,7 @@ class root : public place_free_metric<root> {
 static_assert(row_metric<root> && smooth_metric<root>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/metric/impl/root.ipp>
+#endif

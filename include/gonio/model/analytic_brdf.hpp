@@ -92,44 +92,17 @@ class lobe_kind {
 };
 
 /// All isotropic kinds.
-[[nodiscard]] inline std::span<const lobe_kind* const> lobe_kinds() {
-  static const std::array all{&lobe_kind::of<lambert_shape>(),
-                              &lobe_kind::of<phong_shape>(),
-                              &lobe_kind::of<blinn_phong_shape>(),
-                              &lobe_kind::of<phong_blinn_shape>(),
-                              &lobe_kind::of<with_fresnel<phong_shape>::shape>(),
-                              &lobe_kind::of<with_fresnel<blinn_phong_shape>::shape>(),
-                              &lobe_kind::of<with_fresnel<phong_blinn_shape>::shape>(),
-                              &lobe_kind::of<ward_shape>(),
-                              &lobe_kind::of<ward_duer_shape>(),
-                              &lobe_kind::of<ward_bounded_shape>(),
-                              &lobe_kind::of<lafortune_shape>(),
-                              &lobe_kind::of<torrance_sparrow_shape>(),
-                              &lobe_kind::of<ggx_shape>()};
-  return all;
-}
+[[nodiscard]] std::span<const lobe_kind* const> lobe_kinds();
 
 /// The kind of that name. Throws gonio::error listing the names if there is none.
-[[nodiscard]] inline const lobe_kind& lobe_kind_named(std::string_view name) {
-  std::string known;
-  for (const lobe_kind* kind : lobe_kinds()) {
-    if (kind->name() == name) return *kind;
-    known += (known.empty() ? "" : ", ") + std::string(kind->name());
-  }
-  throw error("there is no lobe named '" + std::string(name) + "'; the names are " + known);
-}
+[[nodiscard]] const lobe_kind& lobe_kind_named(std::string_view name);
 
 /// One lobe of a BRDF: a kind, a colour and the parameters of the kind.
 class analytic_lobe {
  public:
   /// Throws gonio::error naming the parameter and its bound if one is out of bounds; a colour must be finite and not
   /// negative.
-  analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters)
-      : kind_(&kind), colour_(colour), parameters_(parameters) {
-    require_usable_colour(kind.name(), colour_);
-    for (std::size_t i = 0; i < kind.parameters().size(); ++i)
-      require_within_bounds(kind.name(), kind.parameters()[i], parameters_[i]);
-  }
+  analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters);
 
   [[nodiscard]] const lobe_kind& kind() const noexcept { return *kind_; }
   [[nodiscard]] const rgb& colour() const noexcept { return colour_; }
@@ -177,3 +150,7 @@ class analytic_brdf {
 static_assert(brdf<analytic_brdf>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/analytic_brdf.ipp>
+#endif

@@ -32,22 +32,7 @@ namespace detail {
 
 /// Where the fit of some lobes starts. Lobes of the same kind must not start alike, or they stay alike: the second is
 /// four times as rough or sharp as the first, the third a fourth, and so on in turns.
-[[nodiscard]] inline std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds) {
-  std::vector<lobe_kind::values> shapes;
-  for (std::size_t l = 0; l < kinds.size(); ++l) {
-    const auto before = std::count(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(l), kinds[l]);
-    lobe_kind::values start = kinds[l]->typical();
-    const auto about = kinds[l]->parameters();
-    for (std::size_t p = 0; p < about.size() && before > 0; ++p) {
-      const double way = (before % 2 == 1 ? 1.0 : -1.0) * static_cast<double>((before + 1) / 2);
-      const double moved = about[p].logarithmic ? start[p] * std::exp2(2.0 * way)
-                                                : start[p] + 0.2 * way * (about[p].highest - about[p].lowest);
-      start[p] = std::clamp(moved, about[p].lowest, about[p].highest);
-    }
-    shapes.push_back(start);
-  }
-  return shapes;
-}
+[[nodiscard]] std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds);
 
 /// Descends over everything, from shapes and the colours that suit them.
 template <class Metric>
@@ -140,3 +125,7 @@ template <smooth_metric Metric = lin>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/fit_model.ipp>
+#endif

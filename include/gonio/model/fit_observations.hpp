@@ -31,19 +31,10 @@ template <sample_range Samples>
 }
 
 /// All cells of a table, each of which counts once. 88 bytes a cell.
-[[nodiscard]] inline std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {}) {
-  const direction normal(0.0, 0.0, 1.0);
-  std::vector<fit_observation> all(table.cells().size(), {lobe_geometry(normal, normal), rgb::Zero(), 1.0});
-  for_each_block(
-      all.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const auto [wi, wo] = to_directions(table.cells().angles(cell));
-          all[cell] = {lobe_geometry(wi, wo), table.at(cell), 1.0};
-        }
-      },
-      threads);
-  return all;
-}
+[[nodiscard]] std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/fit_observations.ipp>
+#endif

@@ -99,18 +99,10 @@ template <template <class> class Shape, class Real>
 }
 
 /// Throws gonio::error naming the shape, the parameter and its bound unless the value is within.
-inline void require_within_bounds(std::string_view shape, const shape_parameter& parameter, double value) {
-  if (value >= parameter.lowest && value <= parameter.highest) return;
-  throw error(std::string(shape) + ": " + std::string(parameter.name) + " must be from " +
-              std::to_string(parameter.lowest) + " to " + std::to_string(parameter.highest) + ", not " +
-              std::to_string(value));
-}
+void require_within_bounds(std::string_view shape, const shape_parameter& parameter, double value);
 
 /// Throws gonio::error naming the shape unless the colour is finite and not negative.
-inline void require_usable_colour(std::string_view shape, const rgb& colour) {
-  if ((colour >= 0.0).all() && colour.isFinite().all()) return;
-  throw error(std::string(shape) + ": the colour must be finite and not negative");
-}
+void require_usable_colour(std::string_view shape, const rgb& colour);
 
 /// Reflectance is held below this where a model has a pole at grazing angles: infinity times no light would be no
 /// number.
@@ -148,3 +140,7 @@ class lobe {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/lobe.ipp>
+#endif

@@ -127,26 +127,7 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
 
 /// Each lobe as often as its albedo is of the sum's, and one in a hundred at least: within an interval of viewers a
 /// lobe may be brighter than in its middle.
-[[nodiscard]] inline direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes) {
-  by_viewer sum{};
-  for (const weighed_lobe& lobe : lobes)
-    for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += lobe.albedo[at];
-  constexpr double least_share = 0.01;
-  direction_mixture mixture;
-  by_viewer black{};  // what reflects nothing may be drawn anyhow
-  for (std::size_t at = 0; at < sum.size(); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
-  mixture.add(cosine_directions{}, black);
-  for (const weighed_lobe& lobe : lobes)
-    for (const sampling_technique& technique : lobe.techniques) {
-      by_viewer shares{};
-      for (std::size_t at = 0; at < sum.size(); ++at)
-        if (sum[at] > 0.0)
-          shares[at] = technique.share * (lobe.albedo[at] / sum[at] + least_share) /
-                       (1.0 + least_share * static_cast<double>(lobes.size()));
-      mixture.add(technique.density, shares);
-    }
-  return mixture;
-}
+[[nodiscard]] direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes);
 
 }  // namespace detail
 
@@ -206,3 +187,7 @@ using analytic_sampler = lobe_sampler<analytic_brdf>;
 static_assert(direction_sampler<analytic_sampler>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/lobe_sampler.ipp>
+#endif

@@ -44,10 +44,7 @@ template <class Amount>
   return worst;
 }
 
-[[nodiscard]] inline double relative_difference(const rgb& a, const rgb& b) {
-  const double size = std::max(a.abs().maxCoeff(), b.abs().maxCoeff());
-  return size > 0.0 ? (a - b).abs().maxCoeff() / size : 0.0;
-}
+[[nodiscard]] double relative_difference(const rgb& a, const rgb& b);
 
 }  // namespace detail
 
@@ -115,3 +112,7 @@ template <brdf Brdf>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/physical_properties.ipp>
+#endif

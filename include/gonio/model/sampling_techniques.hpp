@@ -158,11 +158,7 @@ namespace detail {
 inline constexpr double defensive_share = 0.1;
 
 /// A wide lobe is like a diffuse one, a narrow one not at all.
-[[nodiscard]] inline sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density,
-                                                             double exponent) {
-  const double share = 1.0 / (1.0 + exponent);
-  return {{density, 1.0 - share}, {cosine_directions{}, share}};
-}
+[[nodiscard]] sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density, double exponent);
 
 /// Ward's lobe by Gaussian slopes has the weight (wo . h) h_z^3 sqrt(cos theta_i / cos theta_o) (Walter 2005),
 /// or without the root, which grows without bound towards grazing viewers.
@@ -185,17 +181,8 @@ inline constexpr double defensive_share = 0.1;
 }
 /// Powers are convex: ((1 - alpha) a + alpha b)^s <= (1 - alpha) a^s + alpha b^s for s >= 1, so that the mixture of
 /// Phong's and Blinn-Phong's directions bounds the weights.
-[[nodiscard]] inline sampling_techniques techniques_of(const phong_blinn::shape_type& shape) {
-  const double cosine_share = std::max(detail::defensive_share, 1.0 / (1.0 + shape.shininess)),
-               rest = 1.0 - cosine_share;
-  return {{power_cosine_directions{.exponent = shape.shininess}, rest * (1.0 - shape.alpha)},
-          {power_cosine_half_vectors{4.0 * shape.shininess}, rest * shape.alpha},
-          {cosine_directions{}, cosine_share}};
-}
-[[nodiscard]] inline sampling_techniques techniques_of(const lafortune::shape_type& shape) {
-  return detail::with_cosine_if_wide(
-      power_cosine_directions{shape.exponent, -std::sin(shape.tilt), std::cos(shape.tilt)}, shape.exponent);
-}
+[[nodiscard]] sampling_techniques techniques_of(const phong_blinn::shape_type& shape);
+[[nodiscard]] sampling_techniques techniques_of(const lafortune::shape_type& shape);
 
 [[nodiscard]] inline sampling_techniques techniques_of(const ward::shape_type& shape) {
   return detail::ward_techniques(shape.roughness, shape.roughness);
@@ -263,14 +250,10 @@ template <template <class> class... Shapes>
 
 /// By the name of its kind. A kind that is not of this library is drawn by cosine-weighted directions: never wrong, but
 /// noisy where it shines.
-[[nodiscard]] inline sampling_techniques techniques_of(const analytic_lobe& f) {
-  using detail::anisotropic_ward, detail::ward_normalisation;
-  return detail::techniques_among<
-      lambert_shape, phong_shape, blinn_phong_shape, phong_blinn_shape, with_fresnel<phong_shape>::shape,
-      with_fresnel<blinn_phong_shape>::shape, with_fresnel<phong_blinn_shape>::shape, ward_shape, ward_duer_shape,
-      ward_bounded_shape, anisotropic_ward<ward_normalisation::geometric_mean>::shape,
-      anisotropic_ward<ward_normalisation::product>::shape, anisotropic_ward<ward_normalisation::bounded>::shape,
-      lafortune_shape, torrance_sparrow_shape, ggx_shape>(f);
-}
+[[nodiscard]] sampling_techniques techniques_of(const analytic_lobe& f);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/sampling_techniques.ipp>
+#endif

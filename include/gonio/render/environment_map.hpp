@@ -34,17 +34,7 @@ class environment_map {
  public:
   /// Takes a picture of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
   /// and not negative and at least one is positive. O(pixels).
-  explicit environment_map(image latitude_longitude) : picture_(std::move(latitude_longitude)) {
-    check_shape();
-    check_values();
-    row_solid_angles_.reserve(rows());
-    const double step = std::numbers::pi / static_cast<double>(rows());
-    for (std::size_t row = 0; row < rows(); ++row) {
-      // cos a - cos b as a product, which has no cancellation at the poles; a pixel is as wide as it is high.
-      const double middle = step * (static_cast<double>(row) + 0.5);
-      row_solid_angles_.push_back(step * 2.0 * std::sin(middle) * std::sin(0.5 * step));
-    }
-  }
+  explicit environment_map(image latitude_longitude);
 
   /// Tabulates radiance given by a function of world directions, at pixel centres: `environment_map::of(
   /// formula_environment{})` for those who have no light probe. Throws gonio::error as the constructor does.
@@ -94,25 +84,9 @@ class environment_map {
     return {std::sin(polar) * std::sin(longitude), std::cos(polar), -std::sin(polar) * std::cos(longitude)};
   }
 
-  void check_shape() const {
-    if (rows() == 0 || columns() != 2 * rows() || picture_.shape(2) != 3)
-      throw error("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
-                  std::to_string(picture_.shape(2)) +
-                  "): a latitude-longitude picture is twice as wide as high and has 3 channels");
-  }
+  void check_shape() const;
 
-  void check_values() const {
-    const float* end = picture_.data() + picture_.size();
-    const float* bad = std::find_if(picture_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
-    if (bad != end) {
-      const auto at = static_cast<std::size_t>(bad - picture_.data()) / 3;
-      throw error("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
-                  ") of an environment map is " + std::to_string(*bad) +
-                  ": radiance must be finite and must not be negative");
-    }
-    if (std::all_of(picture_.data(), end, [](float v) { return v == 0.0f; }))
-      throw error("an environment map is black everywhere: there must be some light");
-  }
+  void check_values() const;
 
   image picture_;
   std::vector<double> row_solid_angles_;
@@ -120,15 +94,7 @@ class environment_map {
 
 /// Every pixel that is not black as a directional light: brute force, O(pixels) for each point of a sphere. Lights are
 /// in row-major order.
-[[nodiscard]] inline directional_lighting all_lights(const environment_map& map) {
-  std::vector<directional_light> lights;
-  for (std::size_t row = 0; row < map.rows(); ++row)
-    for (std::size_t column = 0; column < map.columns(); ++column) {
-      const rgb irradiance = map.irradiance(row, column);
-      if ((irradiance > 0.0).any()) lights.push_back({map.towards(row, column), irradiance});
-    }
-  return directional_lighting(std::move(lights));
-}
+[[nodiscard]] directional_lighting all_lights(const environment_map& map);
 
 namespace detail {
 
@@ -155,14 +121,7 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 }
 
 /// One number in each of [0, 1), [1, 2), ... [count - 1, count), the same on every platform.
-[[nodiscard]] inline std::vector<double> stratified_draws(std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<double> draws;
-  draws.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
-    draws.push_back(static_cast<double>(i) + static_cast<double>(generator() >> 11) * 0x1p-53);
-  return draws;
-}
+[[nodiscard]] std::vector<double> stratified_draws(std::size_t count, std::uint64_t seed);
 
 }  // namespace detail
 
@@ -176,32 +135,13 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 /// way.
 ///
 /// Throws gonio::error if count is 0. O(pixels); `seed` alone decides.
-[[nodiscard]] inline directional_lighting important_lights(const environment_map& map, std::size_t count,
-                                                           std::uint64_t seed) {
-  if (count == 0) throw error("cannot stand for an environment map with 0 lights: at least one is needed");
-  double total = 0.0;
-  detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
-    total += luminance(map.irradiance(row, column));
-  });
-  const std::vector<double> draws = detail::stratified_draws(count, seed);
-
-  // Walk along the curve: each pixel is as long as its expected number of draws, and those that fall on it are its.
-  std::vector<directional_light> lights;
-  auto next = draws.begin();
-  double walked = 0.0;
-  detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
-    const rgb irradiance = map.irradiance(row, column);
-    const double expected = luminance(irradiance) * (static_cast<double>(count) / total);
-    walked += expected;
-    const auto first = next;
-    while (next != draws.end() && *next < walked) ++next;
-    if (next != first)
-      lights.push_back({map.towards(row, column), irradiance * (static_cast<double>(next - first) / expected)});
-  });
-  return directional_lighting(std::move(lights));
-}
+[[nodiscard]] directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed);
 
 static_assert(std::is_invocable_r_v<rgb, const environment_map&, const direction&>);
 static_assert(sphere_lighting<environment_lighting<environment_map>>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/render/impl/environment_map.ipp>
+#endif

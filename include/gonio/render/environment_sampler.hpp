@@ -27,16 +27,7 @@ struct sampled_light {
 class environment_sampler {
  public:
   /// O(pixels); eight bytes each.
-  explicit environment_sampler(environment_map map) : map_(std::move(map)) {
-    reached_.reserve(map_.rows() * map_.columns() + 1);
-    double sum = 0.0;
-    for (std::size_t row = 0; row < map_.rows(); ++row)
-      for (std::size_t column = 0; column < map_.columns(); ++column) {
-        reached_.push_back(sum);
-        sum += luminance(map_.irradiance(row, column));
-      }
-    reached_.push_back(sum);
-  }
+  explicit environment_sampler(environment_map map);
 
   [[nodiscard]] const environment_map& map() const noexcept { return map_; }
 
@@ -71,3 +62,7 @@ class environment_sampler {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/render/impl/environment_sampler.ipp>
+#endif

@@ -61,22 +61,7 @@ class horizon_index {
  public:
   /// O(cells of the grid). Throws gonio::error if there is a theta_d and phi_d at which no cell is above the horizon,
   /// which takes a grid with more than twice the square of theta_h's extent along theta_d.
-  explicit horizon_index(const gonio::grid& cells = gonio::grid())
-      : grid_(cells), rows_(unsigned_of(cells.extents().theta_d)), columns_(unsigned_of(cells.extents().phi_d)) {
-    last_.assign(rows_ * columns_, none);
-    begin_.reserve(unsigned_of(cells.extents().theta_h) * rows_);
-    for_each_smaller_cosine(cells, [&](std::size_t cell, double cosine) {
-      const std::size_t phi = cell % columns_, row = cell / columns_;
-      if (phi == 0) begin_.push_back(size_);
-      if (!(cosine > horizon_cosine)) return;
-      if (row_of_last_ != row) begin_.back() = size_ - static_cast<std::uint32_t>(phi);
-      row_of_last_ = row;
-      last_[row % rows_ * columns_ + phi] = static_cast<std::uint16_t>(row / rows_);
-      ++size_;
-    });
-    const auto empty = std::ranges::find(last_, none);
-    if (empty != last_.end()) refuse(sentence(static_cast<std::size_t>(empty - last_.begin())));
-  }
+  explicit horizon_index(const gonio::grid& cells = gonio::grid());
 
   /// The number of cells above the horizon.
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
@@ -137,12 +122,7 @@ class horizon_index {
     return grid_.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
   }
 
-  [[nodiscard]] std::string sentence(std::size_t column) const {
-    const auto [theta_h, theta_d, phi_d] = grid_.extents();
-    return "a grid of " + std::to_string(theta_h) + " x " + std::to_string(theta_d) + " x " + std::to_string(phi_d) +
-           " cells has none above the horizon at theta_d " + std::to_string(column / columns_) + ", phi_d " +
-           std::to_string(column % columns_) + ": it needs more cells along theta_h";
-  }
+  [[nodiscard]] std::string sentence(std::size_t column) const;
 
   gonio::grid grid_;
   std::size_t rows_, columns_;
@@ -153,3 +133,7 @@ class horizon_index {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/render/impl/horizon_index.ipp>
+#endif

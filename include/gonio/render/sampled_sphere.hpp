@@ -44,18 +44,7 @@ class even_pairs {
   };
   using pairs = std::array<pair, kinds>;
 
-  even_pairs(std::size_t count, std::uint64_t seed, std::uint64_t stream)
-      : generator_(seed * 0x9E3779B97F4A7C15u + stream), all_(count) {
-    for (std::size_t kind = 0; kind < kinds; ++kind) {
-      const double first_u = next(), first_v = next();
-      for (std::size_t i = 0; i < count; ++i) {
-        const double u = first_u + static_cast<double>(i) / root, v = first_v + static_cast<double>(i) / (root * root);
-        all_[i][kind] = {u - std::floor(u), v - std::floor(v)};
-      }
-      for (std::size_t i = count; i > 1; --i)
-        std::swap(all_[i - 1][kind], all_[static_cast<std::size_t>(next() * static_cast<double>(i))][kind]);
-    }
-  }
+  even_pairs(std::size_t count, std::uint64_t seed, std::uint64_t stream);
 
   [[nodiscard]] auto begin() const noexcept { return all_.begin(); }
   [[nodiscard]] auto end() const noexcept { return all_.end(); }
@@ -153,3 +142,7 @@ template <direction_sampler Sampler>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/render/impl/sampled_sphere.ipp>
+#endif

@@ -39,21 +39,7 @@ struct sphere_point {
 };
 
 /// The samples of a size x size grid that lie on the sphere, row by row from the top.
-[[nodiscard]] inline std::vector<sphere_point> sphere_points(int size) {
-  GONIO_ASSERT(size >= 1);
-  std::vector<sphere_point> points;
-  const auto centre = [size](int i) { return (i + 0.5) / size * 2.0 - 1.0; };
-  for (int row = 0; row < size; ++row)
-    for (int column = 0; column < size; ++column) {
-      const double x = centre(column), y = -centre(row);
-      const double squared_radius = x * x + y * y;
-      if (!(squared_radius < 1.0)) continue;
-      points.push_back({static_cast<std::uint32_t>(row),
-                        static_cast<std::uint32_t>(column),
-                        {x, y, std::sqrt(1.0 - squared_radius)}});
-    }
-  return points;
-}
+[[nodiscard]] std::vector<sphere_point> sphere_points(int size);
 
 namespace detail {
 
@@ -161,31 +147,10 @@ class sphere_operator {
 
   /// The colours of a sphere made of this table. Same bytes for any number of threads. Throws gonio::error if
   /// the table is over other cells.
-  [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const {
-    if (!(table.cells() == cells_))
-      throw error("a sphere operator over " + std::to_string(cells_.size()) +
-                  " cells was given a table over other cells (" + std::to_string(table.cells().size()) + " of them)");
-    sphere_colours colours(static_cast<Eigen::Index>(rows_.size()), 3);
-    for_each_block(
-        rows_.size(), detail::sphere_block,
-        [&](block range) {
-          for (std::size_t point = range.begin; point < range.end; ++point)
-            colours.row(static_cast<Eigen::Index>(point)) = radiance(rows_[point], table.values()).transpose();
-        },
-        threads);
-    return colours;
-  }
+  [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const;
 
   /// The colours as a picture.
-  [[nodiscard]] image to_image(const sphere_colours& colours, const rgb& background = rgb::Zero()) const {
-    GONIO_ASSERT(colours.rows() == static_cast<Eigen::Index>(points_.size()));
-    const auto side = static_cast<std::size_t>(size_);
-    image picture = uniform_image(side, side, background);
-    for (std::size_t point = 0; point < points_.size(); ++point)
-      set_pixel(picture, points_[point].row, points_[point].column,
-                colours.row(static_cast<Eigen::Index>(point)).transpose());
-    return picture;
-  }
+  [[nodiscard]] image to_image(const sphere_colours& colours, const rgb& background = rgb::Zero()) const;
 
  private:
   struct entry {
@@ -216,3 +181,7 @@ class sphere_operator {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/render/impl/sphere.ipp>
+#endif

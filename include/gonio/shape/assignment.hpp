@@ -21,19 +21,7 @@ namespace detail {
 
 /// 2^40 steps between the least and the largest cost, of opposite sign as dlib maximises, with rows or columns of zeros
 /// to make a square: whoever is assigned there is left over, and all pay the same for it.
-[[nodiscard]] inline dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
-  constexpr double steps = 0x1p40;
-  const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));
-  dlib::matrix<std::int64_t> gains(size, size);
-  gains = 0;
-  // Halves, so that the range of finite numbers is finite.
-  const double least = 0.5 * costs.minCoeff(), range = 0.5 * costs.maxCoeff() - least;
-  if (!(range > 0.0)) return gains;
-  for (Eigen::Index j = 0; j < costs.cols(); ++j)
-    for (Eigen::Index i = 0; i < costs.rows(); ++i)
-      gains(i, j) = -std::llround((0.5 * costs(i, j) - least) / range * steps);
-  return gains;
-}
+[[nodiscard]] dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs);
 
 }  // namespace detail
 
@@ -43,18 +31,10 @@ namespace detail {
 /// The time is O(n^3) for the longer side n: 7 ms for 300, 0.1 s for 1000.
 ///
 /// Throws gonio::error for a cost that is not finite.
-[[nodiscard]] inline std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs) {
-  for (Eigen::Index j = 0; j < costs.cols(); ++j)
-    for (Eigen::Index i = 0; i < costs.rows(); ++i)
-      if (!std::isfinite(costs(i, j)))
-        throw error("the cost of assigning row " + std::to_string(i) + " to column " + std::to_string(j) +
-                    " is not finite");
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.rows()), -1);
-  if (costs.size() == 0) return columns;
-  const std::vector<long> found = dlib::max_cost_assignment(detail::integer_gains(costs));
-  for (std::size_t row = 0; row < columns.size(); ++row)
-    if (found[row] < costs.cols()) columns[row] = found[row];
-  return columns;
-}
+[[nodiscard]] std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/assignment.ipp>
+#endif

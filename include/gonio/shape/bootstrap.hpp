@@ -56,18 +56,11 @@ namespace detail {
 class growing_model {
  public:
   growing_model(std::vector<point_columns> shapes, std::vector<std::string> names, triangle_columns triangles,
-                thread_count threads)
-      : shapes_(std::move(shapes)),
-        names_(std::move(names)),
-        threads_(threads),
-        model_(learn_shape_model(shapes_, names_, std::move(triangles), threads)) {}
+                thread_count threads);
 
   [[nodiscard]] const shape_model& model() const noexcept { return model_; }
 
-  void add(std::string name, point_columns shape) {
-    names_.push_back(std::move(name));
-    shapes_.push_back(std::move(shape));
-  }
+  void add(std::string name, point_columns shape);
 
   /// How many shapes it has not learned from yet, as a share of those that it has.
   [[nodiscard]] double unlearned() const {
@@ -84,55 +77,22 @@ class growing_model {
 };
 
 /// One attempt at a scan.
-[[nodiscard]] inline bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
-                                               const triangle_mesh& scan, const bootstrap_options& options,
-                                               thread_count threads) {
-  bootstrap_outcome outcome;
-  try {
-    const pre_alignment aligned = matcher.align(scan, threads);
-    outcome.distance = aligned.mean_distance;
-    if (aligned.mean_distance > options.largest_distance) {
-      outcome.refusal = "its mean distance from the mean shape is " + std::to_string(aligned.mean_distance) +
-                        " mm after the alignment, expected at most " + std::to_string(options.largest_distance);
-      return outcome;
-    }
-    outcome.registered = register_scan(model, surface_index(scan), aligned.transform, options.registration, threads);
-    outcome.refusal = outcome.registered->refusal;
-  } catch (const error& refusal) {
-    outcome.refusal = refusal.what();  // it is no surface, or shows hardly any of the model
-  }
-  return outcome;
-}
+[[nodiscard]] bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
+                                        const triangle_mesh& scan, const bootstrap_options& options,
+                                        thread_count threads);
 
 }  // namespace detail
 
 /// Grows a model from corresponded shapes by scans of any triangulation. Scans that are refused are tried again by the
 /// grown model, until a pass over them accepts none. Throws gonio::error if the first shapes are no model (see
 /// `learn_shape_model`); what is wrong with a scan is its outcome.
-[[nodiscard]] inline bootstrap_result bootstrap_shape_model(std::vector<point_columns> shapes,
-                                                            std::vector<std::string> names, triangle_columns triangles,
-                                                            std::span<const named_scan> scans,
-                                                            const bootstrap_options& options = {},
-                                                            thread_count threads = {}, const progress& listener = {}) {
-  detail::growing_model growing(std::move(shapes), std::move(names), std::move(triangles), threads);
-  std::vector<bootstrap_outcome> outcomes(scans.size(), {0.0, {}, "it was not tried", 0});
-  for (int pass = 0; pass < options.passes; ++pass) {
-    const shape_context_matcher matcher(growing.model().mean(), options.alignment, threads);
-    bool grew = false;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      report(listener, "pass " + std::to_string(pass + 1), static_cast<double>(i) / static_cast<double>(scans.size()));
-      if (outcomes[i].accepted()) continue;
-      outcomes[i] = detail::attempt(growing.model(), matcher, scans[i].mesh, options, threads);
-      outcomes[i].pass = pass;
-      if (!outcomes[i].accepted()) continue;
-      grew = true;
-      growing.add(scans[i].name, outcomes[i].registered->vertices);
-      if (growing.unlearned() >= options.growth) growing.learn();
-    }
-    if (growing.unlearned() > 0.0) growing.learn();
-    if (!grew) break;
-  }
-  return {growing.model(), std::move(outcomes)};
-}
+[[nodiscard]] bootstrap_result bootstrap_shape_model(std::vector<point_columns> shapes, std::vector<std::string> names,
+                                                     triangle_columns triangles, std::span<const named_scan> scans,
+                                                     const bootstrap_options& options = {}, thread_count threads = {},
+                                                     const progress& listener = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/bootstrap.ipp>
+#endif

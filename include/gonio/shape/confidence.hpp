@@ -34,12 +34,10 @@ template <class Distribution>
 }
 
 /// The same of an F variable.
-[[nodiscard]] inline double f_quantile(double share, double numerator_degrees, double denominator_degrees) {
-  return detail::quantile(share, [=](double x) {
-    const double part = numerator_degrees * x;
-    return Eigen::numext::betainc(0.5 * numerator_degrees, 0.5 * denominator_degrees,
-                                  part / (part + denominator_degrees));
-  });
-}
+[[nodiscard]] double f_quantile(double share, double numerator_degrees, double denominator_degrees);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/confidence.ipp>
+#endif

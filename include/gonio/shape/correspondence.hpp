@@ -25,12 +25,7 @@ struct posed_scan {
 
   /// The nearest place on a line through a point of the model's space, at most `reach` away.
   [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
-                                                   double reach) const {
-    const similarity_transform back = pose.inverse();
-    const auto found = surface.along(back(point), back.rotation * line, reach * back.scale);
-    if (!found) return {};
-    return placed(*found);
-  }
+                                                   double reach) const;
 
   /// The outward normal at a place that was found, in the model's space: see `surface_index::pseudonormal`.
   [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const {
@@ -38,18 +33,10 @@ struct posed_scan {
   }
 
   /// How much a place counts: 1 if nothing is said about the surface's vertices.
-  [[nodiscard]] double trust_at(const surface_point& place) const {
-    if (trust.size() == 0) return 1.0;
-    const Eigen::Vector3i corners = surface.mesh().triangles.col(place.triangle);
-    return trust(corners).dot(place.barycentric);
-  }
+  [[nodiscard]] double trust_at(const surface_point& place) const;
 
  private:
-  [[nodiscard]] surface_point placed(surface_point found) const {
-    found.position = pose(found.position);
-    found.distance *= pose.scale;
-    return found;
-  }
+  [[nodiscard]] surface_point placed(surface_point found) const;
 };
 
 /// When a vertex counts as shown by a scan.
@@ -60,44 +47,19 @@ struct correspondence_options {
 };
 
 /// Places on a scan of those vertices that it shows, with the normals of the shape that looked for them.
-[[nodiscard]] inline known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
-                                                   const std::vector<char>& shown, double tangential) {
-  known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
-  found.normals = normals(Eigen::all, found.vertices);
-  found.tangential = tangential;
-  return found;
-}
+[[nodiscard]] known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
+                                            const std::vector<char>& shown, double tangential);
 
 /// The place on the scan of each vertex of a shape that is there.
 ///
 /// What is off across the surface is measured along the shape's normals, not the scan's: those of a triangle are off by
 /// some degrees where the scan is noisy by a tenth of its length, and vertices that slide along such a surface seem to
 /// leave it.
-[[nodiscard]] inline known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
-                                                   const correspondence_options& options = {},
-                                                   thread_count threads = {}) {
-  const point_columns normals = vertex_normals(shape);
-  const auto count = static_cast<std::size_t>(shape.vertices.cols());
-  point_columns places(3, shape.vertices.cols());
-  Eigen::VectorXd trust(shape.vertices.cols());
-  std::vector<char> shown(count, 0);  // not bool: threads write neighbours
-  for_each_block(
-      count, 128,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto vertex = static_cast<Eigen::Index>(i);
-          const surface_point found = scan.closest(shape.vertices.col(vertex));
-          places.col(vertex) = found.position;
-          trust[vertex] = scan.trust_at(found);
-          // What is missing in the scan is nearest to where it ends.
-          shown[i] = !found.on_border && found.distance <= options.reach &&
-                     scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
-        }
-      },
-      threads);
-  known_vertices known = shown_vertices(places, normals, shown, options.tangential);
-  known.trust = trust(known.vertices);
-  return known;
-}
+[[nodiscard]] known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
+                                            const correspondence_options& options = {}, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/correspondence.ipp>
+#endif

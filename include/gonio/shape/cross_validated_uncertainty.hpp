@@ -42,19 +42,7 @@ class cross_validated_uncertainty {
   /// Throws gonio::error for fewer than 10 trials or more than there are shapes, for fewer than two parts or parts of
   /// which one leaves fewer than two shapes, and if fewer than 10 of the shapes are recovered.
   cross_validated_uncertainty(const shape_model& model, const surface_index& scan, const recovered_shape& recovered,
-                              const cross_validation_options& options = {}, thread_count threads = {}) {
-    require_trials(model, options);
-    const std::vector<point_columns> errors =
-        errors_of_trials(model, noise_of(scan), marks_of(recovered.known, model.vertices()), options, threads);
-    if (errors.size() < least_trials)
-      throw error("of " + std::to_string(options.trials) + " shapes that were left out " +
-                  std::to_string(errors.size()) + " were recovered, expected at least " + std::to_string(least_trials) +
-                  ": the scan shows too little");
-    trials_ = errors.size();
-    covariances_.reserve(static_cast<std::size_t>(model.vertices()));
-    for (Eigen::Index vertex = 0; vertex < model.vertices(); ++vertex) add_vertex(errors, vertex);
-    std::ranges::sort(squared_distances_);
-  }
+                              const cross_validation_options& options = {}, thread_count threads = {});
 
   /// How many shapes were recovered.
   [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
@@ -70,113 +58,32 @@ class cross_validated_uncertainty {
   /// "Distribution-free inference with hierarchical data", arXiv:2306.06342). Shares above trials / (trials + 1) cannot
   /// be told; for them it is the largest that was measured. Throws gonio::error unless the share is above 0 and
   /// below 1.
-  [[nodiscard]] double squared_radius(double share) const {
-    if (!(share > 0.0 && share < 1.0))
-      throw error("a share of vertices must be above 0 and below 1, not " + std::to_string(share));
-    const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
-    const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
-    return squared_distances_[static_cast<std::size_t>(place) - 1];
-  }
+  [[nodiscard]] double squared_radius(double share) const;
 
  private:
   static constexpr std::size_t least_trials = 10;
 
-  static void require_trials(const shape_model& model, const cross_validation_options& options) {
-    const std::size_t shapes = model.shapes();
-    if (options.trials < least_trials || options.trials > shapes)
-      throw error("from " + std::to_string(least_trials) + " to " + std::to_string(shapes) +
-                  " shapes can be left out, not " + std::to_string(options.trials));
-    if (options.parts < 2 || shapes < options.parts || shapes - (shapes + options.parts - 1) / options.parts < 2)
-      throw error(std::to_string(shapes) + " shapes cannot be left out in " + std::to_string(options.parts) +
-                  " parts: expected at least 2, of which each leaves at least 2 shapes");
-  }
+  static void require_trials(const shape_model& model, const cross_validation_options& options);
 
   /// The noise of a scan, mm: where it is as noisy as in most places.
-  [[nodiscard]] static double noise_of(const surface_index& scan) {
-    Eigen::RowVectorXd variances = noise_variances(scan.mesh(), scan.topology());
-    const auto middle = variances.begin() + variances.size() / 2;
-    std::nth_element(variances.begin(), middle, variances.end());
-    return std::sqrt(*middle);
-  }
+  [[nodiscard]] static double noise_of(const surface_index& scan);
 
   /// The models of all shapes but those of one part.
   [[nodiscard]] static std::vector<shape_model> models_without_parts(const shape_model& model,
                                                                      const std::vector<point_columns>& shapes,
-                                                                     std::size_t parts, thread_count threads) {
-    std::vector<shape_model> models;
-    for (std::size_t part = 0; part < parts; ++part) {
-      std::vector<point_columns> others;
-      std::vector<std::string> names;
-      for (std::size_t i = 0; i < shapes.size(); ++i) {
-        if (i % parts == part) continue;
-        others.push_back(shapes[i]);
-        names.push_back(model.basis().names()[i]);
-      }
-      models.push_back(learn_shape_model(others, std::move(names), model.triangles(), threads));
-    }
-    return models;
-  }
+                                                                     std::size_t parts, thread_count threads);
 
   /// What is off when a shape is recovered by others; nothing if hardly any of its vertices are found on it.
   [[nodiscard]] static std::optional<point_columns> error_of(const shape_model& others, const point_columns& shape,
                                                              const std::vector<bool>& shown, double noise,
-                                                             std::uint64_t seed, const recovery_options& options) {
-    triangle_mesh noisy = others.mesh(shape);
-    const point_columns normals = vertex_normals(noisy);
-    std::mt19937_64 generator(seed);
-    // Only its variance matters: a uniform number, as the standard's normal ones differ between libraries.
-    for (Eigen::Index v = 0; v < normals.cols(); ++v) {
-      const double centred = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
-      noisy.vertices.col(v) += noise * std::sqrt(12.0) * centred * normals.col(v);
-    }
-    try {
-      const triangle_mesh scan = part_of(noisy, shown);
-      constexpr thread_count one{1};
-      const similarity_transform pose = align_by_shape_context(scan, others.mean(), {}, one).transform;
-      recovery_options of_the_family = options;  // it is, and the rare ones belong to what is measured
-      of_the_family.confidence = 1.0 - 1e-12;
-      const recovered_shape found = recover(others, surface_index(scan), pose, of_the_family, one);
-      return found.pose.inverse()(found.surface.vertices) - shape;
-    } catch (const error&) {
-      return {};
-    }
-  }
+                                                             std::uint64_t seed, const recovery_options& options);
 
   [[nodiscard]] static std::vector<point_columns> errors_of_trials(const shape_model& model, double noise,
                                                                    const std::vector<bool>& shown,
                                                                    const cross_validation_options& options,
-                                                                   thread_count threads) {
-    std::vector<point_columns> shapes;
-    for (const auto& weights : model.basis().coefficients().rowwise())
-      shapes.push_back(shape_of(model.basis(), weights.transpose().cast<double>()));
-    const std::vector<shape_model> models = models_without_parts(model, shapes, options.parts, threads);
-    std::vector<std::optional<point_columns>> found(options.trials);
-    for_each_block(
-        options.trials, 1,
-        [&](block trial) {
-          const std::size_t left_out = trial.begin * shapes.size() / options.trials;
-          found[trial.begin] = error_of(models[left_out % options.parts], shapes[left_out], shown, noise,
-                                        options.seed + left_out, options.recovery);
-        },
-        threads);
-    std::vector<point_columns> errors;
-    for (auto& one : found)
-      if (one) errors.push_back(std::move(*one));
-    return errors;
-  }
+                                                                   thread_count threads);
 
-  void add_vertex(const std::vector<point_columns>& errors, Eigen::Index vertex) {
-    const auto n = static_cast<double>(errors.size());
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    for (const point_columns& one : errors) sum += one.col(vertex) * one.col(vertex).transpose();
-    covariances_.push_back(sum / n);
-    const Eigen::LLT<Eigen::Matrix3d> factors(sum);
-    for (const point_columns& one : errors) {
-      const double with_itself = one.col(vertex).dot(factors.solve(one.col(vertex)));
-      // By the covariance of the others, (sum - e e') / (n - 1): Sherman and Morrison.
-      squared_distances_.push_back((n - 1.0) * with_itself / std::max(1.0 - with_itself, 1e-12));
-    }
-  }
+  void add_vertex(const std::vector<point_columns>& errors, Eigen::Index vertex);
 
   std::size_t trials_ = 0;
   std::vector<Eigen::Matrix3d> covariances_;
@@ -184,3 +91,7 @@ class cross_validated_uncertainty {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/cross_validated_uncertainty.ipp>
+#endif

@@ -32,99 +32,34 @@ struct known_vertices {
   Eigen::VectorXd trust = {};  ///< none, or how much the square of what is off at each counts, not negative
 
   /// Those of a shape whose mark is set.
-  [[nodiscard]] static known_vertices marked(const point_columns& shape, const std::vector<bool>& known) {
-    known_vertices found;
-    for (std::size_t v = 0; v < known.size(); ++v)
-      if (known[v]) found.vertices.push_back(static_cast<Eigen::Index>(v));
-    found.positions = shape(Eigen::all, found.vertices);
-    return found;
-  }
+  [[nodiscard]] static known_vertices marked(const point_columns& shape, const std::vector<bool>& known);
 };
 
 /// Which of so many vertices are known.
-[[nodiscard]] inline std::vector<bool> marks_of(const known_vertices& known, Eigen::Index vertices) {
-  std::vector<bool> marks(static_cast<std::size_t>(vertices), false);
-  for (const Eigen::Index vertex : known.vertices) marks[static_cast<std::size_t>(vertex)] = true;
-  return marks;
-}
+[[nodiscard]] std::vector<bool> marks_of(const known_vertices& known, Eigen::Index vertices);
 
 namespace detail {
 
 /// x, y and z of a vertex as an estimator reads them, one in each direction; `axes` has a unit vector in each column.
-inline void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at) {
-  for (const auto& axis : axes.colwise()) {
-    location along;
-    along.count = 3;
-    for (int i = 0; i < 3; ++i) {
-      along.cell[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(3 * vertex + i);
-      along.weight[static_cast<std::size_t>(i)] = axis[i];
-    }
-    at.push_back(along);
-  }
-}
+void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at);
 
 /// The normal and two directions across it.
-[[nodiscard]] inline Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal) {
-  Eigen::Matrix3d axes;
-  axes.col(0) = normal;
-  axes.col(1) = normal.unitOrthogonal();
-  axes.col(2) = normal.cross(axes.col(1));
-  return axes;
-}
+[[nodiscard]] Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal);
 
-inline void require_known(const vertex_coordinates& coordinates, const known_vertices& known) {
-  const auto count = static_cast<Eigen::Index>(known.vertices.size());
-  if (count == 0) throw error("no vertex is known: there is nothing to predict a shape from");
-  const auto none_or_all = [&](Eigen::Index size) { return size == 0 || size == count; };
-  if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.trust.size()))
-    throw error(std::to_string(count) + " known vertices have " + std::to_string(known.positions.cols()) +
-                " positions, " + std::to_string(known.normals.cols()) + " normals and " +
-                std::to_string(known.trust.size()) + " weights");
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Eigen::Index vertex = known.vertices[static_cast<std::size_t>(i)];
-    if (vertex < 0 || vertex >= static_cast<Eigen::Index>(coordinates.vertices))
-      throw error("vertex " + std::to_string(vertex) + " is known of shapes of " +
-                  std::to_string(coordinates.vertices) + " vertices");
-    if (!known.positions.col(i).allFinite())
-      throw error("the position of known vertex " + std::to_string(vertex) + " is not finite");
-    if (known.normals.cols() != 0 && !(std::abs(known.normals.col(i).norm() - 1.0) < 1e-6))
-      throw error("the normal at known vertex " + std::to_string(vertex) + " does not have length 1");
-  }
-}
+void require_known(const vertex_coordinates& coordinates, const known_vertices& known);
 
 }  // namespace detail
 
 /// What `decomposition` measures of a shape. Throws gonio::error if no vertex is known, one does not exist or is not
 /// finite, or for another number of positions or normals.
-[[nodiscard]] inline located_samples locate_samples(const vertex_coordinates& coordinates, const known_vertices& known,
-                                                    thread_count /*threads*/ = {}) {
-  detail::require_known(coordinates, known);
-  located_samples found;
-  found.at.reserve(3 * known.vertices.size());
-  found.values.resize(static_cast<Eigen::Index>(3 * known.vertices.size()), 1);
-  found.weights = Eigen::VectorXd::Ones(found.values.rows());
-  for (std::size_t i = 0; i < known.vertices.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    if (known.normals.cols() != 0) {
-      axes = detail::axes_about(known.normals.col(column));
-      found.weights.segment<2>(3 * column + 1).setConstant(known.tangential);
-    }
-    if (known.trust.size() != 0) found.weights.segment<3>(3 * column) *= known.trust[column];
-    detail::locate_along(axes, known.vertices[i], found.at);
-    found.values.col(0).segment<3>(3 * column) = axes.transpose() * known.positions.col(column);
-  }
-  return found;
-}
+[[nodiscard]] located_samples locate_samples(const vertex_coordinates& coordinates, const known_vertices& known,
+                                             thread_count /*threads*/ = {});
 
 /// A shape held as the weights of a basis, and what the solver said about it.
 class fitted_shape {
  public:
   /// Throws gonio::error unless there is one weight for each function.
-  fitted_shape(shape_basis basis, solution found) : basis_(std::move(basis)), found_(std::move(found)) {
-    if (found_.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found_.weights.cols() != 1)
-      throw error("a shape of " + std::to_string(basis_.size()) + " functions needs as many weights");
-  }
+  fitted_shape(shape_basis basis, solution found);
 
   [[nodiscard]] const shape_basis& functions() const noexcept { return basis_; }
   [[nodiscard]] const solution& found() const noexcept { return found_; }
@@ -134,15 +69,7 @@ class fitted_shape {
   [[nodiscard]] point_columns vertices() const { return shape_of(basis_, weights()); }
 
   /// One vertex. O(size of the basis).
-  [[nodiscard]] Eigen::Vector3d vertex(Eigen::Index number) const {
-    Eigen::Vector3d position;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const Eigen::Index coordinate = 3 * number + axis;
-      position[axis] = basis_.offset(static_cast<std::size_t>(coordinate)) +
-                       basis_.components().row(coordinate).cast<double>().dot(found_.weights.col(0));
-    }
-    return position;
-  }
+  [[nodiscard]] Eigen::Vector3d vertex(Eigen::Index number) const;
 
  private:
   shape_basis basis_;
@@ -159,3 +86,7 @@ struct fit_over<vertex_coordinates> {
 static_assert(measured_over<known_vertices, vertex_coordinates>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/fitted_shape.ipp>
+#endif

@@ -57,15 +57,8 @@ void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen:
 /// The length of the shortest path along edges from a vertex to each, in the unit of the mesh; infinite where there is
 /// none. O(vertices log vertices). Throws gonio::error if the topology has another number of vertices than the mesh,
 /// the source is none of them or one is not finite.
-[[nodiscard]] inline Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const mesh_topology& topology,
-                                                        Eigen::Index source) {
-  Eigen::VectorXd distances = Eigen::VectorXd::Constant(mesh.vertices.cols(), std::numeric_limits<double>::infinity());
-  detail::walk_edges(mesh, topology, source, [&](Eigen::Index vertex, double distance) {
-    distances[vertex] = distance;
-    return true;
-  });
-  return distances;
-}
+[[nodiscard]] Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const mesh_topology& topology,
+                                                 Eigen::Index source);
 
 /// The `count` vertices nearest to a vertex along edges among those that `is_candidate(vertex)` tells, ascending,
 /// equally far ones by number; fewer if no more can be reached. The source is one itself if it is a candidate. The walk
@@ -90,3 +83,7 @@ template <std::predicate<Eigen::Index> Candidates>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/geodesic.ipp>
+#endif

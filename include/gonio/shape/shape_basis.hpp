@@ -39,23 +39,7 @@ struct shape_set {
 
   /// Throws gonio::error if there is none, one has no name or another number of vertices than the first, or a vertex is
   /// not finite.
-  [[nodiscard]] static shape_set of(const std::vector<point_columns>& shapes, std::vector<std::string> names) {
-    if (shapes.empty() || shapes.size() != names.size() || shapes[0].cols() == 0)
-      throw error("a set of shapes needs at least one, of at least one vertex, and a name for each: not " +
-                  std::to_string(shapes.size()) + " shapes and " + std::to_string(names.size()) + " names");
-    const Eigen::Index vertices = shapes[0].cols();
-    shape_set set{{static_cast<std::size_t>(vertices)},
-                  std::move(names),
-                  cell_matrix(3 * vertices, static_cast<Eigen::Index>(shapes.size()))};
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      if (shapes[i].cols() != vertices)
-        throw error("shape '" + set.names[i] + "' has " + std::to_string(shapes[i].cols()) + " vertices, expected " +
-                    std::to_string(vertices) + " as '" + set.names[0] + "' has");
-      if (!shapes[i].allFinite()) throw error("shape '" + set.names[i] + "' has a vertex that is not finite");
-      set.values.col(static_cast<Eigen::Index>(i)) = shapes[i].reshaped().cast<float>();
-    }
-    return set;
-  }
+  [[nodiscard]] static shape_set of(const std::vector<point_columns>& shapes, std::vector<std::string> names);
 };
 
 static_assert(observation_set<shape_set>);
@@ -66,17 +50,11 @@ using shape_basis = pca<lin, vertex_coordinates>;
 static_assert(tabulated_basis<shape_basis>);
 
 /// The mean shape.
-[[nodiscard]] inline point_columns mean_shape(const shape_basis& basis) {
-  return Eigen::Map<const Eigen::Matrix3Xf>(basis.mean().data(), 3, static_cast<Eigen::Index>(basis.mean().size() / 3))
-      .cast<double>();
-}
+[[nodiscard]] point_columns mean_shape(const shape_basis& basis);
 
 /// mu + Q w (Eq. 2): the shape of weights w, whose covariance over the m shapes of the basis is I / m. O(size of the
 /// basis x vertices).
-[[nodiscard]] inline point_columns shape_of(const shape_basis& basis, const Eigen::VectorXd& weights) {
-  const Eigen::VectorXf offsets = basis.components() * weights.cast<float>();
-  return mean_shape(basis) + Eigen::Map<const Eigen::Matrix3Xf>(offsets.data(), 3, offsets.size() / 3).cast<double>();
-}
+[[nodiscard]] point_columns shape_of(const shape_basis& basis, const Eigen::VectorXd& weights);
 
 /// The squared Mahalanobis distance of weights from the mean: m |w|^2 for a basis of m shapes. Of shapes of the
 /// family it is distributed as chi-square of as many degrees of freedom as there are weights (section 2).
@@ -86,16 +64,7 @@ static_assert(tabulated_basis<shape_basis>);
 
 /// The fewest components that explain a share of the shapes' variance. Throws gonio::error unless the share is above 0
 /// and at most 1.
-[[nodiscard]] inline shape_basis explaining(const shape_basis& basis, double share) {
-  if (!(share > 0.0 && share <= 1.0))
-    throw error("the explained variance must be above 0 and at most 1, not " + std::to_string(share));
-  const Eigen::VectorXd& sigma = basis.singular_values();
-  const double enough = share * sigma.squaredNorm() * (1.0 - 1e-12);
-  std::size_t kept = 0;
-  for (double sum = 0.0; kept < basis.size() && sum < enough; ++kept)
-    sum += sigma[static_cast<Eigen::Index>(kept)] * sigma[static_cast<Eigen::Index>(kept)];
-  return basis.truncated(kept);
-}
+[[nodiscard]] shape_basis explaining(const shape_basis& basis, double share);
 
 /// How many functions `with_motion` adds.
 inline constexpr Eigen::Index motions = 6;
@@ -107,29 +76,10 @@ inline constexpr Eigen::Index motions = 6;
 /// What is moved is a shape of the family, not its mean: a turn of the mean differs from one of the shape by a change
 /// of shape, and a fit that may turn the mean only ends where the shape would still turn. Throws gonio::error for a
 /// shape of another number of vertices.
-[[nodiscard]] inline shape_basis with_motion(const shape_basis& basis, const point_columns& shape,
-                                             double freedom = 1e3) {
-  if (shape.size() != basis.components().rows())
-    throw error("a shape of " + std::to_string(shape.cols()) + " vertices is to move with a basis of " +
-                std::to_string(basis.components().rows() / 3));
-  const auto k = static_cast<Eigen::Index>(basis.size());
-  const Eigen::Vector3d centroid = shape.rowwise().mean();
-  cell_matrix functions(basis.components().rows(), k + motions);
-  functions.leftCols(k) = basis.components();
-  for (Eigen::Index vertex = 0; vertex < shape.cols(); ++vertex) {
-    const Eigen::Vector3f arm = (shape.col(vertex) - centroid).cast<float>();
-    auto rows = functions.block<3, 6>(3 * vertex, k);
-    rows << 0, arm.z(), -arm.y(), 1, 0, 0,  // turn x arm, and the shift
-        -arm.z(), 0, arm.x(), 0, 1, 0,      //
-        arm.y(), -arm.x(), 0, 0, 0, 1;
-    rows *= static_cast<float>(freedom);
-  }
-  Eigen::VectorXd singular_values(k + motions);
-  singular_values << basis.singular_values(), functions.rightCols(motions).cast<double>().colwise().norm().transpose();
-  Eigen::MatrixXf coefficients = Eigen::MatrixXf::Zero(basis.coefficients().rows(), k + motions);
-  coefficients.leftCols(k) = basis.coefficients();
-  return shape_basis({basis.cells(), basis.metric(), basis.names(), std::move(singular_values), std::move(functions),
-                      basis.mean(), std::move(coefficients), basis.explained_variance(), basis.source()});
-}
+[[nodiscard]] shape_basis with_motion(const shape_basis& basis, const point_columns& shape, double freedom = 1e3);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/shape_basis.ipp>
+#endif

@@ -36,11 +36,7 @@ class shape_model {
   [[nodiscard]] triangle_mesh shape(const Eigen::VectorXd& weights) const { return mesh(shape_of(basis_, weights)); }
 
   /// The model of the components that explain a share of the variance alone: see `explaining`.
-  [[nodiscard]] shape_model explaining(double share) const {
-    shape_model fewer(*this);
-    fewer.basis_ = gonio::explaining(basis_, share);
-    return fewer;
-  }
+  [[nodiscard]] shape_model explaining(double share) const;
 
  private:
   struct surface_template {
@@ -62,16 +58,11 @@ class shape_model {
 /// Learns a model from corresponded shapes: aligns them to one another (generalised Procrustes) and takes all of their
 /// principal components. O(vertices x shapes^2). Throws gonio::error for fewer than two shapes, shapes of different
 /// numbers of vertices, vertices that are not finite, or triangles that are no surface of them.
-[[nodiscard]] inline shape_model learn_shape_model(const std::vector<point_columns>& shapes,
-                                                   std::vector<std::string> names, triangle_columns triangles,
-                                                   thread_count threads = {}) {
-  (void)shape_set::of(shapes, names);  // refuses what does not belong together, by name
-  if (std::ranges::all_of(shapes, [&](const point_columns& shape) { return shape == shapes.front(); }))
-    throw error("a shape model needs at least two shapes that differ, not " + std::to_string(shapes.size()) +
-                " that do not");
-  const aligned_shapes aligned = procrustes_mean(shapes);
-  const std::size_t components = shapes.size();
-  return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};
-}
+[[nodiscard]] shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
+                                            triangle_columns triangles, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/shape_model.ipp>
+#endif

@@ -42,10 +42,7 @@ class shape_uncertainty {
 
   /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) about where it is predicted with this
   /// probability: 3 F of 3 and m - 3 - k degrees of freedom, which for many shapes is chi-square of 3.
-  [[nodiscard]] double squared_radius(double share) const {
-    const double left = degrees_of_freedom_ - 2.0;
-    return 3.0 * degrees_of_freedom_ / left * f_quantile(share, 3.0, left);
-  }
+  [[nodiscard]] double squared_radius(double share) const;
 
   /// 3 x 3, of the position of one vertex. O(k^2).
   [[nodiscard]] Eigen::Matrix3d covariance(Eigen::Index vertex) const { return scale_ * unscaled(vertex); }
@@ -53,10 +50,7 @@ class shape_uncertainty {
   [[nodiscard]] Eigen::Matrix3d as_published(Eigen::Index vertex) const { return published_scale_ * unscaled(vertex); }
 
  private:
-  [[nodiscard]] Eigen::Matrix3d unscaled(Eigen::Index vertex) const {
-    const Eigen::MatrixXd rows = basis_.components().middleRows(3 * vertex, 3).cast<double>();
-    return rows * unseen_ * rows.transpose();
-  }
+  [[nodiscard]] Eigen::Matrix3d unscaled(Eigen::Index vertex) const;
 
   shape_basis basis_;
   Eigen::MatrixXd unseen_;  // I - R
@@ -64,3 +58,7 @@ class shape_uncertainty {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/shape_uncertainty.ipp>
+#endif

@@ -11,18 +11,8 @@ namespace gonio {
 
 /// `surface_index::signed_distance` of each column of `points`, in their order. Throws gonio::error if a point is not
 /// finite.
-[[nodiscard]] inline Eigen::VectorXd signed_distances(const surface_index& surface, const point_columns& points,
-                                                      thread_count threads = {}) {
-  Eigen::VectorXd distances(points.cols());
-  for_each_block(
-      static_cast<std::size_t>(points.cols()), 256,
-      [&](block some) {
-        for (auto i = static_cast<Eigen::Index>(some.begin); i < static_cast<Eigen::Index>(some.end); ++i)
-          distances[i] = surface.signed_distance(points.col(i));
-      },
-      threads);
-  return distances;
-}
+[[nodiscard]] Eigen::VectorXd signed_distances(const surface_index& surface, const point_columns& points,
+                                               thread_count threads = {});
 
 /// What is told of signed distances, in the unit of the mesh. The paper's table has the signed means.
 struct surface_distance {
@@ -32,13 +22,7 @@ struct surface_distance {
   double largest = 0.0;           ///< magnitude
 
   /// Throws gonio::error if there is no distance or one is not finite.
-  [[nodiscard]] static surface_distance of(const Eigen::VectorXd& signed_distances) {
-    if (signed_distances.size() == 0) throw error("the distance of no points to a surface has no mean");
-    if (!signed_distances.allFinite()) throw error("a distance to a surface is not finite");
-    const double largest = signed_distances.cwiseAbs().maxCoeff(), count = static_cast<double>(signed_distances.size());
-    return {signed_distances.mean(), signed_distances.cwiseAbs().mean(),
-            signed_distances.stableNorm() / std::sqrt(count), largest};
-  }
+  [[nodiscard]] static surface_distance of(const Eigen::VectorXd& signed_distances);
 };
 
 /// How far points are from a surface; select some, as the recovered ones, with `points(Eigen::all, vertices)`. The
@@ -50,3 +34,7 @@ struct surface_distance {
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/surface_distance.ipp>
+#endif

@@ -32,12 +32,10 @@ template <class Derived>
 /// Taking means over neighbours away twice leaves nothing of a smooth surface but its fourth derivatives, and all of
 /// what differs from vertex to vertex: of independent noise the variance itself, within a few percent, where five to
 /// seven edges meet. Two more means gather it from about nineteen vertices. O(vertices + edges).
-[[nodiscard]] inline Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology) {
-  point_columns rough = mesh.vertices;
-  for (int twice = 0; twice < 2; ++twice) rough -= averaged_over_neighbours(topology, rough);
-  Eigen::RowVectorXd variances = rough.cwiseProduct(vertex_normals(mesh)).colwise().sum().cwiseAbs2();
-  for (int twice = 0; twice < 2; ++twice) variances = averaged_over_neighbours(topology, variances);
-  return variances;
-}
+[[nodiscard]] Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/shape/impl/surface_noise.ipp>
+#endif

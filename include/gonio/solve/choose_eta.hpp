@@ -157,20 +157,10 @@ class eta_scores {
 };
 
 /// `count` numbers from `first` to `last` with equal ratios.
-[[nodiscard]] inline Eigen::VectorXd geometric(double first, double last, Eigen::Index count) {
-  const double step = std::log(last / first) / static_cast<double>(count - 1);
-  Eigen::VectorXd numbers(count);
-  for (Eigen::Index i = 0; i < count; ++i) numbers[i] = first * std::exp(step * static_cast<double>(i));
-  return numbers;
-}
+[[nodiscard]] Eigen::VectorXd geometric(double first, double last, Eigen::Index count);
 
 /// Where the least score is; of those that are equal but for rounding, the last.
-[[nodiscard]] inline Eigen::Index last_least(const Eigen::VectorXd& scores) {
-  const double bound = scores.minCoeff() * (1.0 + 1e-10);
-  Eigen::Index at = scores.size() - 1;
-  while (at > 0 && !(scores[at] <= bound)) --at;
-  return at;
-}
+[[nodiscard]] Eigen::Index last_least(const Eigen::VectorXd& scores);
 
 /// Where a function of many eta has its least value: of eight a decade from first to last, then of 31 between the
 /// neighbours of the best.
@@ -184,11 +174,7 @@ template <class Scores>
   return fine[last_least(scores(fine))];
 }
 
-inline void require_etas(const eta_range& range) {
-  if (!(range.lowest >= 0.0 && range.lowest <= range.highest && range.highest > 0.0 && std::isfinite(range.lowest)))
-    throw error("a range of eta goes from a number that is not negative to a larger one, not from " +
-                std::to_string(range.lowest) + " to " + std::to_string(range.highest));
-}
+void require_etas(const eta_range& range);
 
 }  // namespace detail
 
@@ -256,3 +242,7 @@ class automatic_tikhonov {
 static_assert(solver<automatic_tikhonov> && !normal_solver<automatic_tikhonov>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/choose_eta.ipp>
+#endif

@@ -113,28 +113,11 @@ requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajo
 /// The normal equations of weighted rows: A and b side by side, scaled by sqrt(w), give Q, A'Wb and b'Wb as blocks of
 /// one Gram matrix. All in double; reads A once; n (k + r)^2 operations; same bytes for any number of threads. Throws
 /// gonio::error if the result is not finite.
-[[nodiscard]] inline normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
-                                               const Eigen::VectorXd& weights, thread_count threads = {}) {
-  const Eigen::Index k = rows.columns, r = right_hand_side.cols();
-  const bool weighted = (weights.array() != 1.0).any();
-  using sum_type = detail::product_sum<double>;
-  const sum_type zero(k + r);
-  const Eigen::MatrixXd all = sum_over_blocks(
-                                  static_cast<std::size_t>(rows.rows), sum_type::block_rows, zero,
-                                  [&](sum_type& sum, block range) {
-                                    const auto begin = static_cast<Eigen::Index>(range.begin),
-                                               count = static_cast<Eigen::Index>(range.size());
-                                    auto equations = sum.rows(count);
-                                    rows.read(range, equations.leftCols(k));
-                                    equations.rightCols(r) = right_hand_side.middleRows(begin, count);
-                                    if (weighted)
-                                      for (Eigen::Index row = 0; row < count; ++row)
-                                        equations.row(row) *= std::sqrt(weights[begin + row]);
-                                    sum.add(count);
-                                  },
-                                  threads)
-                                  .symmetric();
-  return {all.topLeftCorner(k, k), all.topRightCorner(k, r), all.diagonal().tail(r)};
-}
+[[nodiscard]] normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
+                                        const Eigen::VectorXd& weights, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/gram.ipp>
+#endif

@@ -10,19 +10,11 @@
 namespace gonio {
 
 /// The smallest lambda at which all weights of all right-hand sides are zero.
-[[nodiscard]] inline double largest_lambda(const normal_equations& normal, sign_rule signs) {
-  double largest = 0.0;
-  for (const double moment : normal.moment().reshaped())
-    largest = std::max(largest, signs == sign_rule::any ? std::abs(moment) : moment);
-  return largest;
-}
+[[nodiscard]] double largest_lambda(const normal_equations& normal, sign_rule signs);
 
 namespace detail {
 
-inline void require_penalty(double lambda) {
-  if (!(lambda >= 0.0 && std::isfinite(lambda)))
-    throw error("the penalty lambda of a Lasso must be finite and not negative, not " + std::to_string(lambda));
-}
+void require_penalty(double lambda);
 
 }  // namespace detail
 
@@ -62,19 +54,8 @@ struct lasso_path {
 };
 
 /// `count` penalties in geometric progression from `largest_lambda` down to `smallest_share` of it.
-[[nodiscard]] inline std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
-                                                         double smallest_share = 1e-3,
-                                                         sign_rule signs = sign_rule::any) {
-  if (count < 2) throw error("a regularisation path needs at least two penalties, not " + std::to_string(count));
-  if (!(smallest_share > 0.0 && smallest_share < 1.0))
-    throw error("the smallest penalty of a path must be a share in (0, 1) of the largest, not " +
-                std::to_string(smallest_share));
-  const double largest = largest_lambda(normal, signs);
-  std::vector<double> lambdas(count);
-  for (std::size_t i = 0; i < count; ++i)
-    lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
-  return lambdas;
-}
+[[nodiscard]] std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
+                                                  double smallest_share = 1e-3, sign_rule signs = sign_rule::any);
 
 /// Solves for each penalty, starting from the solution of the one before. Best given falling. Throws gonio::error for a
 /// penalty that `basic_lasso` refuses, or without convergence.
@@ -97,3 +78,7 @@ template <sign_rule Signs = sign_rule::any, quadratic_problem Problem = least_sq
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/lasso.ipp>
+#endif

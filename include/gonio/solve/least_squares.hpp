@@ -60,11 +60,7 @@ template <class Matrix>
 }
 
 /// Norms of columns to divide by: 1 for a column of zeros.
-[[nodiscard]] inline Eigen::VectorXd divisors(Eigen::VectorXd norms) {
-  for (double& norm : norms)
-    if (!(norm > 0.0)) norm = 1.0;
-  return norms;
-}
+[[nodiscard]] Eigen::VectorXd divisors(Eigen::VectorXd norms);
 
 /// How far x is from a stationary point of |W^(1/2) (A x - b)|^2, from the rows: the largest |a_j'W(A x - b)| / |a_j|
 /// over the columns a_j, relative to |b| + sum of |a_i| |x_i| (all norms weighted by W), of which rounding alone leaves
@@ -123,11 +119,7 @@ class least_squares {
 
   /// A column is taken for a linear combination of others if these say it to `rank_threshold` of its length. Throws
   /// gonio::error unless it is at least 0 and less than 1.
-  explicit least_squares(double rank_threshold = 1e-12) : threshold_(rank_threshold) {
-    if (!(rank_threshold >= 0.0 && rank_threshold < 1.0))
-      throw error("the rank threshold of a least-squares solver must be at least 0 and less than 1, not " +
-                  std::to_string(rank_threshold));
-  }
+  explicit least_squares(double rank_threshold = 1e-12);
 
   [[nodiscard]] double rank_threshold() const noexcept { return threshold_; }
 
@@ -245,3 +237,7 @@ class least_squares {
 static_assert(normal_solver<least_squares>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/least_squares.ipp>
+#endif

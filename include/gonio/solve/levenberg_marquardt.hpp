@@ -52,36 +52,8 @@ namespace detail {
 
 /// Minimises g's + s'Hs / 2 over steps that stay within the bounds, approximately: an unknown whose step leaves the
 /// box is held at its border, and the others are solved for again. O(n^4) at worst.
-[[nodiscard]] inline Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
-                                                  const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
-  const Eigen::Index n = gradient.size();
-  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const bool held = (lowest[i] >= 0.0 && gradient[i] >= 0.0) || (highest[i] <= 0.0 && gradient[i] <= 0.0);
-    if (!held) free.push_back(i);
-  }
-  while (!free.empty()) {
-    const Eigen::VectorXd slope = gradient + hessian * step;  // with the step of those that are held
-    const Eigen::MatrixXd among = hessian(free, free);
-    const Eigen::VectorXd moves = among.ldlt().solve(-slope(free));
-    std::vector<Eigen::Index> inside;
-    for (std::size_t j = 0; j < free.size(); ++j) {
-      const Eigen::Index i = free[j];
-      const double move = moves[static_cast<Eigen::Index>(j)];
-      if (move < lowest[i] || move > highest[i])
-        step[i] = std::clamp(move, lowest[i], highest[i]);
-      else
-        inside.push_back(i);
-    }
-    if (inside.size() == free.size()) {
-      step(free) = moves;
-      break;
-    }
-    free = std::move(inside);
-  }
-  return step;
-}
+[[nodiscard]] Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
+                                           const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
 }  // namespace detail
 
@@ -159,3 +131,7 @@ template <class Function>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/levenberg_marquardt.ipp>
+#endif

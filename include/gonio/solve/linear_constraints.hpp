@@ -26,36 +26,15 @@ struct linear_constraints {
   bool non_negative = false;
 
   /// Throws gonio::error unless the sizes match each other and `unknowns` and all numbers are finite, naming the row.
-  void require_consistent(Eigen::Index unknowns) const {
-    require_consistent(D, d, unknowns, "inequality");
-    require_consistent(E, e, unknowns, "equality");
-  }
+  void require_consistent(Eigen::Index unknowns) const;
 
   /// The constraints as their own policy (`constraint_policy`): the same for every problem. Throws as
   /// `require_consistent`.
-  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const {
-    require_consistent(unknowns);
-    return *this;
-  }
+  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
 
  private:
   static void require_consistent(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right, Eigen::Index unknowns,
-                                 const std::string& kind) {
-    const auto text = [](Eigen::Index n) { return std::to_string(n); };
-    if (rows.rows() != right.size())
-      throw error(text(rows.rows()) + " rows of " + kind + " constraints have " + text(right.size()) +
-                  " right-hand values");
-    if (rows.rows() > 0 && rows.cols() != unknowns)
-      throw error("row 0 of the " + kind + " constraints has " + text(rows.cols()) + " coefficients for " +
-                  text(unknowns) + " unknowns");
-    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-      for (Eigen::Index column = 0; column < rows.cols(); ++column)
-        if (!std::isfinite(rows(row, column)))
-          throw error("row " + text(row) + " of the " + kind + " constraints is not finite in column " + text(column));
-      if (!std::isfinite(right[row]))
-        throw error("row " + text(row) + " of the " + kind + " constraints is not finite on its right-hand side");
-    }
-  }
+                                 const std::string& kind);
 };
 
 /// Makes the constraints of a problem with so many unknowns. A policy all of whose constraints include x >= 0 says so
@@ -74,9 +53,7 @@ struct non_negative_weights {
 /// x >= 0 and the weights sum to 1.
 struct convex_weights {
   static constexpr bool non_negative = true;
-  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const {
-    return {.E = Eigen::MatrixXd::Ones(1, unknowns), .e = Eigen::VectorXd::Ones(1), .non_negative = true};
-  }
+  [[nodiscard]] linear_constraints operator()(Eigen::Index unknowns) const;
 };
 
 static_assert(constraint_policy<linear_constraints> && constraint_policy<non_negative_weights> &&
@@ -135,10 +112,7 @@ struct judged_row {
     }
   }
   /// `size` is the largest |x_j| length_j.
-  [[nodiscard]] double relative_slack(double bound, double size) const {
-    const double scale = std::abs(bound) + largest * size;
-    return scale > 0.0 ? (bound - activity) / scale : 0.0;
-  }
+  [[nodiscard]] double relative_slack(double bound, double size) const;
 };
 
 /// The gradient Q x - m + D' inequality + E' equality of the Lagrangian.
@@ -200,3 +174,7 @@ template <class Vector>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/linear_constraints.ipp>
+#endif

@@ -19,15 +19,7 @@ namespace gonio {
 class block_pivoting {
  public:
   /// Keeps a reference to `normal`.
-  block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side)
-      : normal_(normal),
-        right_hand_side_(right_hand_side),
-        moment_(normal.moment().col(right_hand_side)),
-        x_(Eigen::VectorXd::Zero(normal.unknowns())),
-        free_(static_cast<std::size_t>(normal.unknowns()), false),
-        fewest_wrong_(normal.unknowns() + 1) {
-    find_wrong(Eigen::VectorXd(-moment_));
-  }
+  block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side);
 
   /// Exchanges, or finishes.
   template <class Factor = growing_cholesky<double>>
@@ -91,18 +83,7 @@ class block_pivoting {
     find_wrong(gradient);
   }
 
-  void find_wrong(const Eigen::VectorXd& gradient) {
-    const Eigen::VectorXd norms = normal_.gram().diagonal().cwiseSqrt();
-    double terms = 0.0;
-    for (Eigen::Index j = 0; j < x_.size(); ++j)
-      if (norms[j] > 0.0) terms = std::max(terms, std::abs(moment_[j]) / norms[j]);
-    terms += x_.cwiseAbs().dot(norms);
-    wrong_.clear();
-    for (Eigen::Index j = 0; j < x_.size(); ++j) {
-      const bool is_free = free_[static_cast<std::size_t>(j)];
-      if (is_free ? x_[j] <= 0.0 : gradient[j] < -1e-13 * terms * norms[j]) wrong_.push_back(j);
-    }
-  }
+  void find_wrong(const Eigen::VectorXd& gradient);
 
   const normal_equations& normal_;
   Eigen::Index right_hand_side_;
@@ -133,3 +114,7 @@ class nnls_block_pivoting {
 static_assert(normal_solver<nnls_block_pivoting>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/nnls_block_pivoting.ipp>
+#endif

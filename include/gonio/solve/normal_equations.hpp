@@ -25,11 +25,7 @@ class normal_equations {
   /// `gram` is Q, k x k, symmetric and positive semidefinite; `moment` is m, k x r; `energy` holds b'Wb of each
   /// right-hand side (zeros if empty: `residual` is then meaningless). Throws gonio::error if sizes do not match, there
   /// is nothing, or a number is not finite, naming the column. Symmetry is the caller's word. O(k^2 + k r).
-  normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy = {})
-      : gram_(std::move(gram)), moment_(std::move(moment)), energy_(std::move(energy)) {
-    if (energy_.size() == 0) energy_ = Eigen::VectorXd::Zero(moment_.cols());
-    require_consistent();
-  }
+  normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy = {});
 
   /// Q, both triangles.
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
@@ -43,19 +39,11 @@ class normal_equations {
   [[nodiscard]] const normal_equations& normal() const noexcept { return *this; }
 
   /// 1/2 x'Q x - m'x for each right-hand side, given its x as a column. O(k^2 r).
-  [[nodiscard]] Eigen::VectorXd objective(const Eigen::MatrixXd& x) const {
-    Eigen::VectorXd values(x.cols());
-    for (Eigen::Index column = 0; column < x.cols(); ++column)
-      values[column] = 0.5 * quadratic_form(x, column) - moment_.col(column).dot(x.col(column));
-    return values;
-  }
+  [[nodiscard]] Eigen::VectorXd objective(const Eigen::MatrixXd& x) const;
 
   /// sqrt(x'Q x - 2 m'x + b'Wb), the weighted norm of A x - b. Residuals below about 1e-8 of |b| drown in cancellation:
   /// the rows of the problem tell more.
-  [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const {
-    const Eigen::VectorXd half_squares = objective(x) + 0.5 * energy_;
-    return (2.0 * half_squares).cwiseMax(0.0).cwiseSqrt();
-  }
+  [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const;
 
   /// The problem of the rows of both: of the same sizes, else gonio::error.
   [[nodiscard]] friend normal_equations operator+(const normal_equations& a, const normal_equations& b) {
@@ -67,45 +55,12 @@ class normal_equations {
   }
 
   /// The problem over some of the columns, in the order given: a submatrix.
-  [[nodiscard]] normal_equations subset(std::span<const Eigen::Index> columns) const {
-    const auto k = static_cast<Eigen::Index>(columns.size());
-    Eigen::MatrixXd gram(k, k), moment(k, right_hand_sides());
-    for (Eigen::Index j = 0; j < k; ++j) {
-      const Eigen::Index from = columns[static_cast<std::size_t>(j)];
-      for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[static_cast<std::size_t>(i)], from);
-      moment.row(j) = moment_.row(from);
-    }
-    return {std::move(gram), std::move(moment), energy_};
-  }
+  [[nodiscard]] normal_equations subset(std::span<const Eigen::Index> columns) const;
 
  private:
-  [[nodiscard]] double quadratic_form(const Eigen::MatrixXd& x, Eigen::Index column) const {
-    double sum = 0.0;
-    for (Eigen::Index j = 0; j < unknowns(); ++j)
-      if (x(j, column) != 0.0) sum += x(j, column) * gram_.col(j).dot(x.col(column));
-    return sum;
-  }
+  [[nodiscard]] double quadratic_form(const Eigen::MatrixXd& x, Eigen::Index column) const;
 
-  void require_consistent() const {
-    const auto text = [](Eigen::Index n) { return std::to_string(n); };
-    if (gram_.size() == 0 || moment_.cols() == 0)
-      throw error("normal equations of " + text(gram_.rows()) + " unknowns and " + text(moment_.cols()) +
-                  " right-hand sides are empty");
-    if (gram_.rows() != gram_.cols() || moment_.rows() != gram_.rows() || energy_.size() != moment_.cols())
-      throw error("normal equations do not match in size: the Gram matrix is " + text(gram_.rows()) + " x " +
-                  text(gram_.cols()) + ", the moment " + text(moment_.rows()) + " x " + text(moment_.cols()) +
-                  ", and " + text(energy_.size()) + " right-hand sides have their energy");
-    for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
-      const auto finite = [](double value) { return std::isfinite(value); };
-      const auto first = gram_.col(column).data();
-      if (!std::all_of(first, first + gram_.rows(), finite) || !moment_.row(column).allFinite())
-        throw error("column " + text(column) + " of normal equations is not finite");
-      if (gram_(column, column) < 0.0)
-        throw error("column " + text(column) + " of normal equations has the squared norm " +
-                    std::to_string(gram_(column, column)) + ": it cannot be negative");
-    }
-    if (!energy_.allFinite()) throw error("the right-hand side of normal equations is not finite");
-  }
+  void require_consistent() const;
 
   Eigen::MatrixXd gram_;
   Eigen::MatrixXd moment_;
@@ -120,13 +75,7 @@ class normal_equations {
 }
 
 /// All columns 0 to k - 1 but one, as leaving it out needs them.
-[[nodiscard]] inline std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {
-  std::vector<Eigen::Index> columns;
-  columns.reserve(static_cast<std::size_t>(k));
-  for (Eigen::Index column = 0; column < k; ++column)
-    if (column != left_out) columns.push_back(column);
-  return columns;
-}
+[[nodiscard]] std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out);
 
 /// What a solver that works on the normal equations alone needs of a problem.
 template <class Problem>
@@ -138,3 +87,7 @@ concept quadratic_problem = requires(const Problem& problem, const Eigen::Matrix
 static_assert(quadratic_problem<normal_equations>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/normal_equations.ipp>
+#endif

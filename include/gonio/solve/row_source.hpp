@@ -35,11 +35,10 @@ struct row_source {
 };
 
 /// A matrix that is at hand.
-[[nodiscard]] inline row_source rows_of(row_matrix matrix) {
-  const auto shared = std::make_shared<const row_matrix>(std::move(matrix));
-  return {shared->rows(), shared->cols(), [shared](block range, row_block out) {
-            out = shared->middleRows(static_cast<Eigen::Index>(range.begin), static_cast<Eigen::Index>(range.size()));
-          }};
-}
+[[nodiscard]] row_source rows_of(row_matrix matrix);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/row_source.ipp>
+#endif

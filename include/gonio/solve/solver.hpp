@@ -22,33 +22,10 @@ struct solution {
 };
 
 /// Solutions of several problems in the same unknowns as one, right-hand side by right-hand side.
-[[nodiscard]] inline solution side_by_side(std::span<const solution> parts) {
-  Eigen::Index columns = 0;
-  for (const solution& part : parts) columns += part.weights.cols();
-  solution all{Eigen::MatrixXd(parts.front().weights.rows(), columns), Eigen::VectorXd(columns),
-               Eigen::VectorXd(columns), Eigen::VectorXd(columns)};
-  Eigen::Index first = 0;
-  for (const solution& part : parts) {
-    const Eigen::Index count = part.weights.cols();
-    all.weights.middleCols(first, count) = part.weights;
-    all.residual.segment(first, count) = part.residual;
-    all.objective.segment(first, count) = part.objective;
-    all.certificate.segment(first, count) = part.certificate;
-    all.iterations += part.iterations;
-    first += count;
-  }
-  return all;
-}
+[[nodiscard]] solution side_by_side(std::span<const solution> parts);
 
 /// A solution in some of `unknowns` columns as one in all of them: the other weights are zero.
-[[nodiscard]] inline solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns) {
-  if (found.weights.rows() == unknowns) return found;
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, found.weights.cols());
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    all.row(columns[i]) = found.weights.row(static_cast<Eigen::Index>(i));
-  found.weights = std::move(all);
-  return found;
-}
+[[nodiscard]] solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
 
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
@@ -87,3 +64,7 @@ inline constexpr bool solves_non_negative = requires {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/solver.ipp>
+#endif

@@ -21,10 +21,7 @@ class tikhonov {
 
   /// Throws gonio::error unless eta is positive and finite. With columns scaled to unit variance (pca) eta
   /// is the variance of the noise, in the metric's units, summed over what the basis cannot say.
-  explicit tikhonov(double eta, form solved_as = form::automatic) : eta_(eta), form_(solved_as) {
-    if (!(eta > 0.0 && std::isfinite(eta)))
-      throw error("the penalty eta of a Tikhonov solver must be positive and finite, not " + std::to_string(eta));
-  }
+  explicit tikhonov(double eta, form solved_as = form::automatic);
 
   [[nodiscard]] double eta() const noexcept { return eta_; }
 
@@ -90,3 +87,7 @@ class tikhonov {
 static_assert(normal_solver<tikhonov>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/tikhonov.ipp>
+#endif

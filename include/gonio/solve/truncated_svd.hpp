@@ -33,11 +33,7 @@ namespace gonio {
 class truncated_svd {
  public:
   /// Throws gonio::error unless the share is above 0 and at most 1.
-  explicit truncated_svd(double explained_variance = 0.99) : share_(explained_variance) {
-    if (!(explained_variance > 0.0 && explained_variance <= 1.0))
-      throw error("the explained variance of a truncated SVD must be above 0 and at most 1, not " +
-                  std::to_string(explained_variance));
-  }
+  explicit truncated_svd(double explained_variance = 0.99);
 
   [[nodiscard]] double explained_variance() const noexcept { return share_; }
 
@@ -135,10 +131,7 @@ class truncated_svd {
   }
 
   /// The largest magnitude, which is none if nothing is kept.
-  [[nodiscard]] static double relative(const Eigen::MatrixXd& violation, double scale) {
-    if (violation.size() == 0) return 0.0;
-    return violation.cwiseAbs().maxCoeff() / (scale > 0.0 ? scale : 1.0);
-  }
+  [[nodiscard]] static double relative(const Eigen::MatrixXd& violation, double scale);
 
   double share_;
 };
@@ -146,3 +139,7 @@ class truncated_svd {
 static_assert(normal_solver<truncated_svd>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/truncated_svd.ipp>
+#endif

@@ -19,11 +19,7 @@ class brdf_table {
   explicit brdf_table(valid_cells cells) : cells_(std::move(cells)), values_(3 * cells_.size(), 0.0f) {}
 
   /// Takes values of shape (cells, 3). Throws gonio::error if their number is not 3 per cell.
-  brdf_table(valid_cells cells, std::vector<float> values) : cells_(std::move(cells)), values_(std::move(values)) {
-    if (values_.size() != 3 * cells_.size())
-      throw error("a table over " + std::to_string(cells_.size()) + " cells needs 3 values a cell, got " +
-                  std::to_string(values_.size()));
-  }
+  brdf_table(valid_cells cells, std::vector<float> values);
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] std::span<const float> values() const noexcept { return values_; }
@@ -94,17 +90,10 @@ template <brdf Brdf>
 }
 
 /// Reads a table at the cells of another grid by trilinear interpolation.
-[[nodiscard]] inline brdf_table resample(const brdf_table& table, const valid_cells& cells, thread_count threads = {}) {
-  if (cells == table.cells()) return table;
-  brdf_table result(cells);
-  for_each_block(
-      cells.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell)
-          result.set(cell, table.at(locate(table.cells(), cells.angles(cell))));
-      },
-      threads);
-  return result;
-}
+[[nodiscard]] brdf_table resample(const brdf_table& table, const valid_cells& cells, thread_count threads = {});
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/brdf_table.ipp>
+#endif

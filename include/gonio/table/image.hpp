@@ -15,12 +15,7 @@ namespace gonio {
 using image = xt::xtensor<float, 3>;
 
 /// A picture of one colour.
-[[nodiscard]] inline image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero()) {
-  image picture({rows, columns, std::size_t{3}});
-  for (std::size_t i = 0; i < picture.size(); ++i)
-    picture.data()[i] = static_cast<float>(colour[static_cast<Eigen::Index>(i % 3)]);
-  return picture;
-}
+[[nodiscard]] image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero());
 
 [[nodiscard]] inline rgb pixel(const image& picture, std::size_t row, std::size_t column) noexcept {
   GONIO_ASSERT(row < picture.shape(0) && column < picture.shape(1));
@@ -35,3 +30,7 @@ inline void set_pixel(image& picture, std::size_t row, std::size_t column, const
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/image.ipp>
+#endif

@@ -28,33 +28,13 @@ struct material_set {
   cell_matrix values;
 
   /// Position of a material. Throws gonio::error if there is none of that name.
-  [[nodiscard]] std::size_t find(const std::string& name) const {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) throw error("there is no material named '" + name + "'");
-    return static_cast<std::size_t>(found - names.begin());
-  }
+  [[nodiscard]] std::size_t find(const std::string& name) const;
 
   /// A copy of one material's table.
-  [[nodiscard]] brdf_table table(std::size_t material) const {
-    brdf_table result(cells);
-    const auto column = static_cast<Eigen::Index>(3 * material);
-    Eigen::Map<cell_matrix>(result.values().data(), values.rows(), 3) = values.middleCols(column, 3);
-    return result;
-  }
+  [[nodiscard]] brdf_table table(std::size_t material) const;
 
   /// A copy of some of the materials, by their positions. Throws gonio::error for a position that there is not.
-  [[nodiscard]] material_set subset(const std::vector<std::size_t>& positions) const {
-    material_set some{cells, {}, cell_matrix(values.rows(), 3 * std::ssize(positions))};
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const std::size_t from = positions[i];
-      if (from >= names.size())
-        throw error("there is no material " + std::to_string(from) + " among " + std::to_string(names.size()));
-      some.names.push_back(names[from]);
-      some.values.middleCols(static_cast<Eigen::Index>(3 * i), 3) =
-          values.middleCols(static_cast<Eigen::Index>(3 * from), 3);
-    }
-    return some;
-  }
+  [[nodiscard]] material_set subset(const std::vector<std::size_t>& positions) const;
 };
 
 /// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each place of
@@ -105,3 +85,7 @@ void map_cell(Set& things, std::size_t cell, Map&& map) {
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/material_set.ipp>
+#endif

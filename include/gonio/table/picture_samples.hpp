@@ -20,12 +20,10 @@ struct pair_sample {
 using picture_samples = std::vector<pair_sample>;
 
 /// As samples for any estimator.
-[[nodiscard]] inline sample_set as_sample_set(const picture_samples& picture) {
-  sample_set samples;
-  samples.reserve(picture.size());
-  for (const pair_sample& s : picture)
-    samples.push_back({to_half_difference(s.directions.wi, s.directions.wo), s.value, s.weight});
-  return samples;
-}
+[[nodiscard]] sample_set as_sample_set(const picture_samples& picture);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/picture_samples.ipp>
+#endif

@@ -23,14 +23,10 @@ namespace gonio {
 }
 
 /// A copy of shape (theta_h, theta_d, phi_d, 3), NaN where a direction is below the horizon.
-[[nodiscard]] inline xt::xtensor<float, 4> dense_tensor(const brdf_table& table) {
-  const auto [theta_h, theta_d, phi_d] = table.cells().grid().extents();
-  const std::array<std::size_t, 4> shape{static_cast<std::size_t>(theta_h), static_cast<std::size_t>(theta_d),
-                                         static_cast<std::size_t>(phi_d), 3};
-  xt::xtensor<float, 4> dense(shape, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
-    std::copy_n(table.values().data() + 3 * cell, 3, dense.data() + 3 * table.cells().linear(cell));
-  return dense;
-}
+[[nodiscard]] xt::xtensor<float, 4> dense_tensor(const brdf_table& table);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/tensor_view.ipp>
+#endif

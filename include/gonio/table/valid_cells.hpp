@@ -66,28 +66,7 @@ class valid_cells {
 
  private:
   struct index {
-    index(const gonio::grid& cells, double threshold) : grid(cells), minimum_cosine(threshold) {
-      const auto columns = static_cast<std::size_t>(grid.extents().phi_d);
-      const std::size_t layer = static_cast<std::size_t>(grid.extents().theta_d) * columns;
-      const double limit = std::max(minimum_cosine, horizon);
-      representative.resize(grid.size());
-      linear.reserve(grid.size());
-      for_each_smaller_cosine(grid, [&](std::size_t cell, double cosine) {
-        const auto count = static_cast<std::uint32_t>(linear.size());
-        if (cell % columns == 0) row_begin.push_back(count);
-        if (cosine > limit) {
-          representative[cell] = count;
-          linear.push_back(static_cast<std::uint32_t>(cell));
-        } else if (cell >= layer) {
-          // Both cosines fall as theta_h grows, so the layer below has already found the last valid one.
-          representative[cell] = representative[cell - layer];
-        } else {
-          representative[cell] = count == 0 ? 0 : count - 1;
-        }
-      });
-      row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
-      if (linear.empty()) throw error("no cell of the grid has both directions above the horizon");
-    }
+    index(const gonio::grid& cells, double threshold);
 
     gonio::grid grid;
     double minimum_cosine;
@@ -100,3 +79,7 @@ class valid_cells {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/valid_cells.ipp>
+#endif

@@ -1,0 +1,73 @@
+#pragma once
+/// Bodies of basis/highlight_contrast.hpp.
+
+#include <gonio/basis/highlight_contrast.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/metric/log_relative.hpp>
+#include <gonio/table/material_set.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE contrast_sums& contrast_sums::operator+=(const contrast_sums& other) {
+  in_peak += other.in_peak;
+  off_peak += other.off_peak;
+  in_weight += other.in_weight;
+  off_weight += other.off_weight;
+  return *this;
+}
+
+GONIO_INLINE Eigen::ArrayXd contrast_sums::contrasts() const { return in_peak / in_weight - off_peak / off_weight; }
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE double highlight_contrast(const log_relative& reference, const brdf_table& table,
+                                       const highlight_regions& regions, thread_count threads) {
+  return detail::cell_contrasts(
+      reference, table.cells(), 1, [&](std::size_t cell, Eigen::Index) { return luminance(table.at(cell)); }, regions,
+      threads)[0];
+}
+
+GONIO_INLINE Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
+                                                const highlight_regions& regions, thread_count threads) {
+  require_complete(materials);
+  const auto luminance_of = [&](std::size_t cell, Eigen::Index material) {
+    const auto row = static_cast<Eigen::Index>(cell);
+    const Eigen::Array3f value = materials.values.row(row).segment<3>(3 * material).transpose();
+    return luminance(value.cast<double>());
+  };
+  return detail::cell_contrasts(reference, materials.cells, std::ssize(materials.names), luminance_of, regions,
+                                threads);
+}
+
+GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, const log_relative& reference,
+                                                 std::optional<double> threshold, const highlight_regions& regions,
+                                                 thread_count threads) {
+  const Eigen::ArrayXd contrasts = highlight_contrasts(reference, materials, regions, threads);
+  std::vector<std::size_t> soft, specular;
+  for (std::size_t m = 0; m < materials.names.size(); ++m)
+    if (!std::isfinite(contrasts[static_cast<Eigen::Index>(m)]))
+      throw error("material '" + materials.names[m] + "' has no contrast: its table is not finite");
+  if (!threshold) {
+    std::vector<double> sorted(contrasts.begin(), contrasts.end());
+    std::ranges::sort(sorted);
+    threshold = (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2.0;
+  }
+  for (std::size_t m = 0; m < materials.names.size(); ++m)
+    (contrasts[static_cast<Eigen::Index>(m)] < *threshold ? soft : specular).push_back(m);
+  if (soft.empty() || specular.empty())
+    throw error("all " + std::to_string(materials.names.size()) + " materials are " +
+                (soft.empty() ? "specular" : "soft") + " at a threshold of " + std::to_string(*threshold) +
+                ": a prior needs some on either side");
+  return {materials.subset(soft), materials.subset(specular), *threshold};
+}
+
+}  // namespace gonio

@@ -1,0 +1,26 @@
+#pragma once
+/// Bodies of basis/misplacement.hpp.
+
+#include <gonio/basis/misplacement.hpp>
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
+
+#include <array>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle) {
+  std::array<direction_pair, 8> pairs;
+  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+    const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;
+    pairs[2 * quarter] = {moved_above(meant.wi, angle, side), meant.wo};
+    pairs[2 * quarter + 1] = {meant.wi, moved_above(meant.wo, angle, side)};
+  }
+  return pairs;
+}
+
+}  // namespace gonio::detail

@@ -1,0 +1,59 @@
+#pragma once
+/// Bodies of basis/rbf.hpp.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/basis/rbf.hpp>
+#include <gonio/core/compiled.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE gaussian_kernel::gaussian_kernel(double width) : width_(width) {
+  if (!(width > 0.0 && std::isfinite(width)))
+    throw error("the width of a Gaussian kernel must be positive and finite, not " + std::to_string(width));
+}
+
+GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
+                                                                 std::uint64_t seed) {
+  constexpr std::size_t most_candidates = 60'000;
+  std::vector<std::size_t> all(cells.size()), candidates;
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  std::mt19937_64 generator(seed);
+  std::ranges::sample(all, std::back_inserter(candidates),
+                      static_cast<std::ptrdiff_t>(std::min(most_candidates, all.size())), generator);
+  Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();
+
+  std::vector<half_difference> centres;
+  Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
+  Eigen::ArrayXd nearest =  // squared distance to the nearest centre
+      Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
+  while (centres.size() < count && nearest[farthest] > 0.0) {
+    centres.push_back(cells.angles(candidates[static_cast<std::size_t>(farthest)]));
+    const Eigen::Array3d centre = places.col(farthest);
+    nearest = nearest.min((places.colwise() - centre).square().colwise().sum().transpose());
+    nearest.maxCoeff(&farthest);
+  }
+  if (centres.size() < count)
+    throw error("cannot choose " + std::to_string(count) + " different centres of radial basis functions among " +
+                std::to_string(centres.size()) + " places");
+  return centres;
+}
+
+}  // namespace gonio

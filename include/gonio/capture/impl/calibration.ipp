@@ -1,0 +1,92 @@
+#pragma once
+/// Bodies of capture/calibration.hpp.
+
+#include <gonio/capture/calibration.hpp>
+#include <gonio/capture/high_dynamic_range.hpp>
+#include <gonio/capture/relative_reflectance.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/rgb.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE std::vector<double> times_in_common(std::span<const reading> readings) {
+  std::vector<double> times = readings.front().times;
+  std::ranges::sort(times);
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  std::erase_if(times, [&](double time) {
+    return std::ranges::any_of(readings, [&](const reading& each) { return !std::ranges::count(each.times, time); });
+  });
+  return times;
+}
+
+GONIO_INLINE exposure_counts mean_counts(std::span<const reading> readings, std::span<const double> times,
+                                         Eigen::Index channel, std::uint16_t largest_count) {
+  exposure_counts counts(std::ssize(readings), std::ssize(times));
+  for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+    const reading& each = readings[static_cast<std::size_t>(i)];
+    for (Eigen::Index j = 0; j < counts.cols(); ++j) {
+      const auto at = std::ranges::find(each.times, times[static_cast<std::size_t>(j)]) - each.times.begin();
+      const auto pixels = each.frames[static_cast<std::size_t>(at)].col(channel);
+      counts(i, j) = pixels.maxCoeff() >= largest_count ? largest_count : pixels.cast<double>().mean();
+    }
+  }
+  return counts;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
+                                                               std::uint16_t largest_count,
+                                                               const response_options& options) {
+  if (readings.empty()) throw error("a camera's response needs readings, and there is none");
+  const std::vector<double> times = detail::times_in_common(readings);
+  if (times.size() < 2)
+    throw error("a camera's response needs readings with two exposure times or more in common, not " +
+                std::to_string(times.size()));
+  const auto response_of = [&](Eigen::Index channel) {
+    return estimate_response(detail::mean_counts(readings, times, channel, largest_count), times, largest_count,
+                             options);
+  };
+  return {response_of(0), response_of(1), response_of(2)};
+}
+
+GONIO_INLINE double measured_reflectance::relative_deviation() const noexcept {
+  return deviation.matrix().norm() / std::max(value.sum(), 0.0);
+}
+
+GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, const reading& reference,
+                                                      const direction_pair& at, const calibration& known,
+                                                      const illumination& material_at,
+                                                      const illumination& reference_at) {
+  measured_reflectance result{at};
+  bool is_dark = true;
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const camera_response& response = known.responses[static_cast<std::size_t>(channel)];
+    const auto radiance = [&](const reading& taken) {
+      return merge_exposures(taken, channel, response, known.noise, known.saturation);
+    };
+    const measured_radiance white = radiance(reference), seen = radiance(material);
+    if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
+    if (seen.saturated) result.doubt = "saturated in every exposure";
+    if (!result.is_usable()) return result;
+    const reference_light light({white.value, white.deviation}, known.reflectance, reference_at);
+    const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
+    result.value[channel] = f.value;
+    result.deviation[channel] = f.deviation;
+    is_dark = is_dark && seen.dark;
+  }
+  if (is_dark) result.doubt = "dark in every exposure";
+  return result;
+}
+
+}  // namespace gonio

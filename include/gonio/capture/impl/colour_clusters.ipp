@@ -1,0 +1,98 @@
+#pragma once
+/// Bodies of capture/colour_clusters.hpp.
+
+#include <gonio/capture/colour_clusters.hpp>
+#include <gonio/capture/k_means.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/rgb.hpp>
+
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluster) const {
+  std::vector<std::size_t> found;
+  for (Eigen::Index i = 0; i < labels.size(); ++i)
+    if (static_cast<std::size_t>(labels[i]) == cluster) found.push_back(static_cast<std::size_t>(i));
+  return found;
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(n)), chosen(std::min(all.size(), clustered_sample));
+  std::iota(all.begin(), all.end(), Eigen::Index{0});
+  std::mt19937_64 generator(seed);
+  std::ranges::sample(all, chosen.begin(), std::ssize(chosen), generator);
+  return chosen;
+}
+
+GONIO_INLINE void require_colours(const point_matrix_view& colours) {
+  if (colours.rows() == 0 || colours.cols() != 3)
+    throw error("clusters need the colours of at least one pixel, three numbers each, not " +
+                std::to_string(colours.rows()) + " times " + std::to_string(colours.cols()));
+  for (Eigen::Index i = 0; i < colours.rows(); ++i)
+    if (!colours.row(i).allFinite()) throw error("the colour of pixel " + std::to_string(i + 1) + " is not finite");
+}
+
+GONIO_INLINE colour_clusters clusters_of_all(const point_matrix_view& colours, const point_matrix& points,
+                                             const std::vector<Eigen::Index>& some, point_matrix first_centres,
+                                             thread_count threads) {
+  const point_clusters found = refine_clusters(points, std::move(first_centres), threads);
+  point_matrix centres = cluster_means(colours, found.labels, found.centres.rows(), threads);
+  const double silhouette = mean_silhouette(points(some, Eigen::all), found.labels(some), threads);
+  return {found.labels, std::move(centres), found.sizes, silhouette, {}};
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE point_matrix clustering_coordinates(const point_matrix_view& colours) {
+  detail::require_colours(colours);
+  std::vector<double> largest(static_cast<std::size_t>(colours.rows()));
+  for (Eigen::Index i = 0; i < colours.rows(); ++i) largest[static_cast<std::size_t>(i)] = colours.row(i).maxCoeff();
+  const auto white = largest.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(largest.size() - 1));
+  std::ranges::nth_element(largest, white);
+  if (!(*white > 0.0)) throw error("99 of 100 pixels are black: there is no colour to cluster by");
+  point_matrix coordinates(colours.rows(), 3);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i)
+    coordinates.row(i) = to_lab(colours.row(i).transpose().array() / *white).matrix().transpose();
+  return coordinates;
+}
+
+GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, Eigen::Index k, std::uint64_t seed,
+                                             thread_count threads) {
+  const point_matrix points = clustering_coordinates(colours);
+  const std::vector<Eigen::Index> some = detail::some_points(points.rows(), seed);
+  const point_matrix looked_at = points(some, Eigen::all);
+  // A colour may be so rare that none of the sample has it.
+  const bool enough = k < 1 || detail::different_points(looked_at, k) == k;
+  point_clusters found = k_means(enough ? looked_at : points, k, seed, threads);
+  return detail::clusters_of_all(colours, points, some, std::move(found.centres), threads);
+}
+
+GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, const cluster_count_choice& choice,
+                                             std::uint64_t seed, thread_count threads) {
+  if (choice.most < 1) throw error("at least one cluster must be allowed, not " + std::to_string(choice.most));
+  const point_matrix points = clustering_coordinates(colours);
+  const std::vector<Eigen::Index> some = detail::some_points(points.rows(), seed);
+  const point_matrix looked_at = points(some, Eigen::all);
+  point_clusters best = k_means(looked_at, 1, seed, threads);
+  std::vector<double> silhouettes{0.0};
+  double largest = 0.0;
+  for (Eigen::Index k = 2; k <= detail::different_points(looked_at, choice.most); ++k) {
+    point_clusters found = k_means(looked_at, k, seed, threads);
+    silhouettes.push_back(mean_silhouette(looked_at, found.labels, threads));
+    if (!(silhouettes.back() > largest) || silhouettes.back() < choice.least_silhouette) continue;
+    largest = silhouettes.back();
+    best = std::move(found);
+  }
+  colour_clusters clusters = detail::clusters_of_all(colours, points, some, std::move(best.centres), threads);
+  clusters.silhouettes = std::move(silhouettes);
+  return clusters;
+}
+
+}  // namespace gonio

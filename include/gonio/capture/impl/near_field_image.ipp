@@ -1,0 +1,143 @@
+#pragma once
+/// Bodies of capture/near_field_image.hpp.
+
+#include <gonio/capture/near_field_image.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/pinhole_camera.hpp>
+#include <gonio/table/image.hpp>
+#include <gonio/table/picture_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE bool sample_disc::contains(const Eigen::Vector3d& point) const noexcept {
+  return (point.head<2>() - centre).norm() <= radius;
+}
+
+GONIO_INLINE void require_usable(const near_field_setup& setup) {
+  const auto refuse_unless = [](bool usable, const std::string& what) {
+    if (!usable) throw error(what);
+  };
+  const double height = setup.camera.position().z();
+  refuse_unless(height > 0.0, "the camera is not above the sample's plane, its z is " + std::to_string(height));
+  const direction& light = setup.light.towards;
+  constexpr double tolerance = 1e-6;
+  refuse_unless(std::abs(light.norm() - 1.0) < tolerance, "the light's direction must have length 1");
+  refuse_unless(light.z() > 0.0,
+                "the light is at or below the sample's horizon, its z is " + std::to_string(light.z()));
+  const rgb& irradiance = setup.light.irradiance;
+  refuse_unless(irradiance.isFinite().all() && (irradiance > 0.0).all(),
+                "the light's irradiance must be finite and positive in each channel");
+  if (setup.disc)
+    refuse_unless(std::isfinite(setup.disc->radius) && setup.disc->radius > 0.0 && setup.disc->centre.allFinite(),
+                  "the region of interest needs a positive radius and a finite centre");
+  if (const auto& window = setup.window) {
+    const auto inside = [](std::size_t first, std::size_t count, std::size_t all) {
+      return first < all && count > 0 && count <= all - first;
+    };
+    const camera_intrinsics& whole = setup.camera.intrinsics();
+    refuse_unless(
+        inside(window->column, window->columns, whole.columns) && inside(window->row, window->rows, whole.rows),
+        "the window must have pixels, all of them in the picture of " + std::to_string(whole.columns) + " x " +
+            std::to_string(whole.rows));
+  }
+  refuse_unless(
+      setup.mask.empty() || setup.mask.size() == setup.camera.intrinsics().rows * setup.camera.intrinsics().columns,
+      "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the picture");
+  if (setup.saturation) refuse_unless(*setup.saturation > 0.0, "the saturation must be positive");
+  refuse_unless(setup.block > 0, "a block needs at least one pixel a side");
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE std::optional<direction> view_of_pixel(const near_field_setup& setup, std::size_t row,
+                                                    std::size_t column) {
+  if (!setup.mask.empty() && !setup.mask[row * setup.camera.intrinsics().columns + column]) return {};
+  const ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+  const auto point = line.at_ground();
+  if (!point || (setup.disc && !setup.disc->contains(*point))) return {};
+  return -line.towards;
+}
+
+GONIO_INLINE void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
+                            pixel_block& block) {
+  const std::optional<direction> view = view_of_pixel(setup, row, column);
+  if (!view) return;
+  const rgb value = pixel(picture, row, column);
+  // In float, as the picture is. Several exposures in one may hold infinity where all of them were saturated.
+  const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
+  if (value.isNaN().any() || !(saturated || value.isFinite().all()))
+    throw error("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
+                ") is not finite, and it sees the sample");
+  block.saturated = block.saturated || saturated;
+  block.radiance += value;
+  block.views += *view;
+  ++block.pixels;
+}
+
+GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& intrinsics) {
+  const auto size = [](std::size_t columns, std::size_t rows) {
+    return std::to_string(columns) + " x " + std::to_string(rows);
+  };
+  if (picture.shape(2) != 3) throw error("a picture of " + std::to_string(picture.shape(2)) + " channels, expected 3");
+  if (picture.shape(0) != intrinsics.rows || picture.shape(1) != intrinsics.columns)
+    throw error("the picture has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
+                size(intrinsics.columns, intrinsics.rows));
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& setup) {
+  require_usable(setup);
+  const camera_intrinsics& whole = setup.camera.intrinsics();
+  const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
+  std::vector<std::size_t> seen;
+  for (std::size_t row = window.row; row < window.row + window.rows; ++row)
+    for (std::size_t column = window.column; column < window.column + window.columns; ++column)
+      if (detail::view_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
+  return seen;
+}
+
+GONIO_INLINE picture_samples near_field_pairs(const image& picture, const near_field_setup& setup) {
+  require_usable(setup);
+  const camera_intrinsics& whole = setup.camera.intrinsics();
+  detail::require_size(picture, whole);
+  const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
+  const std::size_t last_row = window.row + window.rows, last_column = window.column + window.columns;
+  const auto end = [&](std::size_t first, std::size_t last) { return first + std::min(setup.block, last - first); };
+  const rgb reflected = setup.light.irradiance * setup.light.towards.z();
+  const double pixels_of_block = static_cast<double>(setup.block) * static_cast<double>(setup.block);
+
+  picture_samples samples;
+  bool any_saturated = false;
+  for (std::size_t row = window.row; row < last_row; row = end(row, last_row))
+    for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {
+      detail::pixel_block block;
+      for (std::size_t r = row; r < end(row, last_row); ++r)
+        for (std::size_t c = column; c < end(column, last_column); ++c) detail::add_pixel(picture, setup, r, c, block);
+      any_saturated = any_saturated || block.saturated;
+      if (block.pixels == 0 || block.saturated) continue;
+      const direction_pair seen{setup.light.towards, block.views.normalized()};
+      // A view that grazes the sample may round to one at the horizon.
+      const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
+      if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
+      const auto pixels = static_cast<double>(block.pixels);
+      samples.push_back({seen, block.radiance / (pixels * reflected), pixels / pixels_of_block});
+    }
+  if (samples.empty())
+    throw error(any_saturated ? "all that the picture sees of the sample is saturated"
+                              : "the picture sees nothing of the sample: no pixel's ray meets the region of interest");
+  return samples;
+}
+
+}  // namespace gonio

@@ -1,0 +1,52 @@
+#pragma once
+/// Bodies of estimate/located_samples.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/located_samples.hpp>
+#include <gonio/metric/error_metric.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size_t>& positions) const {
+  const auto count = std::ssize(positions);
+  located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
+    some.at[i] = at[positions[i]];
+    some.values.row(to) = values.row(from);
+    some.weights[to] = weights[from];
+  }
+  return some;
+}
+
+GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf_table& table, thread_count threads) {
+  const bool own = table.cells() == cells;
+  const auto count = static_cast<Eigen::Index>(table.cells().size());
+  located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
+                        Eigen::VectorXd::Ones(count)};
+  for_each_block(
+      found.size(), 4096,
+      [&](block range) {
+        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+          if (!table.at(cell).isFinite().all())
+            throw error("cell " + std::to_string(cell) + " of a table is not finite");
+          found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
+          found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
+        }
+      },
+      threads);
+  return found;
+}
+
+}  // namespace gonio

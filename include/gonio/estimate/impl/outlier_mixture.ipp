@@ -1,0 +1,114 @@
+#pragma once
+/// Bodies of estimate/outlier_mixture.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/estimate/outlier_mixture.hpp>
+#include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/sample_regions.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residuals, const std::vector<double>& outliers,
+                                              outlier_mixture start) {
+  constexpr double nu = outlier_mixture::degrees_of_freedom;
+  const Eigen::ArrayXd all = Eigen::ArrayXd::Map(residuals.data(), std::ssize(residuals));
+  const Eigen::ArrayXd densities = Eigen::ArrayXd::Map(outliers.data(), std::ssize(outliers));
+  outlier_mixture now = start;
+  for (int step = 0; step < 50; ++step) {
+    const Eigen::ArrayXd shares = now.probability(all, densities);
+    const double good = shares.sum();
+    const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
+    const outlier_mixture next{std::clamp(good / static_cast<double>(all.size()), 0.02, 0.999),
+                               std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
+    const bool settled =
+        std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
+    now = next;
+    if (settled) break;
+  }
+  return now;
+}
+
+GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measured,
+                                                     const channel_values& estimated) const {
+  const deviations found = deviate(measured, estimated);
+  const outlier_density density(subset(found.logarithm));
+  const outlier_mixture mixture = estimate_from(found, density);
+  const Eigen::ArrayXd residuals = found.residual.cast<double>();
+  const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
+  Eigen::ArrayXd weights(residuals.size());
+  if (regions) {
+    const double typical = half_of_the_good(found.residual, regions->all(), mixture.good_share);
+    for (std::size_t region = 0; region < regions->count(); ++region) {
+      const std::span<const std::size_t> here = (*regions)[region];
+      const double ratio = half_of_the_good(found.residual, here, mixture.good_share) / typical;
+      weights(here) = weigh(rescaled(mixture, ratio), Eigen::ArrayXd(residuals(here)), Eigen::ArrayXd(outliers(here)));
+    }
+  } else {
+    weights = weigh(mixture, residuals, outliers);
+  }
+  return weights.cast<float>().transpose().replicate<3, 1>();
+}
+
+GONIO_INLINE outlier_mixture automatic_weights::mixture(const channel_values& measured,
+                                                        const channel_values& estimated) const {
+  const deviations found = deviate(measured, estimated);
+  return estimate_from(found, outlier_density(subset(found.logarithm)));
+}
+
+GONIO_INLINE Eigen::Array3f automatic_weights::offsets(const channel_values& measured) {
+  return {static_cast<float>(logarithm_offset(measured.row(0))), static_cast<float>(logarithm_offset(measured.row(1))),
+          static_cast<float>(logarithm_offset(measured.row(2)))};
+}
+
+GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const channel_values& measured,
+                                                                      const channel_values& estimated) {
+  const Eigen::Array3f offset = offsets(measured);
+  const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
+  const channel_values differences = logarithms - (estimated.colwise() + offset).log();
+  return {differences.square().colwise().mean().sqrt().transpose(), logarithms.colwise().mean().transpose()};
+}
+
+GONIO_INLINE Eigen::ArrayXd automatic_weights::weigh(const outlier_mixture& mixture, const Eigen::ArrayXd& residuals,
+                                                     const Eigen::ArrayXd& outliers) const {
+  const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
+  return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(residuals)) : good;
+}
+
+GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
+                                                        std::span<const std::size_t> samples, double good_share) {
+  std::vector<float> sorted;
+  for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
+  const auto middle =
+      sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * good_share * static_cast<double>(sorted.size()));
+  std::ranges::nth_element(sorted, middle);
+  return std::max(double{*middle}, 1e-6);
+}
+
+GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& mixture, double ratio) {
+  return {mixture.good_share,
+          std::clamp(ratio * mixture.scale, outlier_mixture::smallest_scale, std::max(mixture.scale, 1.0))};
+}
+
+GONIO_INLINE std::vector<double> automatic_weights::subset(const Eigen::ArrayXf& values) {
+  const Eigen::Index step = (values.size() + 19'999) / 20'000;
+  std::vector<double> chosen;
+  for (Eigen::Index i = 0; i < values.size(); i += step) chosen.push_back(values[i]);
+  return chosen;
+}
+
+GONIO_INLINE outlier_mixture automatic_weights::estimate_from(const deviations& found, const outlier_density& density) {
+  std::vector<double> outliers = subset(found.logarithm);
+  for (double& value : outliers) value = density(value);
+  return estimate_mixture(subset(found.residual), outliers);
+}
+
+}  // namespace gonio

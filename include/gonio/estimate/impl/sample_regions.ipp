@@ -1,0 +1,29 @@
+#pragma once
+/// Bodies of estimate/sample_regions.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/estimate/sample_regions.hpp>
+#include <gonio/table/location.hpp>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE sample_regions::sample_regions(const std::vector<location>& places)
+    : order_(places.size()), strips_(at_most(6, places.size())), parts_(at_most(4, places.size() / strips_)) {
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  const auto sort_by = [&](double half_difference::*angle, std::span<std::size_t> some) {
+    std::ranges::sort(some, [&](std::size_t one, std::size_t other) {
+      const double first = places[one].angles.*angle, second = places[other].angles.*angle;
+      return first != second ? first < second : one < other;
+    });
+  };
+  sort_by(&half_difference::theta_h, order_);
+  for (std::size_t strip = 0; strip < strips_; ++strip)
+    sort_by(&half_difference::theta_d, part_of<std::size_t>(order_, strip, strips_));
+}
+
+}  // namespace gonio

@@ -1,0 +1,84 @@
+#pragma once
+/// Bodies of evaluate/simulated_measurement.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs, double angle,
+                                          std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  sample_set samples;
+  for (const auto& [wi, wo] : pairs) {
+    const direction light = misplaced(wi, angle, generator), viewer = misplaced(wo, angle, generator);
+    samples.push_back({to_half_difference(wi, wo), table(light, viewer), 1.0});
+  }
+  return samples;
+}
+
+GONIO_INLINE std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::vector<std::size_t> chosen(all);
+  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  // The first steps of a Fisher-Yates shuffle.
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
+    std::swap(chosen[i], chosen[rest(generator)]);
+  }
+  chosen.resize(count);
+  std::ranges::sort(chosen);
+  return chosen;
+}
+
+GONIO_INLINE std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed) {
+  if (count == 0 || count > cells.size())
+    throw error("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
+  return random_choice(cells.size(), count, seed);
+}
+
+GONIO_INLINE std::vector<std::size_t> cells_at(const valid_cells& cells, std::span<const half_difference> directions) {
+  std::vector<std::size_t> chosen;
+  for (const half_difference& angles : directions) {
+    const std::size_t linear = cells.grid().linear(cells.grid().nearest(angles));
+    if (!cells.contains(linear))
+      throw error("direction " + std::to_string(chosen.size() + 1) + " (theta_h " +
+                  std::to_string(degrees(angles.theta_h)) + ", theta_d " + std::to_string(degrees(angles.theta_d)) +
+                  ", phi_d " + std::to_string(degrees(angles.phi_d)) +
+                  " degrees) is below the horizon or not in the table");
+    chosen.push_back(cells.representative(linear));
+  }
+  return chosen;
+}
+
+GONIO_INLINE sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
+                                const measurement_defects& defects, std::uint64_t seed) {
+  sample_set samples;
+  samples.reserve(cells.size());
+  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
+  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
+  return spoil(std::move(samples), defects, seed,
+               [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
+}
+
+GONIO_INLINE parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed) {
+  if (count > samples.size())
+    throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
+  std::vector<bool> chosen(samples.size());
+  for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
+  parted_samples parts;
+  for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
+  return parts;
+}
+
+}  // namespace gonio

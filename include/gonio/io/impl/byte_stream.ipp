@@ -1,0 +1,38 @@
+#pragma once
+/// Bodies of io/byte_stream.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/byte_stream.hpp>
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gonio::io {
+
+GONIO_INLINE void byte_writer::put_text(const std::string& text) {
+  put(static_cast<std::uint32_t>(text.size()));
+  put_all(std::span<const char>(text));
+}
+
+GONIO_INLINE std::string byte_reader::take_text() {
+  const auto characters = take_all<char>(take<std::uint32_t>());
+  return {characters.begin(), characters.end()};
+}
+
+GONIO_INLINE std::span<const std::byte> byte_reader::take_bytes(std::size_t count) {
+  if (count > bytes_.size()) fail();
+  const auto taken = bytes_.first(count);
+  bytes_ = bytes_.subspan(count);
+  return taken;
+}
+
+GONIO_INLINE void byte_reader::fail() const { throw error(name_ + ": the file is truncated or its counts are wrong"); }
+
+}  // namespace gonio::io

@@ -1,0 +1,20 @@
+#pragma once
+/// Bodies of io/merl_gzip.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/io/gzip.hpp>
+#include <gonio/io/merl.hpp>
+#include <gonio/io/merl_gzip.hpp>
+
+namespace gonio::io {
+
+GONIO_INLINE brdf_table parse_merl_any(std::span<const std::byte> bytes, const std::string& name,
+                                       const merl_options& options) {
+  if (!is_gzip(bytes)) return parse_merl(bytes, name, options);
+  // The extents at the start say how much more there may be.
+  const auto header = gunzip_prefix(bytes, detail::merl_header_size, name);
+  const std::uint64_t size = detail::merl_file_size(detail::merl_extents(header, name));
+  return parse_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
+}
+
+}  // namespace gonio::io

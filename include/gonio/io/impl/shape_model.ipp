@@ -1,0 +1,91 @@
+#pragma once
+/// Bodies of io/shape_model.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/io/checked_file.hpp>
+#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/shape_model.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gonio::io::detail {
+
+GONIO_INLINE void put_shape_model(byte_writer& out, const shape_model& model) {
+  const shape_basis& basis = model.basis();
+  out.put(static_cast<std::uint32_t>(model.vertices()));
+  out.put(static_cast<std::uint32_t>(model.triangles().cols()));
+  out.put(static_cast<std::uint32_t>(basis.size()));
+  out.put(static_cast<std::uint32_t>(basis.names().size()));
+  out.put(basis.explained_variance());
+  out.put_text(basis.source());
+  for (const std::string& name : basis.names()) out.put_text(name);
+  const auto put_matrix = [&](const auto& matrix) {
+    using number = typename std::remove_cvref_t<decltype(matrix)>::Scalar;
+    out.put_all(std::span<const number>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+  };
+  put_matrix(model.triangles());
+  put_matrix(basis.singular_values());
+  put_matrix(basis.coefficients());
+  out.put_all(std::span<const float>(basis.mean()));
+  put_matrix(basis.components());
+}
+
+GONIO_INLINE shape_model take_shape_model(byte_reader& in, const std::string& name) {
+  const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
+                    components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
+  if (components == 0 || components > shapes || shapes > in.left())
+    throw error(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
+                " shapes are impossible");
+  const auto explained_variance = in.take<double>();
+  std::string source = in.take_text();
+  std::vector<std::string> names(shapes);
+  for (std::string& shape : names) shape = in.take_text();
+  auto corners = take_matrix<triangle_columns>(in, 3, triangles);
+  const auto singular_values = take_matrix<Eigen::VectorXd>(in, components, 1);
+  const auto coefficients = take_matrix<Eigen::MatrixXf>(in, shapes, components);
+  auto mean = in.take_all<float>(3 * vertices);
+  auto functions = take_matrix<cell_matrix>(in, 3 * vertices, components);
+  if (in.left() != 0) throw error(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
+  const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
+                      functions.allFinite() &&
+                      std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
+  if (!finite) throw error(name + ": a value of the shape model is not finite");
+  try {
+    return {shape_basis({{vertices},
+                         lin{},
+                         std::move(names),
+                         singular_values,
+                         std::move(functions),
+                         std::move(mean),
+                         coefficients,
+                         explained_variance,
+                         std::move(source)}),
+            std::move(corners)};
+  } catch (const error& refusal) {
+    throw error(name + ": " + refusal.what());
+  }
+}
+
+}  // namespace gonio::io::detail
+
+namespace gonio::io {
+
+GONIO_INLINE std::vector<std::byte> encode_shape_model(const shape_model& model) {
+  byte_writer payload;
+  detail::put_shape_model(payload, model);
+  return encode_checked(detail::shape_model_kind, payload.bytes());
+}
+
+GONIO_INLINE shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name) {
+  const auto payload = decode_checked(detail::shape_model_kind, bytes, name);
+  byte_reader in(payload, name);
+  return detail::take_shape_model(in, name);
+}
+
+}  // namespace gonio::io

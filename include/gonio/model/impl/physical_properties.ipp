@@ -1,0 +1,19 @@
+#pragma once
+/// Bodies of model/physical_properties.hpp.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/model/physical_properties.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gonio::detail {
+
+GONIO_INLINE double relative_difference(const rgb& a, const rgb& b) {
+  const double size = std::max(a.abs().maxCoeff(), b.abs().maxCoeff());
+  return size > 0.0 ? (a - b).abs().maxCoeff() / size : 0.0;
+}
+
+}  // namespace gonio::detail

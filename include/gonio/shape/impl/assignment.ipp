@@ -1,0 +1,52 @@
+#pragma once
+/// Bodies of shape/assignment.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/shape/assignment.hpp>
+
+#include <Eigen/Core>
+#include <dlib/optimization/max_cost_assignment.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
+  constexpr double steps = 0x1p40;
+  const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));
+  dlib::matrix<std::int64_t> gains(size, size);
+  gains = 0;
+  // Halves, so that the range of finite numbers is finite.
+  const double least = 0.5 * costs.minCoeff(), range = 0.5 * costs.maxCoeff() - least;
+  if (!(range > 0.0)) return gains;
+  for (Eigen::Index j = 0; j < costs.cols(); ++j)
+    for (Eigen::Index i = 0; i < costs.rows(); ++i)
+      gains(i, j) = -std::llround((0.5 * costs(i, j) - least) / range * steps);
+  return gains;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs) {
+  for (Eigen::Index j = 0; j < costs.cols(); ++j)
+    for (Eigen::Index i = 0; i < costs.rows(); ++i)
+      if (!std::isfinite(costs(i, j)))
+        throw error("the cost of assigning row " + std::to_string(i) + " to column " + std::to_string(j) +
+                    " is not finite");
+  std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.rows()), -1);
+  if (costs.size() == 0) return columns;
+  const std::vector<long> found = dlib::max_cost_assignment(detail::integer_gains(costs));
+  for (std::size_t row = 0; row < columns.size(); ++row)
+    if (found[row] < costs.cols()) columns[row] = found[row];
+  return columns;
+}
+
+}  // namespace gonio

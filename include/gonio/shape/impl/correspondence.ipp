@@ -1,0 +1,70 @@
+#pragma once
+/// Bodies of shape/correspondence.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/shape/alignment.hpp>
+#include <gonio/shape/correspondence.hpp>
+#include <gonio/shape/fitted_shape.hpp>
+#include <gonio/shape/surface_index.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE std::optional<surface_point> posed_scan::along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
+                                                            double reach) const {
+  const similarity_transform back = pose.inverse();
+  const auto found = surface.along(back(point), back.rotation * line, reach * back.scale);
+  if (!found) return {};
+  return placed(*found);
+}
+
+GONIO_INLINE double posed_scan::trust_at(const surface_point& place) const {
+  if (trust.size() == 0) return 1.0;
+  const Eigen::Vector3i corners = surface.mesh().triangles.col(place.triangle);
+  return trust(corners).dot(place.barycentric);
+}
+
+GONIO_INLINE surface_point posed_scan::placed(surface_point found) const {
+  found.position = pose(found.position);
+  found.distance *= pose.scale;
+  return found;
+}
+
+GONIO_INLINE known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
+                                           const std::vector<char>& shown, double tangential) {
+  known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
+  found.normals = normals(Eigen::all, found.vertices);
+  found.tangential = tangential;
+  return found;
+}
+
+GONIO_INLINE known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
+                                           const correspondence_options& options, thread_count threads) {
+  const point_columns normals = vertex_normals(shape);
+  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols());
+  Eigen::VectorXd trust(shape.vertices.cols());
+  std::vector<char> shown(count, 0);  // not bool: threads write neighbours
+  for_each_block(
+      count, 128,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto vertex = static_cast<Eigen::Index>(i);
+          const surface_point found = scan.closest(shape.vertices.col(vertex));
+          places.col(vertex) = found.position;
+          trust[vertex] = scan.trust_at(found);
+          // What is missing in the scan is nearest to where it ends.
+          shown[i] = !found.on_border && found.distance <= options.reach &&
+                     scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
+        }
+      },
+      threads);
+  known_vertices known = shown_vertices(places, normals, shown, options.tangential);
+  known.trust = trust(known.vertices);
+  return known;
+}
+
+}  // namespace gonio

@@ -1,0 +1,117 @@
+#pragma once
+/// Bodies of shape/recovery.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/shape/confidence.hpp>
+#include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/geodesic.hpp>
+#include <gonio/shape/recovery.hpp>
+#include <gonio/solve/truncated_svd.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
+  const Eigen::Index weights = fit.weights().size();
+  const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
+  if (fit.squared_distance() <= limit) return;
+  throw error("the scan is not of the model's family: its Mahalanobis distance from the mean shape is " +
+              std::to_string(std::sqrt(fit.squared_distance())) + ", expected at most " +
+              std::to_string(std::sqrt(limit)) + " with " + std::to_string(weights) + " components of " +
+              std::to_string(model.shapes()) + " shapes");
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_index& scan,
+                                     const similarity_transform& pose, const recovery_options& options,
+                                     thread_count threads) {
+  const fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(begin, model, options.confidence);
+  fit_to_scan_result fit = fit_to_scan(model, scan, begin.pose, options.fine, threads);
+  triangle_mesh surface = model.mesh(fit.shape());
+  return {std::move(surface), fit.places, fit.pose, fit};
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
+                                           const known_vertices& known, const published_recovery_options& options,
+                                           thread_count threads) {
+  const truncated_svd solver{options.last_explained_variance};
+  const std::vector<bool> marks = marks_of(known, model.vertices());
+  std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
+  for (std::size_t i = 0; i < known.vertices.size(); ++i)
+    place[static_cast<std::size_t>(known.vertices[i])] = static_cast<Eigen::Index>(i);
+  const auto is_known = [&](Eigen::Index vertex) { return bool{marks[static_cast<std::size_t>(vertex)]}; };
+  point_columns predicted(3, model.vertices());
+  for_each_block(
+      marks.size(), 32,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto vertex = static_cast<Eigen::Index>(i);
+          known_vertices near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours), {}};
+          std::vector<Eigen::Index> columns;
+          for (const Eigen::Index neighbour : near.vertices)
+            columns.push_back(place[static_cast<std::size_t>(neighbour)]);
+          near.positions = known.positions(Eigen::all, columns);
+          near.normals = known.normals(Eigen::all, columns);
+          near.tangential = known.tangential;
+          predicted.col(vertex) = decomposition{model.basis(), solver, thread_count{1}}.fit(near).vertex(vertex);
+        }
+      },
+      threads);
+  return predicted;
+}
+
+GONIO_INLINE double explained_variance_in(int round, const published_recovery_options& options) {
+  const double progress = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
+  return std::lerp(options.first_explained_variance, options.last_explained_variance, std::min(progress, 1.0));
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE recovered_shape recover_as_published(const shape_model& model, const surface_index& scan,
+                                                  const similarity_transform& pose,
+                                                  const published_recovery_options& options, thread_count threads) {
+  fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
+  detail::require_of_family(begin, model, options.confidence);
+  const triangle_mesh mean = model.mean();
+  posed_scan posed{scan, begin.pose};
+  triangle_mesh shape = model.mesh(begin.shape());
+  known_vertices known = closest_places(posed, shape, options.correspondence, threads);
+  for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
+    // Procrustes alignment of the shape to the mean, and of the scan with it.
+    point_columns whole = shape.vertices;
+    whole(Eigen::all, known.vertices) = known.positions;
+    const similarity_transform step = align(whole, mean.vertices);
+    posed.pose = step * posed.pose;
+    known.positions = step(known.positions);
+    known.normals = step.rotation * known.normals;
+    // Predict what is missing, and what is known.
+    if (round < options.rounds) {
+      const truncated_svd solver{detail::explained_variance_in(round, options)};
+      shape.vertices = decomposition{model.basis(), solver, threads}.fit(known).vertices();
+    } else {
+      shape.vertices = detail::predict_locally(model, mean, known, options, threads);
+    }
+    // Find where the scan shows the vertices now.
+    known = closest_places(posed, shape, options.correspondence, threads);
+    require_shown(known, model);
+  }
+  return {std::move(shape), std::move(known), posed.pose, std::move(begin)};
+}
+
+}  // namespace gonio

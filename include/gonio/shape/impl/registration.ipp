@@ -1,0 +1,113 @@
+#pragma once
+/// Bodies of shape/registration.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/shape/fit_to_scan.hpp>
+#include <gonio/shape/registration.hpp>
+#include <gonio/shape/surface_noise.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double share) {
+  std::vector<double> smallest;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    const Eigen::Matrix3d corners = mesh.corners(t);
+    double least = 180.0;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const Eigen::Vector3d next = corners.col((c + 1) % 3) - corners.col(c),
+                            last = corners.col((c + 2) % 3) - corners.col(c);
+      least = std::min(least, degrees(std::atan2(next.cross(last).norm(), next.dot(last))));
+    }
+    smallest.push_back(least);
+  }
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
+  std::ranges::nth_element(smallest, smallest.begin() + place);
+  return smallest[static_cast<std::size_t>(place)];
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
+                                                 const triangle_mesh& shape, const registration_options& options,
+                                                 thread_count threads) {
+  const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
+  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  point_columns places(3, shape.vertices.cols());
+  std::vector<char> shown(count, 0);
+  for_each_block(
+      count, 128,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const auto v = static_cast<Eigen::Index>(i);
+          if (!(normals.col(v).norm() > 0.0)) continue;
+          const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
+          if (!found || found->on_border) continue;
+          if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) continue;
+          places.col(v) = found->position;
+          shown[i] = 1;
+        }
+      },
+      threads);
+  return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
+}
+
+GONIO_INLINE std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
+                                    const registration_options& options) {
+  const auto weights = static_cast<double>(fit.weights().size());
+  const double limit = chi_square_quantile(options.confidence, weights);
+  if (found.squared_distance > limit)
+    return "the Mahalanobis distance of its weights is " + std::to_string(std::sqrt(found.squared_distance)) +
+           ", expected at most " + std::to_string(std::sqrt(limit));
+  if (found.missing > options.most_missing)
+    return "it does not show " + std::to_string(100.0 * found.missing) + " % of the vertices, expected at most " +
+           std::to_string(100.0 * options.most_missing);
+  if (found.angle < options.least_angle)
+    return "a fifth of its triangles have an angle below " + std::to_string(found.angle) +
+           " degrees, expected at least " + std::to_string(options.least_angle);
+  if (found.normal_agreement < options.least_normal_agreement)
+    return "its normals agree with those of the fit to " + std::to_string(found.normal_agreement) +
+           " in the mean, expected at least " + std::to_string(options.least_normal_agreement);
+  return {};
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE registration register_scan(const shape_model& model, const surface_index& scan,
+                                        const similarity_transform& pose, const registration_options& options,
+                                        thread_count threads) {
+  const fit_to_scan_result fit = fit_to_scan(model, scan, pose, options.fit, threads);
+  registration found;
+  found.vertices = fit.shape();
+  found.pose = fit.pose;
+  found.squared_distance = fit.squared_distance();
+  const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
+  for (int round = 0; round < options.rounds; ++round) {
+    const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
+    const known_vertices places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
+    require_shown(places, model);
+    point_columns next = smoothed.vertices;
+    next(Eigen::all, places.vertices) = places.positions;
+    found.missing = 1.0 - static_cast<double>(places.vertices.size()) / static_cast<double>(model.vertices());
+    const double change = (next - found.vertices).norm();
+    found.vertices = std::move(next);
+    if (change <= tolerance) break;
+  }
+  const triangle_mesh registered = model.mesh(found.vertices);
+  found.angle = smallest_angle_percentile(registered, 0.2);
+  found.normal_agreement =
+      vertex_normals(registered).cwiseProduct(vertex_normals(model.mesh(fit.shape()))).colwise().sum().mean();
+  found.refusal = detail::refusal_of(found, fit, options);
+  return found;
+}
+
+}  // namespace gonio

@@ -1,0 +1,185 @@
+#pragma once
+/// Bodies of shape/shape_context.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/shape/assignment.hpp>
+#include <gonio/shape/shape_context.hpp>
+#include <gonio/shape/triangle_mesh.hpp>
+
+#include <Eigen/Geometry>
+#include <nanoflann.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE void require_context(const shape_context_options& options) {
+  if (options.radial_bins < 1 || options.polar_bins < 1 || options.azimuthal_bins < 1)
+    throw error("a shape context needs at least one bin for each of its three coordinates");
+  if (!(options.radius > 0.0 && std::isfinite(options.radius)))
+    throw error("the radius of a shape context must be positive and finite, not " + std::to_string(options.radius));
+  if (!options.vertical.allFinite() || !(options.vertical.stableNorm() > 0.0))
+    throw error("the vertical axis of a shape context must be finite and not zero");
+  if (!(options.least_inclination > 0.0 && options.least_inclination < std::numbers::pi / 2.0))
+    throw error("the least inclination of a shape context's normals must be between 0 and pi/2, not " +
+                std::to_string(options.least_inclination));
+}
+
+GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
+  if (!mesh.vertices.allFinite()) throw error("the vertices of a mesh to describe must be finite");
+  if (mesh.triangles.cols() == 0) throw error("a mesh to describe has no triangles");
+  if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
+    throw error("a triangle of a mesh to describe names a vertex that is not among its " +
+                std::to_string(mesh.vertices.cols()));
+}
+
+GONIO_INLINE Eigen::VectorXd vertex_areas(const triangle_mesh& mesh) {
+  const Eigen::RowVectorXd doubled = area_normals(mesh).colwise().norm();
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertices.cols());
+  for (Eigen::Index t = 0; t < doubled.size(); ++t)
+    for (Eigen::Index corner = 0; corner < 3; ++corner) areas[mesh.triangles(corner, t)] += doubled[t] / 6.0;
+  return areas;
+}
+
+GONIO_INLINE double point_tree::squared_distance(const Eigen::Vector3d& place) const {
+  std::uint32_t index = 0;
+  double squared = 0.0;
+  tree_.knnSearch(place.data(), 1, &index, &squared);
+  return squared;
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE std::optional<Eigen::Matrix3d> context_frame(const Eigen::Vector3d& normal,
+                                                          const shape_context_options& options) {
+  const Eigen::Vector3d vertical = options.vertical.stableNormalized();
+  const Eigen::Vector3d across = vertical - vertical.dot(normal) * normal;
+  if (!(normal.squaredNorm() > 0.0 && across.norm() >= std::sin(options.least_inclination))) return {};
+  Eigen::Matrix3d frame;
+  frame << across.normalized(), normal.cross(across).normalized(), normal;
+  return frame;
+}
+
+GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_context_options& options) {
+  const auto bin = [](double share, Eigen::Index bins) {
+    return std::clamp(static_cast<Eigen::Index>(share * static_cast<double>(bins)), Eigen::Index{0}, bins - 1);
+  };
+  const double r = place.norm(), theta = std::acos(std::clamp(place.z() / r, -1.0, 1.0)),
+               phi = std::atan2(place.y(), place.x());
+  const Eigen::Index radial = bin(r / options.radius, options.radial_bins),
+                     polar = bin(theta / std::numbers::pi, options.polar_bins),
+                     azimuthal = bin(0.5 + phi / (2.0 * std::numbers::pi), options.azimuthal_bins);
+  return (radial * options.polar_bins + polar) * options.azimuthal_bins + azimuthal;
+}
+
+GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count) {
+  detail::require_finite_mesh(mesh);
+  if (count < 0) throw error("the number of vertices to choose must not be negative");
+  // Of squared distances from what was chosen; vertices of no triangle are as near as those chosen.
+  Eigen::RowVectorXd nearest = Eigen::RowVectorXd::Zero(mesh.vertices.cols());
+  for (const int vertex : mesh.triangles.reshaped()) nearest[vertex] = std::numeric_limits<double>::infinity();
+  const Eigen::Vector3d centroid = mesh.vertices.rowwise().mean();
+  Eigen::RowVectorXd key = nearest.cwiseMin((mesh.vertices.colwise() - centroid).colwise().squaredNorm());
+  std::vector<Eigen::Index> chosen;
+  while (static_cast<Eigen::Index>(chosen.size()) < count) {
+    Eigen::Index farthest = 0;
+    if (!(key.maxCoeff(&farthest) > 0.0)) break;
+    chosen.push_back(farthest);
+    const Eigen::Vector3d place = mesh.vertices.col(farthest);
+    nearest = nearest.cwiseMin((mesh.vertices.colwise() - place).colwise().squaredNorm());
+    key = nearest;
+  }
+  return chosen;
+}
+
+GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::vector<Eigen::Index>& chosen,
+                                        const shape_context_options& options, thread_count threads) {
+  detail::require_context(options);
+  detail::require_finite_mesh(mesh);
+  for (const Eigen::Index vertex : chosen)
+    if (vertex < 0 || vertex >= mesh.vertices.cols())
+      throw error("vertex " + std::to_string(vertex) + " of a mesh of " + std::to_string(mesh.vertices.cols()) +
+                  " cannot be described");
+  const point_columns normals = vertex_normals(mesh);
+  const Eigen::VectorXd areas = detail::vertex_areas(mesh);
+  const detail::point_tree tree(mesh.vertices);
+  Eigen::MatrixXd histograms = Eigen::MatrixXd::Zero(options.bins(), static_cast<Eigen::Index>(chosen.size()));
+  const auto fill = [&](Eigen::Index point) {
+    const Eigen::Index vertex = chosen[static_cast<std::size_t>(point)];
+    const Eigen::Vector3d origin = mesh.vertices.col(vertex);
+    const std::optional<Eigen::Matrix3d> frame = context_frame(normals.col(vertex), options);
+    if (!frame) return;
+    tree.for_each_within(options.radius, origin, [&](Eigen::Index neighbour) {
+      const Eigen::Vector3d place = frame->transpose() * (mesh.vertices.col(neighbour) - origin);
+      if (place.squaredNorm() > 0.0) histograms(context_bin(place, options), point) += areas[neighbour];
+    });
+  };
+  for_each_block(
+      chosen.size(), 8,
+      [&](block points) {
+        for (std::size_t i = points.begin; i < points.end; ++i) fill(static_cast<Eigen::Index>(i));
+      },
+      threads);
+
+  shape_descriptors found;
+  std::vector<Eigen::Index> filled;
+  for (Eigen::Index point = 0; point < histograms.cols(); ++point) {
+    const double sum = histograms.col(point).sum();
+    if (!(sum > 0.0)) continue;
+    histograms.col(point) /= sum;
+    filled.push_back(point);
+    found.vertex.push_back(chosen[static_cast<std::size_t>(point)]);
+  }
+  found.histograms = histograms(Eigen::all, filled).cast<float>();
+  return found;
+}
+
+GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, const shape_descriptors& onto,
+                                              thread_count threads) {
+  if (from.histograms.rows() != onto.histograms.rows())
+    throw error("descriptors of " + std::to_string(from.histograms.rows()) + " and " +
+                std::to_string(onto.histograms.rows()) + " bins cannot be compared");
+  Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
+  // Empty in both: 0 / least, which is 0.
+  constexpr float least = std::numeric_limits<float>::min();
+  for_each_block(
+      static_cast<std::size_t>(costs.cols()), 8,
+      [&](block columns) {
+        for (auto j = static_cast<Eigen::Index>(columns.begin); j < static_cast<Eigen::Index>(columns.end); ++j)
+          for (Eigen::Index i = 0; i < costs.rows(); ++i) {
+            const auto a = from.histograms.col(i).array(), b = onto.histograms.col(j).array();
+            costs(i, j) = 0.5 * ((a - b).square() / (a + b).max(least)).cast<double>().sum();
+          }
+      },
+      threads);
+  return costs;
+}
+
+GONIO_INLINE std::vector<shape_match> match(const shape_descriptors& from, const shape_descriptors& onto,
+                                            thread_count threads) {
+  const Eigen::MatrixXd costs = chi_square_costs(from, onto, threads);
+  const std::vector<Eigen::Index> columns = optimal_assignment(costs);
+  std::vector<shape_match> matches;
+  for (Eigen::Index row = 0; row < costs.rows(); ++row) {
+    const Eigen::Index column = columns[static_cast<std::size_t>(row)];
+    if (column >= 0) matches.push_back({row, column, costs(row, column)});
+  }
+  std::ranges::sort(matches, {}, [](const shape_match& one) { return std::tuple(one.cost, one.from); });
+  return matches;
+}
+
+}  // namespace gonio

@@ -1,0 +1,35 @@
+#pragma once
+/// Bodies of shape/shape_model.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/shape/alignment.hpp>
+#include <gonio/shape/mesh_topology.hpp>
+#include <gonio/shape/shape_basis.hpp>
+#include <gonio/shape/shape_model.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE shape_model shape_model::explaining(double share) const {
+  shape_model fewer(*this);
+  fewer.basis_ = gonio::explaining(basis_, share);
+  return fewer;
+}
+
+GONIO_INLINE shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
+                                           triangle_columns triangles, thread_count threads) {
+  (void)shape_set::of(shapes, names);  // refuses what does not belong together, by name
+  if (std::ranges::all_of(shapes, [&](const point_columns& shape) { return shape == shapes.front(); }))
+    throw error("a shape model needs at least two shapes that differ, not " + std::to_string(shapes.size()) +
+                " that do not");
+  const aligned_shapes aligned = procrustes_mean(shapes);
+  const std::size_t components = shapes.size();
+  return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};
+}
+
+}  // namespace gonio

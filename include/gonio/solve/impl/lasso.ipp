@@ -1,0 +1,47 @@
+#pragma once
+/// Bodies of solve/lasso.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/coordinate_descent.hpp>
+#include <gonio/solve/lasso.hpp>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE double largest_lambda(const normal_equations& normal, sign_rule signs) {
+  double largest = 0.0;
+  for (const double moment : normal.moment().reshaped())
+    largest = std::max(largest, signs == sign_rule::any ? std::abs(moment) : moment);
+  return largest;
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE void require_penalty(double lambda) {
+  if (!(lambda >= 0.0 && std::isfinite(lambda)))
+    throw error("the penalty lambda of a Lasso must be finite and not negative, not " + std::to_string(lambda));
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count,
+                                                 double smallest_share, sign_rule signs) {
+  if (count < 2) throw error("a regularisation path needs at least two penalties, not " + std::to_string(count));
+  if (!(smallest_share > 0.0 && smallest_share < 1.0))
+    throw error("the smallest penalty of a path must be a share in (0, 1) of the largest, not " +
+                std::to_string(smallest_share));
+  const double largest = largest_lambda(normal, signs);
+  std::vector<double> lambdas(count);
+  for (std::size_t i = 0; i < count; ++i)
+    lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
+  return lambdas;
+}
+
+}  // namespace gonio

@@ -1,0 +1,148 @@
+#pragma once
+/// Bodies of solve/least_squares_problem.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/gram.hpp>
+#include <gonio/solve/least_squares_problem.hpp>
+#include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/row_source.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE row_matrix least_squares_problem::rows() const {
+  row_matrix gathered(equations(), unknowns());
+  for_each_row_block([&](block range, const row_matrix& part) {
+    gathered.middleRows(static_cast<Eigen::Index>(range.begin), part.rows()) = part;
+  });
+  return gathered;
+}
+
+GONIO_INLINE Eigen::Index least_squares_problem::observations() const { return (weights().array() > 0.0).count(); }
+
+GONIO_INLINE row_matrix least_squares_problem::weighted_rows() const {
+  row_matrix gathered(observations(), unknowns());
+  Eigen::Index filled = 0;
+  for_each_row_block([&](block range, const row_matrix& part) {
+    for (Eigen::Index row = 0; row < part.rows(); ++row) {
+      const double weight = weights()[static_cast<Eigen::Index>(range.begin) + row];
+      if (weight > 0.0) gathered.row(filled++) = std::sqrt(weight) * part.row(row);
+    }
+  });
+  return gathered;
+}
+
+GONIO_INLINE Eigen::MatrixXd least_squares_problem::weighted_right_hand_side() const {
+  Eigen::MatrixXd gathered(observations(), right_hand_side().cols());
+  Eigen::Index filled = 0;
+  for (Eigen::Index row = 0; row < equations(); ++row)
+    if (weights()[row] > 0.0) gathered.row(filled++) = std::sqrt(weights()[row]) * right_hand_side().row(row);
+  return gathered;
+}
+
+GONIO_INLINE const normal_equations& least_squares_problem::normal() const {
+  std::call_once(normal_->built, [&] {
+    if (whole_)
+      normal_->equations = whole_->normal().subset(*columns_);
+    else
+      normal_->equations = assemble_finite();
+  });
+  return *normal_->equations;
+}
+
+GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const Eigen::Index> columns) const {
+  least_squares_problem part(*this);
+  part.whole_ = std::make_shared<const least_squares_problem>(*this);
+  part.normal_ = std::make_shared<lazy_normal_equations>();
+  std::vector<Eigen::Index> chosen(columns.begin(), columns.end());
+  for (Eigen::Index& column : chosen) {
+    if (column < 0 || column >= unknowns())
+      throw error("a least-squares problem of " + std::to_string(unknowns()) + " unknowns has no column " +
+                  std::to_string(column));
+    if (columns_) column = (*columns_)[static_cast<std::size_t>(column)];
+  }
+  if (chosen.empty()) throw error("a least-squares problem needs at least one column");
+  // Columns count from the whole that has no whole itself, so that subsets of subsets do not nest.
+  if (whole_) part.whole_ = whole_;
+  part.columns_ = std::move(chosen);
+  return part;
+}
+
+GONIO_INLINE Eigen::VectorXd least_squares_problem::residual(const Eigen::MatrixXd& x) const {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.cols());
+  const Eigen::VectorXd squares = sum_over_blocks(
+      static_cast<std::size_t>(equations()), block_rows, zero,
+      [&](Eigen::VectorXd& sum, block range) {
+        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const row_matrix part = read(range);
+        for (Eigen::Index column = 0; column < x.cols(); ++column) {
+          const Eigen::VectorXd misfit = part * x.col(column) - right_hand_side().col(column).segment(begin, count);
+          sum[column] += weights().segment(begin, count).dot(misfit.cwiseAbs2());
+        }
+      },
+      threads_);
+  return squares.cwiseSqrt();
+}
+
+GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::MatrixXd b, Eigen::VectorXd w)
+    : rows(std::move(source)), right_hand_side(std::move(b)), weights(std::move(w)) {
+  if (weights.size() == 0) weights = Eigen::VectorXd::Ones(rows.rows);
+  const auto text = [](Eigen::Index n) { return std::to_string(n); };
+  if (rows.rows == 0 || rows.columns == 0 || right_hand_side.cols() == 0)
+    throw error("a least-squares problem of " + text(rows.rows) + " rows, " + text(rows.columns) + " unknowns and " +
+                text(right_hand_side.cols()) + " right-hand sides is empty");
+  if (right_hand_side.rows() != rows.rows || weights.size() != rows.rows)
+    throw error("a least-squares problem of " + text(rows.rows) + " rows has " + text(right_hand_side.rows()) +
+                " right-hand values and " + text(weights.size()) + " weights");
+  for (Eigen::Index row = 0; row < rows.rows; ++row) {
+    for (Eigen::Index column = 0; column < right_hand_side.cols(); ++column)
+      if (!std::isfinite(right_hand_side(row, column)))
+        throw error("row " + text(row) + " of a least-squares problem is not finite on its right-hand side");
+    if (!(weights[row] >= 0.0 && std::isfinite(weights[row])))
+      throw error("row " + text(row) + " of a least-squares problem has weight " + std::to_string(weights[row]) +
+                  ": weights must be finite and not negative");
+  }
+}
+
+GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
+  row_matrix all(static_cast<Eigen::Index>(range.size()), equations_->rows.columns);
+  equations_->rows.read(range, all);
+  // A finite sum has finite terms, and is one vectorised pass; terms of a sum that overflows may be finite too.
+  if (!std::isfinite(all.sum())) require_finite(all, range.begin);
+  if (!columns_) return all;
+  row_matrix chosen(all.rows(), unknowns());
+  for (Eigen::Index column = 0; column < chosen.cols(); ++column)
+    chosen.col(column) = all.col((*columns_)[static_cast<std::size_t>(column)]);
+  return chosen;
+}
+
+GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, std::size_t first_row) {
+  for (Eigen::Index row = 0; row < part.rows(); ++row)
+    for (Eigen::Index column = 0; column < part.cols(); ++column)
+      if (!std::isfinite(part(row, column)))
+        throw error("row " + std::to_string(first_row + static_cast<std::size_t>(row)) +
+                    " of a least-squares problem is not finite in column " + std::to_string(column));
+}
+
+GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
+  try {
+    return assemble(equations_->rows, right_hand_side(), weights(), threads_);
+  } catch (const error&) {
+    read_all();  // names the row, which the sums have forgotten
+    throw;
+  }
+}
+
+}  // namespace gonio

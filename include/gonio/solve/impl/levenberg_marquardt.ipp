@@ -1,0 +1,51 @@
+#pragma once
+/// Bodies of solve/levenberg_marquardt.hpp.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/levenberg_marquardt.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
+                                          const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
+  const Eigen::Index n = gradient.size();
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool held = (lowest[i] >= 0.0 && gradient[i] >= 0.0) || (highest[i] <= 0.0 && gradient[i] <= 0.0);
+    if (!held) free.push_back(i);
+  }
+  while (!free.empty()) {
+    const Eigen::VectorXd slope = gradient + hessian * step;  // with the step of those that are held
+    const Eigen::MatrixXd among = hessian(free, free);
+    const Eigen::VectorXd moves = among.ldlt().solve(-slope(free));
+    std::vector<Eigen::Index> inside;
+    for (std::size_t j = 0; j < free.size(); ++j) {
+      const Eigen::Index i = free[j];
+      const double move = moves[static_cast<Eigen::Index>(j)];
+      if (move < lowest[i] || move > highest[i])
+        step[i] = std::clamp(move, lowest[i], highest[i]);
+      else
+        inside.push_back(i);
+    }
+    if (inside.size() == free.size()) {
+      step(free) = moves;
+      break;
+    }
+    free = std::move(inside);
+  }
+  return step;
+}
+
+}  // namespace gonio::detail

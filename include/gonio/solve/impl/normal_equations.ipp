@@ -1,0 +1,85 @@
+#pragma once
+/// Bodies of solve/normal_equations.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/normal_equations.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE normal_equations::normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy)
+    : gram_(std::move(gram)), moment_(std::move(moment)), energy_(std::move(energy)) {
+  if (energy_.size() == 0) energy_ = Eigen::VectorXd::Zero(moment_.cols());
+  require_consistent();
+}
+
+GONIO_INLINE Eigen::VectorXd normal_equations::objective(const Eigen::MatrixXd& x) const {
+  Eigen::VectorXd values(x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column)
+    values[column] = 0.5 * quadratic_form(x, column) - moment_.col(column).dot(x.col(column));
+  return values;
+}
+
+GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x) const {
+  const Eigen::VectorXd half_squares = objective(x) + 0.5 * energy_;
+  return (2.0 * half_squares).cwiseMax(0.0).cwiseSqrt();
+}
+
+GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::Index> columns) const {
+  const auto k = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd gram(k, k), moment(k, right_hand_sides());
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const Eigen::Index from = columns[static_cast<std::size_t>(j)];
+    for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[static_cast<std::size_t>(i)], from);
+    moment.row(j) = moment_.row(from);
+  }
+  return {std::move(gram), std::move(moment), energy_};
+}
+
+GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, Eigen::Index column) const {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < unknowns(); ++j)
+    if (x(j, column) != 0.0) sum += x(j, column) * gram_.col(j).dot(x.col(column));
+  return sum;
+}
+
+GONIO_INLINE void normal_equations::require_consistent() const {
+  const auto text = [](Eigen::Index n) { return std::to_string(n); };
+  if (gram_.size() == 0 || moment_.cols() == 0)
+    throw error("normal equations of " + text(gram_.rows()) + " unknowns and " + text(moment_.cols()) +
+                " right-hand sides are empty");
+  if (gram_.rows() != gram_.cols() || moment_.rows() != gram_.rows() || energy_.size() != moment_.cols())
+    throw error("normal equations do not match in size: the Gram matrix is " + text(gram_.rows()) + " x " +
+                text(gram_.cols()) + ", the moment " + text(moment_.rows()) + " x " + text(moment_.cols()) + ", and " +
+                text(energy_.size()) + " right-hand sides have their energy");
+  for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
+    const auto finite = [](double value) { return std::isfinite(value); };
+    const auto first = gram_.col(column).data();
+    if (!std::all_of(first, first + gram_.rows(), finite) || !moment_.row(column).allFinite())
+      throw error("column " + text(column) + " of normal equations is not finite");
+    if (gram_(column, column) < 0.0)
+      throw error("column " + text(column) + " of normal equations has the squared norm " +
+                  std::to_string(gram_(column, column)) + ": it cannot be negative");
+  }
+  if (!energy_.allFinite()) throw error("the right-hand side of normal equations is not finite");
+}
+
+GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {
+  std::vector<Eigen::Index> columns;
+  columns.reserve(static_cast<std::size_t>(k));
+  for (Eigen::Index column = 0; column < k; ++column)
+    if (column != left_out) columns.push_back(column);
+  return columns;
+}
+
+}  // namespace gonio

@@ -1,0 +1,48 @@
+#pragma once
+/// Bodies of table/material_set.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/domain.hpp>
+#include <gonio/table/material_set.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <iterator>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE std::size_t material_set::find(const std::string& name) const {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) throw error("there is no material named '" + name + "'");
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+GONIO_INLINE brdf_table material_set::table(std::size_t material) const {
+  brdf_table result(cells);
+  const auto column = static_cast<Eigen::Index>(3 * material);
+  Eigen::Map<cell_matrix>(result.values().data(), values.rows(), 3) = values.middleCols(column, 3);
+  return result;
+}
+
+GONIO_INLINE material_set material_set::subset(const std::vector<std::size_t>& positions) const {
+  material_set some{cells, {}, cell_matrix(values.rows(), 3 * std::ssize(positions))};
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const std::size_t from = positions[i];
+    if (from >= names.size())
+      throw error("there is no material " + std::to_string(from) + " among " + std::to_string(names.size()));
+    some.names.push_back(names[from]);
+    some.values.middleCols(static_cast<Eigen::Index>(3 * i), 3) =
+        values.middleCols(static_cast<Eigen::Index>(3 * from), 3);
+  }
+  return some;
+}
+
+}  // namespace gonio

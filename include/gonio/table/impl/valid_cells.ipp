@@ -1,0 +1,43 @@
+#pragma once
+/// Bodies of table/valid_cells.hpp.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/table/grid.hpp>
+#include <gonio/table/valid_cells.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshold)
+    : grid(cells), minimum_cosine(threshold) {
+  const auto columns = static_cast<std::size_t>(grid.extents().phi_d);
+  const std::size_t layer = static_cast<std::size_t>(grid.extents().theta_d) * columns;
+  const double limit = std::max(minimum_cosine, horizon);
+  representative.resize(grid.size());
+  linear.reserve(grid.size());
+  for_each_smaller_cosine(grid, [&](std::size_t cell, double cosine) {
+    const auto count = static_cast<std::uint32_t>(linear.size());
+    if (cell % columns == 0) row_begin.push_back(count);
+    if (cosine > limit) {
+      representative[cell] = count;
+      linear.push_back(static_cast<std::uint32_t>(cell));
+    } else if (cell >= layer) {
+      // Both cosines fall as theta_h grows, so the layer below has already found the last valid one.
+      representative[cell] = representative[cell - layer];
+    } else {
+      representative[cell] = count == 0 ? 0 : count - 1;
+    }
+  });
+  row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
+  if (linear.empty()) throw error("no cell of the grid has both directions above the horizon");
+}
+
+}  // namespace gonio

@@ -1,0 +1,3 @@
+// The bodies of core/.
+
+#include <gonio/core/impl/pinhole_camera.ipp>

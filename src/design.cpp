@@ -1,0 +1,13 @@
+// The bodies of design/.
+
+#include <gonio/design/impl/capture_constraint.ipp>
+#include <gonio/design/impl/capture_geometry.ipp>
+#include <gonio/design/impl/cell_candidates.ipp>
+#include <gonio/design/impl/compressed_rows.ipp>
+#include <gonio/design/impl/design_criterion.ipp>
+#include <gonio/design/impl/expected_error.ipp>
+#include <gonio/design/impl/image_candidates.ipp>
+#include <gonio/design/impl/near_field_geometry.ipp>
+#include <gonio/design/impl/published_directions.ipp>
+#include <gonio/design/impl/search.ipp>
+#include <gonio/design/impl/sphere_geometry.ipp>

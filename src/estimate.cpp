@@ -1,0 +1,10 @@
+// The bodies of estimate/.
+
+#include <gonio/estimate/impl/left_out_error.ipp>
+#include <gonio/estimate/impl/located_samples.ipp>
+#include <gonio/estimate/impl/mapped_noise.ipp>
+#include <gonio/estimate/impl/nearest_material.ipp>
+#include <gonio/estimate/impl/outlier_mixture.ipp>
+#include <gonio/estimate/impl/outlier_weights.ipp>
+#include <gonio/estimate/impl/pull_push.ipp>
+#include <gonio/estimate/impl/sample_regions.ipp>

@@ -1,0 +1,11 @@
+// The bodies of model/.
+
+#include <gonio/model/impl/analytic_brdf.ipp>
+#include <gonio/model/impl/fit_model.ipp>
+#include <gonio/model/impl/fit_observations.ipp>
+#include <gonio/model/impl/formula_materials.ipp>
+#include <gonio/model/impl/lobe.ipp>
+#include <gonio/model/impl/lobe_sampler.ipp>
+#include <gonio/model/impl/network_brdf.ipp>
+#include <gonio/model/impl/physical_properties.ipp>
+#include <gonio/model/impl/sampling_techniques.ipp>

@@ -1,0 +1,8 @@
+// The bodies of table/.
+
+#include <gonio/table/impl/brdf_table.ipp>
+#include <gonio/table/impl/image.ipp>
+#include <gonio/table/impl/material_set.ipp>
+#include <gonio/table/impl/picture_samples.ipp>
+#include <gonio/table/impl/tensor_view.ipp>
+#include <gonio/table/impl/valid_cells.ipp>
