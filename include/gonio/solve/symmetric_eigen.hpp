@@ -1,0 +1,26 @@
+#pragma once
+/// Eigenvalues and eigenvectors of symmetric matrices in double precision, compiled once (see dense.hpp).
+/// Golub and Van Loan, Matrix Computations, 4th ed. 2013, 8.3 (tridiagonalisation and QR iteration).
+
+#include <gonio/solve/matrix_view.hpp>
+
+namespace gonio {
+
+/// A = V diag(values) V', values ascending.
+struct symmetric_eigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  ///< orthonormal columns
+};
+
+/// Of a symmetric matrix, whose lower triangle is read; about 9 k^3 operations. Throws gonio::error, naming `what` was
+/// decomposed, if the iteration does not converge.
+[[nodiscard]] symmetric_eigen decompose_symmetric(const matrix_view& a, const char* what);
+
+/// The same without the vectors, ascending: about 4/3 k^3 operations.
+[[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/symmetric_eigen.ipp>
+#endif
