@@ -105,7 +105,7 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   double energy = 0.0;
   for (Eigen::Index i = 0; i < 5; ++i) {
     const Eigen::MatrixXd one = Eigen::VectorXd::Unit(5, i) * std::sqrt(spread.variance[i]);
-    const auto response = gonio::tikhonov(eta).solve({rows, one, located.weights}).weights;
+    const auto response = gonio::tikhonov(eta).solve(gonio::least_squares_problem{rows, one, located.weights}).weights;
     energy += (prior.singular_values().asDiagonal() * response).squaredNorm();
   }
   const double quiet = at_one_eta(error_of(prior, cells, 0.0), eta),

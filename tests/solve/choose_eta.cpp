@@ -38,7 +38,8 @@ double by_refitting(const least_squares_problem& problem, double eta) {
     const double weight = weights[left_out];
     if (weight == 0.0) continue;
     weights[left_out] = 0.0;
-    const Eigen::MatrixXd x = tikhonov(eta).solve({problem.rows(), problem.right_hand_side(), weights}).weights;
+    const Eigen::MatrixXd x =
+        tikhonov(eta).solve(least_squares_problem{problem.rows(), problem.right_hand_side(), weights}).weights;
     weights.setZero();
     weights[left_out] = weight;
     sum += least_squares_problem(problem.rows(), problem.right_hand_side(), weights).residual(x).squaredNorm();
@@ -53,7 +54,8 @@ double by_hat_matrix(const least_squares_problem& problem, double eta) {
   root.diagonal() = problem.weights().cwiseSqrt();
   const Eigen::MatrixXd all = problem.rows(), rows = root * all, columns = rows.transpose();
   const Eigen::MatrixXd right = root * problem.right_hand_side();
-  const Eigen::MatrixXd solved = tikhonov(eta).solve({rows, Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n))}).weights;
+  const Eigen::MatrixXd solved =
+      tikhonov(eta).solve(least_squares_problem{rows, Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n))}).weights;
   const Eigen::MatrixXd hat = rows * solved;
   const auto count = static_cast<double>((problem.weights().array() > 0.0).count());
   const Eigen::MatrixXd residual = right - hat * right;
@@ -87,7 +89,9 @@ TEST_CASE("more rows than a block holds") {
   const double eta = 7.0;
   const Eigen::MatrixXd x = tikhonov(eta).solve(problem).weights;
   const Eigen::MatrixXd inverse =
-      tikhonov(eta).solve({problem.rows(), Eigen::MatrixXd(problem.rows()), problem.weights()}).weights;
+      tikhonov(eta)
+          .solve(least_squares_problem{problem.rows(), Eigen::MatrixXd(problem.rows()), problem.weights()})
+          .weights;
   // (Q + eta I)^-1 Q = I - eta (Q + eta I)^-1.
   const Eigen::MatrixXd penalised = (Eigen::MatrixXd::Identity(4, 4) - inverse) / eta, rows = problem.rows();
   double press = 0.0, squares = 0.0, trace = 0.0, count = 0.0;

@@ -15,7 +15,7 @@ TEST_CASE("columns come and go, and the factor solves for those present") {
     for (double& value : a.reshaped()) value = normal(engine);
     const Eigen::MatrixXd gram = a.transpose() * a;
 
-    gonio::growing_cholesky<> factor(k);
+    gonio::growing_cholesky factor(k);
     std::vector<Eigen::Index> present;
     for (int change = 0; change < 60; ++change) {
       const auto column = static_cast<Eigen::Index>(engine() % k);
@@ -39,7 +39,7 @@ TEST_CASE("columns come and go, and the factor solves for those present") {
 }
 
 TEST_CASE("a column that depends on those present is refused and changes nothing") {
-  gonio::growing_cholesky<> factor(3);
+  gonio::growing_cholesky factor(3);
   Eigen::VectorXd none(0), one = Eigen::VectorXd::Constant(1, 6.0);
   REQUIRE(factor.append(none, 4.0));
   CHECK_FALSE(factor.append(one, 9.0));  // (3, 0) beside (2, 0)

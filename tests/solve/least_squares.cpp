@@ -1,6 +1,7 @@
 #include "random_problems.hpp"
 #include <gonio/solve/least_squares.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
@@ -123,7 +124,8 @@ TEST_CASE("closed forms: a column of ones gives the weighted mean, a row of ones
   CHECK(found.residual[0] == doctest::Approx(std::sqrt(2.0 * 1.0 + 4.0)));
   CHECK(found.objective[0] == doctest::Approx(0.5 * (6.0 - 18.0)));
 
-  const auto shared = least_squares().solve({row_matrix::Ones(1, 4), Eigen::MatrixXd::Constant(1, 1, 8.0)});
+  const auto shared =
+      least_squares().solve(least_squares_problem{row_matrix::Ones(1, 4), Eigen::MatrixXd::Constant(1, 1, 8.0)});
   CHECK(shared.weights.isApprox(Eigen::MatrixXd::Constant(4, 1, 2.0)));
 }
 
@@ -144,7 +146,7 @@ TEST_CASE("more rows than the buffer holds: the triangle is that of all rows at 
     CHECK(found.certificate[0] < 1e-14);
 
     rows.col(3) = rows.col(1) - 1e-3 * rows.col(2);
-    CHECK(least_squares().rank({rows, random_matrix(n, 1, 8), weights}) == 4);
+    CHECK(least_squares().rank(least_squares_problem{rows, random_matrix(n, 1, 8), weights}) == 4);
   }
 }
 
@@ -177,7 +179,7 @@ TEST_CASE("a condition number of 1e14") {
   SUBCASE("equations that can be met are met, with or without truncation") {
     const Eigen::MatrixXd right = rows * random_matrix(k, 3, 4);
     for (const double threshold : {0.0, 1e-15, 1e-12}) {
-      const auto found = least_squares(threshold).solve({rows, right, weights});
+      const auto found = least_squares(threshold).solve(least_squares_problem{rows, right, weights});
       CHECK(found.residual.maxCoeff() < 10.0 * std::max(threshold, 1e-15));
       CHECK(found.certificate.maxCoeff() < 1e-12);
     }
@@ -200,8 +202,8 @@ TEST_CASE("neither the rank nor the solution depends on the units of the columns
   Eigen::VectorXd units(k);
   units << 1e-150, 1e-20, 1.0, 1e7, 1e20, 1e100;
   const Eigen::MatrixXd scaled = rows * units.asDiagonal();
-  const Eigen::MatrixXd expected = least_squares().solve({rows, right}).weights;
-  const auto found = least_squares().solve({scaled, right});
+  const Eigen::MatrixXd expected = least_squares().solve(least_squares_problem{rows, right}).weights;
+  const auto found = least_squares().solve(least_squares_problem{scaled, right});
   CHECK((units.asDiagonal() * found.weights).isApprox(expected, 1e-12));
   CHECK(found.certificate.maxCoeff() < 1e-14);
   const auto by_gram = least_squares().solve(least_squares_problem(scaled, right).normal());
@@ -232,7 +234,7 @@ TEST_CASE("nothing to fit: no weight, no matrix, no right-hand side, or one orth
     CHECK(least_squares().solve(problem.normal()).certificate[0] == 0.0);
   }
   const Eigen::MatrixXd columns = random_orthonormal(8, 4, 3);
-  const auto orthogonal = least_squares().solve({columns.leftCols(3), columns.rightCols(1)});
+  const auto orthogonal = least_squares().solve(least_squares_problem{columns.leftCols(3), columns.rightCols(1)});
   CHECK(orthogonal.weights.cwiseAbs().maxCoeff() < 1e-15);
   CHECK(orthogonal.certificate[0] < 1e-15);
 }
@@ -253,7 +255,7 @@ TEST_CASE("a subset of the columns") {
   const Eigen::Index columns[] = {4, 1};
   CHECK(least_squares()
             .solve(least_squares_problem(rows, right).subset(columns))
-            .weights.isApprox(least_squares().solve({chosen, right}).weights, 1e-14));
+            .weights.isApprox(least_squares().solve(least_squares_problem{chosen, right}).weights, 1e-14));
 }
 
 TEST_CASE("bad input is refused") {

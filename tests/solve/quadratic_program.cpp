@@ -22,7 +22,7 @@ using gonio::online_quadratic_program;
 using gonio::quadratic_program;
 using gonio::sign_rule;
 
-static_assert(gonio::solver_iteration<dual_active_set<>>);
+static_assert(gonio::solver_iteration<dual_active_set>);
 static_assert(gonio::normal_solver<quadratic_program<convex_weights>>);
 static_assert(gonio::solves_non_negative<quadratic_program<convex_weights>>);
 static_assert(!gonio::solves_non_negative<quadratic_program<linear_constraints>>);
@@ -274,22 +274,22 @@ TEST_CASE("every start ends at the same optimum, and at once from the optimum's 
     const random_problem problem(k, 0, any.seed);
     const normal_equations normal(problem.Q, problem.m);
     const auto constraints = random_constraints(k, 5, 2, true, any.seed + 50);
-    const gonio::scaled_program<> program(normal, constraints);
+    const gonio::scaled_program program(normal, constraints);
     const vector q = program.moment(normal, 0);
-    dual_active_set<> cold(program, q);
+    dual_active_set cold(program, q);
     gonio::run_to_convergence(cold, 1000, "the cold start");
     gonio::active_constraints start;
     for (Eigen::Index j = 0; j < k; ++j) start.bounds.push_back(any.coin());
     for (int i = 0; i < 5; ++i) start.rows.push_back(any.coin());
-    dual_active_set<> arbitrary(program, q, start);
+    dual_active_set arbitrary(program, q, start);
     gonio::run_to_convergence(arbitrary, 1000, "the arbitrary start");
-    dual_active_set<> warm(program, q, cold.active());
+    dual_active_set warm(program, q, cold.active());
     gonio::run_to_convergence(warm, 1000, "the warm start");
     RC_ASSERT(warm.changes() == 0);
     const double size = 1e-10 * (1.0 + cold.weights().cwiseAbs().maxCoeff());
     RC_ASSERT((cold.weights() - arbitrary.weights()).cwiseAbs().maxCoeff() <= size);
     RC_ASSERT((cold.weights() - warm.weights()).cwiseAbs().maxCoeff() <= size);
-    const auto optimum = gonio::program_solver<>(normal, constraints).solve(0);
+    const auto optimum = gonio::program_solver(normal, constraints).solve(0);
     RC_ASSERT((cold.weights() - optimum.weights).cwiseAbs().maxCoeff() <= size);
     RC_ASSERT(kkt_violation(normal, 0, optimum.weights, constraints, optimum.multipliers) <= 1e-10);
   }));
@@ -298,8 +298,8 @@ TEST_CASE("every start ends at the same optimum, and at once from the optimum's 
 TEST_CASE("the objective of the dual method rises, up to the optimum") {
   const random_problem problem(20, 5, 3);
   const normal_equations normal(problem.Q, problem.m);
-  const gonio::scaled_program<> program(normal, {.non_negative = true});
-  dual_active_set<> run(program, program.moment(normal, 0));
+  const gonio::scaled_program program(normal, {.non_negative = true});
+  dual_active_set run(program, program.moment(normal, 0));
   int steps = 0;
   for (double last = normal.objective(run.weights())[0]; !run.converged(); ++steps) {
     run.step();

@@ -28,7 +28,8 @@ TEST_CASE("the primal and the dual form agree, tall and wide, weighted and not, 
 }
 
 TEST_CASE("a closed form: one equation, one unknown") {
-  const auto found = tikhonov(3.0).solve({row_matrix::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 7.0)});
+  const auto found =
+      tikhonov(3.0).solve(least_squares_problem{row_matrix::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 7.0)});
   CHECK(found.weights(0, 0) == doctest::Approx(2.0 * 7.0 / (2.0 * 2.0 + 3.0)));
   CHECK(found.residual[0] == doctest::Approx(7.0 - 2.0 * 2.0));
 }
@@ -40,8 +41,8 @@ TEST_CASE("a sample of weight zero does not count, one of weight two counts twic
   repeated << rows.topRows(3), rows.row(2);
   Eigen::MatrixXd repeated_right(4, 1);
   repeated_right << right.topRows(3), right.row(2);
-  const auto weighted = tikhonov(0.5).solve({rows, right, Eigen::Vector4d(1, 1, 2, 0)});
-  const auto twice = tikhonov(0.5).solve({repeated, repeated_right});
+  const auto weighted = tikhonov(0.5).solve(least_squares_problem{rows, right, Eigen::Vector4d(1, 1, 2, 0)});
+  const auto twice = tikhonov(0.5).solve(least_squares_problem{repeated, repeated_right});
   CHECK(weighted.weights.isApprox(twice.weights, 1e-12));
 }
 
@@ -89,7 +90,7 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
       rows.row(i) = mapped.row(cell);
       for (int c = 0; c < 3; ++c) right(i, c) = map(column(11, c)[static_cast<std::size_t>(cell)], cell) - mean[cell];
     }
-    const auto found = tikhonov(eta).solve({rows, right});
+    const auto found = tikhonov(eta).solve(least_squares_problem{rows, right});
     for (Eigen::Index j = 0; j < 33; ++j)
       for (Eigen::Index c = 0; c < 3; ++c)
         CHECK(found.weights(j, c) ==

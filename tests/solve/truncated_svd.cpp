@@ -109,7 +109,7 @@ TEST_CASE("a share of 1 is the minimum-norm solution: copied columns share the w
     CHECK(truncated_svd(1.0).kept(problem) == std::min<Eigen::Index>(n, 8));
     const auto found = truncated_svd(1.0).solve(problem);
     CHECK(relative_distance(found.weights.topRows(8), found.weights.bottomRows(8)) < 1e-12);
-    const auto once = truncated_svd(1.0).solve({half, problem.right_hand_side()});
+    const auto once = truncated_svd(1.0).solve(least_squares_problem{half, problem.right_hand_side()});
     CHECK(relative_distance(2.0 * found.weights.topRows(8), once.weights) < 1e-10);
     CHECK(found.residual[0] == doctest::Approx(once.residual[0]).scale(1.0));
   }
@@ -117,11 +117,11 @@ TEST_CASE("a share of 1 is the minimum-norm solution: copied columns share the w
 
 TEST_CASE("nothing to keep") {
   for (const Eigen::Index n : {2, 5}) {
-    const auto zero = truncated_svd().solve({row_matrix::Zero(n, 3), Eigen::MatrixXd::Ones(n, 2)});
+    const auto zero = truncated_svd().solve(least_squares_problem{row_matrix::Zero(n, 3), Eigen::MatrixXd::Ones(n, 2)});
     CHECK(zero.weights.isZero(0.0));
     CHECK(zero.certificate.isZero(0.0));
-    const auto ignored =
-        truncated_svd().solve({random_matrix(n, 3, 1), Eigen::MatrixXd::Ones(n, 1), Eigen::VectorXd::Zero(n)});
+    const auto ignored = truncated_svd().solve(
+        least_squares_problem{random_matrix(n, 3, 1), Eigen::MatrixXd::Ones(n, 1), Eigen::VectorXd::Zero(n)});
     CHECK(ignored.weights.isZero(0.0));
   }
 }

@@ -116,8 +116,7 @@ class rbf {
     coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
-      if (!place.allFinite())
-        throw error("centre " + std::to_string(i + 1) + " of radial basis functions is not finite");
+      if (!place.allFinite()) throw error{"centre ", i + 1, " of radial basis functions is not finite"};
       places.col(static_cast<Eigen::Index>(i)) = place.array();
     }
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));

@@ -1,30 +1,60 @@
 #pragma once
 /// The one exception type of the library: bad input, refused at the edge.
 
-#include <cstdio>
-#include <cstdlib>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace gonio {
+
+/// A piece of a message: text, or a number written as std::to_string does. It views the text that it is given.
+class message_part {
+ public:
+  message_part(std::string_view text) : text_(text.data()), size_(text.size()) {}      // NOLINT: conversions are
+  message_part(const char* text) : message_part(std::string_view(text)) {}             // NOLINT: the point
+  message_part(const std::string& text) : message_part(std::string_view(text)) {}      // NOLINT
+  message_part(double number) : real_(number), size_(real) {}                          // NOLINT
+  message_part(long number) : integer_(number), size_(integer) {}                      // NOLINT
+  message_part(unsigned long number) : natural_(number), size_(natural) {}             // NOLINT
+  message_part(int number) : message_part(static_cast<long>(number)) {}                // NOLINT
+  message_part(unsigned number) : message_part(static_cast<unsigned long>(number)) {}  // NOLINT
+
+  [[nodiscard]] std::string str() const;
+
+ private:
+  // What no text is as long as.
+  static constexpr std::size_t real = std::string_view::npos, integer = real - 1, natural = real - 2;
+
+  union {
+    const char* text_;
+    double real_;
+    long integer_;
+    unsigned long natural_;
+  };
+  std::size_t size_;  ///< of the text, or which number it is
+};
 
 /// Thrown when data that came from outside (a file, a caller's array, a command line) is not what it
 /// should be. The message is one sentence that names what is wrong, where, and what was expected.
 /// Evaluating a BRDF never throws.
+///
+/// ```cpp
+/// throw gonio::error{"row ", row, " of ", name, " has ", found, " values, expected ", expected};
+/// ```
 class error : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit error(const std::string& sentence) : std::runtime_error(sentence) {}
+  /// The parts, one after the other. Sentences that are put together here cost the thrower no code of their own.
+  error(std::initializer_list<message_part> parts);
 };
 
 /// Throws gonio::error. In a program that is compiled without exceptions, as renderers may be, it prints the sentence
 /// to the standard error stream and aborts.
-[[noreturn]] inline void refuse(const std::string& sentence) {
-#if defined(__cpp_exceptions)
-  throw error(sentence);
-#else
-  std::fprintf(stderr, "gonio: %s\n", sentence.c_str());
-  std::abort();
-#endif
-}
+[[noreturn]] void refuse(const std::string& sentence);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/core/impl/error.ipp>
+#endif

@@ -2,14 +2,9 @@
 /// Loops over blocks of a range on several threads whose results do not depend on the number of threads:
 /// the partition is fixed by the range alone, and partial results are merged in the order of the range.
 
-#include <gonio/core/assertion.hpp>
-
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
-#include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace gonio {
@@ -18,9 +13,7 @@ namespace gonio {
 struct thread_count {
   unsigned value = 0;
 
-  [[nodiscard]] unsigned resolve() const noexcept {
-    return value != 0 ? value : std::max(1u, std::thread::hardware_concurrency());
-  }
+  [[nodiscard]] unsigned resolve() const noexcept;
 };
 
 /// A half-open range of indices.
@@ -31,45 +24,28 @@ struct block {
   [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
 };
 
+namespace detail {
+
+/// A loop's body that is held elsewhere, without its type: the threads and their exceptions are compiled once, not for
+/// every body.
+struct block_body {
+  void* body = nullptr;
+  void (*call)(void* body, block range) = nullptr;
+
+  void operator()(block range) const { call(body, range); }
+};
+
+void run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads);
+
+}  // namespace detail
+
 /// Calls `body(block)` once for each block of at most `block_size` indices of [0, count), in any order
 /// and concurrently. If bodies throw, the exception of the first block in the range's order among those
 /// that ran is rethrown after all threads have stopped; blocks not yet started are then skipped.
 template <class Body>
 void for_each_block(std::size_t count, std::size_t block_size, Body&& body, thread_count threads = {}) {
-  GONIO_ASSERT(block_size > 0);
-  const std::size_t blocks = (count + block_size - 1) / block_size;
-  const auto block_at = [&](std::size_t b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
-  const std::size_t workers = std::min<std::size_t>(threads.resolve(), blocks);
-  if (workers <= 1) {
-    for (std::size_t b = 0; b < blocks; ++b) body(block_at(b));
-    return;
-  }
-
-  std::atomic<std::size_t> next{0};
-  std::mutex failure_mutex;
-  std::exception_ptr failure;
-  std::size_t failed_block = blocks;
-  const auto work = [&] {
-    for (std::size_t b = next++; b < blocks; b = next++) {
-      try {
-        body(block_at(b));
-      } catch (...) {
-        const std::scoped_lock lock(failure_mutex);
-        if (b < failed_block) {
-          failed_block = b;
-          failure = std::current_exception();
-        }
-        next = blocks;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> team;
-    team.reserve(workers - 1);
-    for (std::size_t w = 1; w < workers; ++w) team.emplace_back(work);
-    work();
-  }
-  if (failure) std::rethrow_exception(failure);
+  const auto call = [](void* held, block range) { (*static_cast<std::remove_reference_t<Body>*>(held))(range); };
+  detail::run_blocks(count, block_size, {const_cast<void*>(static_cast<const void*>(&body)), call}, threads);
 }
 
 /// Sums over a range: `accumulate(partial, block)` adds a block's contribution to a partial result that
@@ -96,3 +72,7 @@ template <class Result, class Accumulate>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/core/impl/parallel.ipp>
+#endif

@@ -51,7 +51,7 @@ class spectral_colour {
     if (wavelengths.size() < 2) throw error("a spectrum needs at least two wavelengths");
     for (std::size_t i = 0; i < wavelengths.size(); ++i) {
       if (!std::isfinite(wavelengths[i]) || (i > 0 && !(wavelengths[i] > wavelengths[i - 1])))
-        throw error("wavelength " + std::to_string(i + 1) + " of a spectrum is not above the one before");
+        throw error{"wavelength ", i + 1, " of a spectrum is not above the one before"};
       const double from = wavelengths[i == 0 ? 0 : i - 1], to = wavelengths[std::min(i + 1, wavelengths.size() - 1)];
       weights_.row(static_cast<Eigen::Index>(i)) =
           (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();

@@ -35,11 +35,10 @@ class fitted_brdf {
         found_(std::move(found)),
         weights_(found_.weights.template cast<float>()) {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
-      throw error("a fit by " + std::to_string(basis_.size()) +
-                  " functions needs as many weights for each of 3 channels");
+      throw error{"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"};
     if (computed && weights_.rows() > most_computed_functions)
-      throw error("a fit by functions that are computed can have at most " + std::to_string(most_computed_functions) +
-                  " of them, not " + std::to_string(basis_.size()));
+      throw error{"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
+                  basis_.size()};
   }
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }

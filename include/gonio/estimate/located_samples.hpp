@@ -34,6 +34,17 @@ struct located_samples {
   [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const;
 };
 
+namespace detail {
+
+/// Throws gonio::error if there is room for none.
+[[nodiscard]] located_samples room_for_samples(Eigen::Index count);
+/// Without its location but for the angles. `number` is the sample's among all, for the message.
+void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number);
+/// Completes the locations.
+void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
+
+}  // namespace detail
+
 /// Samples on given cells. Those of weight zero are left out: whatever looks at all samples, as outlier weights do,
 /// must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond the range of
 /// float, or if all weights are zero. O(samples).
@@ -43,27 +54,14 @@ template <sample_range Samples>
   require_usable(samples);
   Eigen::Index count = 0;
   for (const sample& s : samples) count += s.weight > 0.0 ? 1 : 0;
-  if (count == 0) throw error("all samples have weight zero: nothing is known");
-  located_samples found{std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3),
-                        Eigen::VectorXd(count)};
+  located_samples found = detail::room_for_samples(count);
   Eigen::Index i = 0;
   std::size_t number = 0;
   for (const sample& s : samples) {
     ++number;
-    if (!(s.weight > 0.0)) continue;
-    if (!s.value.cast<float>().isFinite().all())
-      throw error("sample " + std::to_string(number) + ": a reflectance is beyond the range of float");
-    found.at[static_cast<std::size_t>(i)].angles = s.angles;
-    found.values.row(i) = s.value.matrix().transpose();
-    found.weights[i++] = s.weight;
+    if (s.weight > 0.0) detail::put_sample(found, i++, s, number);
   }
-  for_each_block(
-      found.size(), 1024,
-      [&](block range) {
-        for (std::size_t place = range.begin; place < range.end; ++place)
-          found.at[place] = locate(cells, found.at[place].angles);
-      },
-      threads);
+  detail::locate_angles(found, cells, threads);
   return found;
 }
 

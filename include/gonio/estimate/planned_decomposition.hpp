@@ -45,9 +45,7 @@ class planned_decomposition {
   /// finite, or if the solver gives up. O(places materials).
   [[nodiscard]] fitted_brdf<measured<Metric>> fit(const channel_values& values) const {
     const auto count = std::ssize(plan_->places);
-    if (values.cols() != count)
-      throw error("there are " + std::to_string(values.cols()) + " measurements at " + std::to_string(count) +
-                  " planned places");
+    if (values.cols() != count) throw error{"there are ", values.cols(), " measurements at ", count, " planned places"};
     if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");
     const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->places, threads_);
     const Eigen::MatrixXd moments = plan_->functions.moments(channel_values::Ones(3, count), right_hand_sides);

@@ -117,8 +117,8 @@ void parse_rows(std::string_view text, const std::string& name, bool needs_colou
     use(parsed_row{row, header->directions(), place});
     ++rows;
   });
-  if (!header) throw error(name + ": is empty, expected a header line that names the columns");
-  if (rows == 0) throw error(name + ": has a header line but no samples, expected at least one");
+  if (!header) throw error{name, ": is empty, expected a header line that names the columns"};
+  if (rows == 0) throw error{name, ": has a header line but no samples, expected at least one"};
 }
 
 /// What `of` makes of each row of a file of directions.
@@ -172,7 +172,7 @@ void write_samples(const std::filesystem::path& path, const Samples& samples) {
   try {
     require_usable(samples);
   } catch (const error& unusable) {
-    throw error(path.string() + ": " + unusable.what());
+    throw error{path.string(), ": ", unusable.what()};
   }
   const std::string text = format_samples(samples);
   write_atomically(path, std::as_bytes(std::span(text)));

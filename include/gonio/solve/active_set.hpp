@@ -261,7 +261,7 @@ class active_set {
   const Eigen::MatrixXd& gram_;
   Eigen::VectorXd moment_;
   double lambda_;
-  growing_cholesky<double> factor_;
+  growing_cholesky factor_;
   std::vector<Eigen::Index> passive_;  // in the order of the factor
   Eigen::VectorXd sign_;               // 0: not passive
   Eigen::VectorXd x_, descent_, norms_;
@@ -284,9 +284,9 @@ template <sign_rule Signs>
 
 /// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, every right-hand side by the iteration that
 /// `start(column)` makes, and certifies what it finds. Throws gonio::error naming the `method` without convergence.
-template <sign_rule Signs, quadratic_problem Problem, class Start>
-[[nodiscard]] solution solve_signed(const Problem& problem, double lambda, const std::string& method, Start&& start) {
-  const normal_equations& normal = problem.normal();
+template <sign_rule Signs, class Start>
+[[nodiscard]] solution solve_signed(const normal_equations& normal, double lambda, const std::string& method,
+                                    Start&& start) {
   solution found;
   found.weights.resize(normal.unknowns(), normal.right_hand_sides());
   for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
@@ -294,7 +294,7 @@ template <sign_rule Signs, quadratic_problem Problem, class Start>
     found.iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
     found.weights.col(column) = run.weights();
   }
-  found.residual = problem.residual(found.weights);
+  found.residual = normal.residual(found.weights);
   found.objective = normal.objective(found.weights);
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
     found.objective[column] += lambda * found.weights.col(column).cwiseAbs().sum();

@@ -32,11 +32,10 @@ class basic_lasso {
 
   [[nodiscard]] double lambda() const noexcept { return lambda_; }
 
-  template <quadratic_problem Problem = least_squares_problem>
-  [[nodiscard]] solution solve(const Problem& problem) const {
-    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column, lambda_); };
-    return solve_signed<Signs>(problem, lambda_, "the Lasso", start);
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
+    return with_residual_of_rows(solve(problem.normal()), problem);
   }
+  [[nodiscard]] solution solve(const normal_equations& normal) const;
 
  private:
   double lambda_;
@@ -59,21 +58,14 @@ struct lasso_path {
 
 /// Solves for each penalty, starting from the solution of the one before. Best given falling. Throws gonio::error for a
 /// penalty that `basic_lasso` refuses, or without convergence.
-template <sign_rule Signs = sign_rule::any, quadratic_problem Problem = least_squares_problem>
-[[nodiscard]] lasso_path solve_lasso_path(const Problem& problem, std::vector<double> lambdas) {
-  const normal_equations& normal = problem.normal();
-  lasso_path path{std::move(lambdas), {}};
-  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(normal.unknowns(), normal.right_hand_sides());
-  for (const double lambda : path.lambdas) {
-    detail::require_penalty(lambda);
-    const auto warm = [&](Eigen::Index column) {
-      active_set<Signs> run(normal, column, lambda);
-      run.start_from(last.col(column));
-      return run;
-    };
-    path.solutions.push_back(solve_signed<Signs>(problem, lambda, "the Lasso path", warm));
-    last = path.solutions.back().weights;
-  }
+template <sign_rule Signs = sign_rule::any>
+[[nodiscard]] lasso_path solve_lasso_path(const normal_equations& normal, std::vector<double> lambdas);
+
+/// The same of a problem that has rows, with their residual.
+template <sign_rule Signs = sign_rule::any>
+[[nodiscard]] lasso_path solve_lasso_path(const least_squares_problem& problem, std::vector<double> lambdas) {
+  lasso_path path = solve_lasso_path<Signs>(problem.normal(), std::move(lambdas));
+  for (solution& found : path.solutions) found = with_residual_of_rows(std::move(found), problem);
   return path;
 }
 

@@ -76,26 +76,7 @@ struct constraint_multipliers {
 /// What one unit of each weight is measured by: sqrt(Q_jj), the length of its column. A column of zeros has the size of
 /// its coefficients in the rows instead, relative to the rows' largest coefficient per unit of the other weights; 1
 /// without any. O(k rows).
-template <class Constraints = linear_constraints>
-[[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const Constraints& constraints) {
-  const Eigen::VectorXd norms = normal.gram().diagonal().cwiseSqrt();
-  Eigen::VectorXd lengths = norms;
-  const auto raise_for_zeros = [&](const auto& row) {
-    double curved = 0.0, any = 0.0;
-    for (Eigen::Index j = 0; j < norms.size(); ++j) {
-      any = std::max(any, std::abs(row[j]));
-      if (norms[j] > 0.0) curved = std::max(curved, std::abs(row[j]) / norms[j]);
-    }
-    const double largest = curved > 0.0 ? curved : any;
-    for (Eigen::Index j = 0; j < norms.size(); ++j)
-      if (norms[j] == 0.0 && largest > 0.0) lengths[j] = std::max(lengths[j], std::abs(row[j]) / largest);
-  };
-  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) raise_for_zeros(constraints.D.row(i));
-  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) raise_for_zeros(constraints.E.row(i));
-  for (double& length : lengths)
-    if (length == 0.0) length = 1.0;
-  return lengths;
-}
+[[nodiscard]] Eigen::VectorXd column_lengths(const normal_equations& normal, const linear_constraints& constraints);
 
 namespace detail {
 
@@ -104,38 +85,16 @@ struct judged_row {
   double activity = 0.0;  ///< D_i x
   double largest = 0.0;   ///< |D_ij| / length_j
 
-  template <class Row, class Vector>
-  judged_row(const Row& row, const Eigen::VectorXd& lengths, const Eigen::MatrixBase<Vector>& x) {
-    for (Eigen::Index j = 0; j < x.size(); ++j) {
-      activity += row[j] * x[j];
-      largest = std::max(largest, std::abs(row[j]) / lengths[j]);
-    }
-  }
+  judged_row(const Eigen::VectorXd& row, const Eigen::VectorXd& lengths, const Eigen::Ref<const Eigen::VectorXd>& x);
   /// `size` is the largest |x_j| length_j.
   [[nodiscard]] double relative_slack(double bound, double size) const;
 };
 
 /// The gradient Q x - m + D' inequality + E' equality of the Lagrangian.
-template <class Vector>
 [[nodiscard]] scaled_gradient lagrangian_gradient(const normal_equations& normal, Eigen::Index right_hand_side,
-                                                  const Eigen::MatrixBase<Vector>& x,
+                                                  const Eigen::Ref<const Eigen::VectorXd>& x,
                                                   const linear_constraints& constraints,
-                                                  const constraint_multipliers& multipliers) {
-  Eigen::VectorXd sum = -normal.moment().col(right_hand_side), terms = sum.cwiseAbs();
-  const auto add = [&](double factor, const auto& column) {
-    if (factor == 0.0) return;
-    sum += factor * column;
-    terms += std::abs(factor) * column.cwiseAbs();
-  };
-  for (Eigen::Index i = 0; i < x.size(); ++i) add(x[i], normal.gram().col(i));
-  for (Eigen::Index i = 0; i < constraints.d.size(); ++i)
-    add(multipliers.inequality[i], constraints.D.row(i).transpose());
-  for (Eigen::Index i = 0; i < constraints.e.size(); ++i)
-    add(multipliers.equality[i], constraints.E.row(i).transpose());
-  const Eigen::VectorXd lengths = column_lengths(normal, constraints);
-  const double scale = terms.cwiseQuotient(lengths).maxCoeff();
-  return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
-}
+                                                  const constraint_multipliers& multipliers);
 
 }  // namespace detail
 
@@ -147,31 +106,9 @@ template <class Vector>
 /// - complementarity: the smaller of an inequality's relative multiplier and its relative slack.
 /// With x >= 0 alone it is `kkt_violation(normal, x, 0.0, sign_rule::non_negative)`. O(k (r + s)) for r rows and s
 /// weights that are not zero.
-template <class Vector>
 [[nodiscard]] double kkt_violation(const normal_equations& normal, Eigen::Index right_hand_side,
-                                   const Eigen::MatrixBase<Vector>& x, const linear_constraints& constraints,
-                                   const constraint_multipliers& multipliers) {
-  const scaled_gradient gradient = detail::lagrangian_gradient(normal, right_hand_side, x, constraints, multipliers);
-  if (!x.allFinite() || !gradient.value.allFinite()) return std::numeric_limits<double>::infinity();
-  double worst = 0.0, size = 0.0;
-  for (Eigen::Index j = 0; j < x.size(); ++j) {
-    if (constraints.non_negative && x[j] < 0.0) return std::numeric_limits<double>::infinity();
-    const bool at_bound = constraints.non_negative && x[j] == 0.0;
-    worst = std::max(worst, (at_bound ? -gradient.value[j] : std::abs(gradient.value[j])) / gradient.scale);
-    size = std::max(size, std::abs(x[j]) * gradient.column_norms[j]);
-  }
-  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
-    const detail::judged_row row(constraints.D.row(i), gradient.column_norms, x);
-    const double slack = row.relative_slack(constraints.d[i], size);
-    const double multiplier = multipliers.inequality[i] * row.largest / gradient.scale;
-    worst = std::max({worst, -slack, -multiplier, std::min(multiplier, slack)});
-  }
-  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) {
-    const detail::judged_row row(constraints.E.row(i), gradient.column_norms, x);
-    worst = std::max(worst, std::abs(row.relative_slack(constraints.e[i], size)));
-  }
-  return worst;
-}
+                                   const Eigen::Ref<const Eigen::VectorXd>& x, const linear_constraints& constraints,
+                                   const constraint_multipliers& multipliers);
 
 }  // namespace gonio
 

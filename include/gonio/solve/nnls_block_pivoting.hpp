@@ -22,66 +22,17 @@ class block_pivoting {
   block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side);
 
   /// Exchanges, or finishes.
-  template <class Factor = growing_cholesky<double>>
-  void step() {
-    if (!wrong_.empty()) exchange<Factor>();
-    if (wrong_.empty() || ++steps_ >= 3 * x_.size() + 20) finish<sign_rule::non_negative>();
-  }
+  void step();
 
   [[nodiscard]] bool converged() const noexcept { return finished_; }
   [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
 
  private:
-  template <class Factor>
-  void exchange() {
-    const auto wrong = std::ssize(wrong_);
-    if (wrong < fewest_wrong_) {
-      fewest_wrong_ = wrong;
-      chances_ = 3;
-    } else {
-      --chances_;
-    }
-    const std::size_t first = chances_ > 0 ? 0 : wrong_.size() - 1;
-    for (std::size_t i = first; i < wrong_.size(); ++i) {
-      const auto j = static_cast<std::size_t>(wrong_[i]);
-      free_[j] = !free_[j];
-    }
-    solve_free<Factor>();
-  }
+  void exchange();
 
-  template <sign_rule Signs>
-  void finish() {
-    x_ = finish_by_active_set<Signs>(normal_, right_hand_side_, 0.0, x_, "block principal pivoting");
-    finished_ = true;
-  }
+  void finish();
 
-  template <class Factor>
-  void solve_free() {
-    Factor factor(normal_.unknowns());
-    std::vector<Eigen::Index> passive;
-    Eigen::VectorXd cross(normal_.unknowns());
-    for (Eigen::Index j = 0; j < x_.size(); ++j) {
-      if (!free_[static_cast<std::size_t>(j)]) continue;
-      const auto count = std::ssize(passive);
-      for (Eigen::Index i = 0; i < count; ++i) cross[i] = normal_.gram()(passive[static_cast<std::size_t>(i)], j);
-      // A column that depends on the free ones adds nothing: it stays at zero.
-      if (factor.append(cross.head(count), normal_.gram()(j, j)))
-        passive.push_back(j);
-      else
-        free_[static_cast<std::size_t>(j)] = false;
-    }
-    Eigen::VectorXd z(std::ssize(passive));
-    for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = moment_[passive[static_cast<std::size_t>(i)]];
-    factor.solve(z);
-    x_.setZero();
-    Eigen::VectorXd gradient = -moment_;
-    for (Eigen::Index i = 0; i < z.size(); ++i) {
-      const Eigen::Index j = passive[static_cast<std::size_t>(i)];
-      x_[j] = z[i];
-      gradient += z[i] * normal_.gram().col(j);
-    }
-    find_wrong(gradient);
-  }
+  void solve_free();
 
   void find_wrong(const Eigen::VectorXd& gradient);
 
@@ -104,11 +55,10 @@ class nnls_block_pivoting {
   static constexpr bool non_negative = true;
   using iteration = block_pivoting;
 
-  template <quadratic_problem Problem = least_squares_problem>
-  [[nodiscard]] solution solve(const Problem& problem) const {
-    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
-    return solve_signed<sign_rule::non_negative>(problem, 0.0, "block principal pivoting", start);
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
+    return with_residual_of_rows(solve(problem.normal()), problem);
   }
+  [[nodiscard]] solution solve(const normal_equations& normal) const;
 };
 
 static_assert(normal_solver<nnls_block_pivoting>);

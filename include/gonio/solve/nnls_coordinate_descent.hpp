@@ -13,13 +13,16 @@ class nnls_coordinate_descent {
   static constexpr bool non_negative = true;
   using iteration = coordinate_descent<sign_rule::non_negative>;
 
-  template <quadratic_problem Problem = least_squares_problem>
-  [[nodiscard]] solution solve(const Problem& problem) const {
-    const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
-    return solve_signed<sign_rule::non_negative>(problem, 0.0, "projected coordinate descent", start);
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
+    return with_residual_of_rows(solve(problem.normal()), problem);
   }
+  [[nodiscard]] solution solve(const normal_equations& normal) const;
 };
 
 static_assert(normal_solver<nnls_coordinate_descent>);
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/nnls_coordinate_descent.ipp>
+#endif

@@ -48,9 +48,9 @@ class normal_equations {
   /// The problem of the rows of both: of the same sizes, else gonio::error.
   [[nodiscard]] friend normal_equations operator+(const normal_equations& a, const normal_equations& b) {
     if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
-      throw error("normal equations of " + std::to_string(a.unknowns()) + " unknowns and " +
-                  std::to_string(a.right_hand_sides()) + " right-hand sides and of " + std::to_string(b.unknowns()) +
-                  " and " + std::to_string(b.right_hand_sides()) + " cannot be added");
+      throw error{"normal equations of ",      a.unknowns(), " unknowns and ", a.right_hand_sides(),
+                  " right-hand sides and of ", b.unknowns(), " and ",          b.right_hand_sides(),
+                  " cannot be added"};
     return {a.gram_ + b.gram_, a.moment_ + b.moment_, a.energy_ + b.energy_};
   }
 

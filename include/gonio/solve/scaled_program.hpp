@@ -20,30 +20,11 @@ struct active_constraints {
 /// min 1/2 y'G y - q'y subject to n_i'y = b_i for the first `equalities` rows n_i, n_i'y >= b_i for the others, and, if
 /// `non_negative`, y >= 0. It is the program of normal equations in y = S x, with powers of two in the diagonal matrix
 /// S near the `column_lengths`, and each row by one that brings its largest coefficient to [1/2, 1): nothing is
-/// rounded. The diagonal of G is in [1/4, 1), or zero. A template only so that nobody pays for compiling it who does
-/// not use it.
-template <class Scalar = double>
+/// rounded. The diagonal of G is in [1/4, 1), or zero.
 struct scaled_program {
-  using vector = Eigen::VectorX<Scalar>;
+  using vector = Eigen::VectorXd;
 
-  scaled_program(const normal_equations& normal, const linear_constraints& constraints)
-      : equalities(constraints.e.size()),
-        non_negative(constraints.non_negative),
-        inverse_scale(normal.unknowns()),
-        inverse_row_scale(constraints.e.size() + constraints.d.size()),
-        G(normal.gram()),
-        normals(normal.unknowns(), inverse_row_scale.size()),
-        b(inverse_row_scale.size()) {
-    const vector lengths = column_lengths(normal, constraints);
-    for (Eigen::Index j = 0; j < unknowns(); ++j) inverse_scale[j] = near_inverse(lengths[j]);
-    for (Eigen::Index j = 0; j < unknowns(); ++j) G.col(j) = (inverse_scale[j] * G.col(j)).cwiseProduct(inverse_scale);
-    for (Eigen::Index i = 0; i < rows(); ++i) {
-      if (i < equalities)
-        set_row(i, constraints.E.row(i).transpose(), constraints.e[i]);
-      else
-        set_row(i, -constraints.D.row(i - equalities).transpose(), -constraints.d[i - equalities]);
-    }
-  }
+  scaled_program(const normal_equations& normal, const linear_constraints& constraints);
 
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return G.rows(); }
   [[nodiscard]] Eigen::Index rows() const noexcept { return b.size(); }
@@ -55,29 +36,24 @@ struct scaled_program {
   /// x of y.
   [[nodiscard]] vector weights(const vector& y) const { return y.cwiseProduct(inverse_scale); }
   /// The multipliers of the constraints as they were given.
-  [[nodiscard]] constraint_multipliers multipliers(const vector& of_rows) const {
-    const vector unscaled = of_rows.cwiseProduct(inverse_row_scale);
-    return {unscaled.tail(rows() - equalities), -unscaled.head(equalities)};
-  }
+  [[nodiscard]] constraint_multipliers multipliers(const vector& of_rows) const;
 
   Eigen::Index equalities;
   bool non_negative;
   vector inverse_scale, inverse_row_scale;  ///< 1 / S_jj, and what multiplies each row
-  Eigen::MatrixX<Scalar> G;
-  Eigen::MatrixX<Scalar> normals;  ///< k x rows, n_i in column i
+  Eigen::MatrixXd G;
+  Eigen::MatrixXd normals;  ///< k x rows, n_i in column i
   vector b;
 
  private:
   /// A power of two that brings a positive length to [1/2, 1).
-  [[nodiscard]] static Scalar near_inverse(Scalar length) { return std::ldexp(Scalar(1), -(std::ilogb(length) + 1)); }
+  [[nodiscard]] static double near_inverse(double length) { return std::ldexp(1.0, -(std::ilogb(length) + 1)); }
 
-  void set_row(Eigen::Index i, const vector& row, Scalar right) {
-    normals.col(i) = row.cwiseProduct(inverse_scale);
-    const Scalar largest = normals.col(i).cwiseAbs().maxCoeff();
-    inverse_row_scale[i] = largest > 0 ? near_inverse(largest) : Scalar(1);
-    normals.col(i) *= inverse_row_scale[i];
-    b[i] = right * inverse_row_scale[i];
-  }
+  void set_row(Eigen::Index i, const vector& row, double right);
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/scaled_program.ipp>
+#endif

@@ -27,6 +27,10 @@ struct solution {
 /// A solution in some of `unknowns` columns as one in all of them: the other weights are zero.
 [[nodiscard]] solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
 
+/// A solution of a problem's normal equations as one of the problem: the residual is that of its rows, which normal
+/// equations hold to half of the digits only.
+[[nodiscard]] solution with_residual_of_rows(solution found, const least_squares_problem& problem);
+
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
 /// What the compiler cannot check, and a model must keep: the certificate is computed from the problem and

@@ -2,14 +2,11 @@
 /// Scattered measurements of a BRDF: what a laboratory hands in, and every estimator takes.
 
 #include <gonio/core/direction.hpp>
-#include <gonio/core/error.hpp>
 #include <gonio/core/rgb.hpp>
 
-#include <cmath>
 #include <concepts>
-#include <numbers>
+#include <cstddef>
 #include <ranges>
-#include <string>
 #include <vector>
 
 namespace gonio {
@@ -29,26 +26,25 @@ concept sample_range =
 
 using sample_set = std::vector<sample>;
 
+namespace detail {
+
+/// `number` counts from 1, for the message.
+void require_usable_sample(const sample& s, std::size_t number);
+[[noreturn]] void refuse_no_samples();
+
+}  // namespace detail
+
 /// Refuses what no estimator can use: throws gonio::error naming the first sample that is not finite, has
 /// a negative weight, or has a direction at or below the horizon, or saying that there is none at all.
 template <sample_range Samples>
 void require_usable(const Samples& samples) {
   std::size_t number = 0;
-  for (const sample& s : samples) {
-    ++number;
-    const auto refuse = [&](const std::string& what) { throw error("sample " + std::to_string(number) + ": " + what); };
-    const auto& [theta_h, theta_d, phi_d] = s.angles;
-    if (!std::isfinite(theta_h) || !std::isfinite(theta_d) || !std::isfinite(phi_d)) refuse("an angle is not finite");
-    if (!s.value.isFinite().all()) refuse("a reflectance is not finite");
-    if (!std::isfinite(s.weight) || s.weight < 0.0) refuse("the weight must be finite and not negative");
-    const cosine_pair cosine = cosines(s.angles);
-    constexpr double right_angle = std::numbers::pi / 2.0;
-    const bool in_range = theta_h >= 0.0 && theta_h < right_angle && theta_d >= 0.0 && theta_d < right_angle;
-    if (!in_range || !(cosine.i > 0.0 && cosine.o > 0.0))
-      refuse("a direction is at or below the horizon (theta_h " + std::to_string(degrees(theta_h)) + ", theta_d " +
-             std::to_string(degrees(theta_d)) + ", phi_d " + std::to_string(degrees(phi_d)) + " degrees)");
-  }
-  if (number == 0) throw error("there are no samples: at least one is needed");
+  for (const sample& s : samples) detail::require_usable_sample(s, ++number);
+  if (number == 0) detail::refuse_no_samples();
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/sample_set.ipp>
+#endif

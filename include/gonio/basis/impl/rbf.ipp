@@ -25,7 +25,7 @@ namespace gonio {
 
 GONIO_INLINE gaussian_kernel::gaussian_kernel(double width) : width_(width) {
   if (!(width > 0.0 && std::isfinite(width)))
-    throw error("the width of a Gaussian kernel must be positive and finite, not " + std::to_string(width));
+    throw error{"the width of a Gaussian kernel must be positive and finite, not ", width};
 }
 
 GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
@@ -51,8 +51,8 @@ GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cel
     nearest.maxCoeff(&farthest);
   }
   if (centres.size() < count)
-    throw error("cannot choose " + std::to_string(count) + " different centres of radial basis functions among " +
-                std::to_string(centres.size()) + " places");
+    throw error{"cannot choose ", count, " different centres of radial basis functions among ", centres.size(),
+                " places"};
   return centres;
 }
 

@@ -30,8 +30,8 @@ GONIO_INLINE pinhole_camera::pinhole_camera(const camera_intrinsics& intrinsics,
                                 intrinsics.principal_y);
   if (!numbers.allFinite() || !position.allFinite()) throw error("a camera's numbers must be finite");
   if (!(intrinsics.focal_length_x > 0.0 && intrinsics.focal_length_y > 0.0))
-    throw error("a camera's focal lengths must be positive, not " + std::to_string(intrinsics.focal_length_x) +
-                " and " + std::to_string(intrinsics.focal_length_y));
+    throw error{"a camera's focal lengths must be positive, not ", intrinsics.focal_length_x, " and ",
+                intrinsics.focal_length_y};
   constexpr double tolerance = 1e-3;
   if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < tolerance) ||
       !(rotation.determinant() > 0.0))

@@ -11,10 +11,39 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE located_samples room_for_samples(Eigen::Index count) {
+  if (count == 0) throw error("all samples have weight zero: nothing is known");
+  return {std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+}
+
+GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number) {
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    if (!std::isfinite(static_cast<float>(s.value[channel])))
+      throw error{"sample ", number, ": a reflectance is beyond the range of float"};
+    samples.values(i, channel) = s.value[channel];
+  }
+  samples.at[static_cast<std::size_t>(i)].angles = s.angles;
+  samples.weights[i] = s.weight;
+}
+
+GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
+  for_each_block(
+      samples.size(), 1024,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) samples.at[i] = locate(cells, samples.at[i].angles);
+      },
+      threads);
+}
+
+}  // namespace gonio::detail
 
 namespace gonio {
 
@@ -39,8 +68,7 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf
       found.size(), 4096,
       [&](block range) {
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          if (!table.at(cell).isFinite().all())
-            throw error("cell " + std::to_string(cell) + " of a table is not finite");
+          if (!table.at(cell).isFinite().all()) throw error{"cell ", cell, " of a table is not finite"};
           found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
           found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
         }

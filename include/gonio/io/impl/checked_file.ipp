@@ -44,17 +44,15 @@ GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind
   byte_reader file(bytes, name);
   const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
   if (!std::ranges::equal(magic, std::as_bytes(std::span(kind.magic))))
-    throw error(name + ": not a gonio " + noun + " (it does not start with '" + std::string(kind.magic) + "')");
+    throw error{name, ": not a gonio ", noun, " (it does not start with '", std::string(kind.magic), "')"};
   const auto version = file.take<std::uint32_t>();
   if (version != kind.version)
-    throw error(name + ": " + noun + " format version " + std::to_string(version) + ", this program reads version " +
-                std::to_string(kind.version));
+    throw error{name, ": ", noun, " format version ", version, ", this program reads version ", kind.version};
   const auto size = file.take<std::uint64_t>();
-  if (size > detail::payload_size_limit)
-    throw error(name + ": a " + noun + " of " + std::to_string(size) + " bytes is not believable");
+  if (size > detail::payload_size_limit) throw error{name, ": a ", noun, " of ", size, " bytes is not believable"};
   const auto expected = file.take<std::uint32_t>();
   std::vector<std::byte> payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
-  if (detail::checksum(payload) != expected) throw error(name + ": the checksum does not match, the file is damaged");
+  if (detail::checksum(payload) != expected) throw error{name, ": the checksum does not match, the file is damaged"};
   return payload;
 }
 

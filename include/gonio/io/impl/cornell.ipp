@@ -29,9 +29,8 @@ GONIO_INLINE void cornell_parser::read(std::string_view line) {
 
 GONIO_INLINE sample_set cornell_parser::samples() && {
   if (!colour_)
-    throw error(place_.name + ": ends before its " + std::to_string(count_) + " wavelengths, of which there are " +
-                std::to_string(wavelengths_.size()));
-  if (samples_.empty()) throw error(place_.name + ": has no samples, expected at least one");
+    throw error{place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()};
+  if (samples_.empty()) throw error{place_.name, ": has no samples, expected at least one"};
   return std::move(samples_);
 }
 

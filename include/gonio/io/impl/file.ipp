@@ -24,7 +24,7 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE void refuse_file(const std::filesystem::path& path, const std::string& what) {
-  throw error(path.string() + ": " + what);
+  throw error{path.string(), ": ", what};
 }
 
 GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {

@@ -52,7 +52,7 @@ GONIO_INLINE void inflater::restart() {
   ended_ = false;
 }
 
-GONIO_INLINE void inflater::refuse(const std::string& what) const { throw error(name_ + ": " + what); }
+GONIO_INLINE void inflater::refuse(const std::string& what) const { throw error{name_, ": ", what}; }
 
 GONIO_INLINE void inflater::fail(int status) const {
   if (status == Z_MEM_ERROR) throw std::bad_alloc();

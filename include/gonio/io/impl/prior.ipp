@@ -46,14 +46,13 @@ GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto anchor = in.take<std::uint32_t>();
-  if (anchor > 1)
-    throw error(name + ": the cell anchor is " + std::to_string(anchor) + ", expected 0 (centre) or 1 (lower corner)");
+  if (anchor > 1) throw error{name, ": the cell anchor is ", anchor, ", expected 0 (centre) or 1 (lower corner)"};
   const auto minimum_cosine = in.take<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
-    throw error(name + ": the smallest cosine of a valid cell must be in [0, 1)");
+    throw error{name, ": the smallest cosine of a valid cell must be in [0, 1)"};
   const gonio::grid grid({theta_h, theta_d, phi_d}, anchor == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
   // Components, mean and reference take at least 6 bytes a cell, most of the cells are valid.
-  if (grid.size() > 4 * in.left()) throw error(name + ": the grid has more cells than the file has values");
+  if (grid.size() > 4 * in.left()) throw error{name, ": the grid has more cells than the file has values"};
   return valid_cells(grid, minimum_cosine);
 }
 
@@ -68,8 +67,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
   if (components == 0 || components > 3 * std::uint64_t{materials} || materials > in.left())
-    throw error(name + ": " + std::to_string(components) + " components of " + std::to_string(materials) +
-                " materials are impossible");
+    throw error{name, ": ", components, " components of ", materials, " materials are impossible"};
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(materials);
@@ -81,21 +79,21 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   std::ranges::transform(reference, reference.begin(), [](float logarithm) { return std::exp(logarithm); });
   std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  if (cells.size() > in.left()) throw error(name + ": the file is truncated or its counts are wrong");
+  if (cells.size() > in.left()) throw error{name, ": the file is truncated or its counts are wrong"};
   cell_matrix functions(static_cast<Eigen::Index>(cells.size()), k);
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = take_quantised<std::uint8_t>(in, cells.size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
       functions(static_cast<Eigen::Index>(cell), c) = dequantise(column, cell);
   }
-  if (in.left() != 0) throw error(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
+  if (in.left() != 0) throw error{name, ": ", in.left(), " bytes follow the last component"};
 
   const Eigen::Map<const Eigen::VectorXd> singular_values(singular.data(), k);
   const Eigen::Map<const Eigen::MatrixXf> coefficients(observed.data(), 3 * static_cast<Eigen::Index>(materials), k);
   const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
                       functions.allFinite() &&
                       std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
-  if (!finite) throw error(name + ": a value of the prior is not finite");
+  if (!finite) throw error{name, ": a value of the prior is not finite"};
   return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names), singular_values,
                            std::move(functions), std::move(mean), coefficients, explained_variance, std::move(source)});
 }

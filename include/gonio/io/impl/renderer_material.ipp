@@ -31,14 +31,14 @@ GONIO_INLINE rough_surface as_rough_surface(const analytic_brdf& model) {
     }
     found.beckmann = lobe.kind() == lobe_kind::of<torrance_sparrow_shape>();
     if (!found.beckmann && !(lobe.kind() == lobe_kind::of<ggx_shape>()))
-      throw error("renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not " +
-                  std::string(lobe.kind().name()));
+      throw error{"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
+                  std::string(lobe.kind().name())};
     found.specular = lobe.colour();
     found.alpha = lobe.parameters()[0];
     found.f0 = lobe.parameters()[1];
     ++rough;
   }
-  if (rough != 1) throw error("a renderer's material has one rough lobe, not " + std::to_string(rough));
+  if (rough != 1) throw error{"a renderer's material has one rough lobe, not ", rough};
   return found;
 }
 

@@ -138,8 +138,8 @@ GONIO_INLINE recorded_scan parse_scan(std::string_view text, const std::string& 
   bool has_reading = false;
   detail::for_each_line(detail::whole_lines(text), place,
                         [&](std::string_view line) { detail::apply_scan_line(line, place, scan, has_reading); });
-  if (scan.largest_count == 0) throw error(name + ": the line largest_count is missing");
-  if (scan.poses.empty()) throw error(name + ": there is no pose");
+  if (scan.largest_count == 0) throw error{name, ": the line largest_count is missing"};
+  if (scan.poses.empty()) throw error{name, ": there is no pose"};
   return scan;
 }
 
@@ -151,7 +151,7 @@ GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
 GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, std::span<const direction_pair> poses,
                                         std::uint16_t largest_count)
     : path_(path) {
-  if (poses.empty()) throw error(path.string() + ": a scan needs a pose, and there is none");
+  if (poses.empty()) throw error{path.string(), ": a scan needs a pose, and there is none"};
   if (!std::filesystem::exists(path)) {
     const std::string header = detail::format_scan_header(poses, largest_count);
     write_atomically(path, std::as_bytes(std::span(header)));
@@ -166,7 +166,7 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, std::
 }
 
 GONIO_INLINE void scan_journal::add(std::size_t pose, const reading& taken) {
-  if (has(pose)) throw error(path_.string() + ": pose " + std::to_string(pose) + " is read already");
+  if (has(pose)) throw error{path_.string(), ": pose ", pose, " is read already"};
   const std::string line = detail::format_reading(pose, taken);
   for (std::string_view left = line; !left.empty();) {
     const ssize_t count = ::write(file_.get(), left.data(), left.size());
@@ -182,18 +182,17 @@ GONIO_INLINE void scan_journal::open() {
   file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
-  if (errno == EWOULDBLOCK) throw error(path_.string() + ": another process is scanning into this file");
+  if (errno == EWOULDBLOCK) throw error{path_.string(), ": another process is scanning into this file"};
   fail();
 }
 
 GONIO_INLINE void scan_journal::require_same(std::span<const direction_pair> poses, std::uint16_t largest_count) const {
   if (scan_.largest_count != largest_count)
-    throw error(path_.string() + ": is a scan by a camera of " + std::to_string(scan_.largest_count) + " counts, not " +
-                std::to_string(largest_count));
+    throw error{path_.string(), ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count};
   const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (!std::ranges::equal(scan_.poses, poses, same))
-    throw error(path_.string() + ": is a scan of " + std::to_string(scan_.poses.size()) +
-                " other poses, expected the " + std::to_string(poses.size()) + " of this plan");
+    throw error{path_.string(), ": is a scan of ", scan_.poses.size(), " other poses, expected the ",
+                poses.size(),   " of this plan"};
 }
 
 }  // namespace gonio::io

@@ -18,9 +18,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void text_place::refuse(const std::string& what) const {
-  throw error(name + ", line " + std::to_string(line) + ": " + what);
-}
+GONIO_INLINE void text_place::refuse(const std::string& what) const { throw error{name, ", line ", line, ": ", what}; }
 
 GONIO_INLINE std::string quoted(std::string_view field) {
   constexpr std::size_t longest = 40;

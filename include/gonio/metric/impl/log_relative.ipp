@@ -16,8 +16,7 @@ namespace gonio {
 
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference) : cells_(std::move(cells)) {
   if (reference.size() != cells_.size())
-    throw error("a reference BRDF over " + std::to_string(cells_.size()) + " cells has " +
-                std::to_string(reference.size()) + " values");
+    throw error{"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"};
   if (!std::ranges::all_of(reference, [](float value) { return value >= 0.0f && std::isfinite(value); }))
     throw error("a reference BRDF must be finite and not negative");
   reference_ = std::make_shared<const std::vector<float>>(std::move(reference));

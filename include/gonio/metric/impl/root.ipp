@@ -13,8 +13,7 @@
 namespace gonio {
 
 GONIO_INLINE root::root(double p) : p_(p) {
-  if (!(p >= 1.0 && std::isfinite(p)))
-    throw error("the root of a metric must be finite and at least 1, not " + std::to_string(p));
+  if (!(p >= 1.0 && std::isfinite(p))) throw error{"the root of a metric must be finite and at least 1, not ", p};
 }
 
 }  // namespace gonio

@@ -24,7 +24,7 @@ namespace gonio::detail {
 
 GONIO_INLINE void require_penalty(double lambda) {
   if (!(lambda >= 0.0 && std::isfinite(lambda)))
-    throw error("the penalty lambda of a Lasso must be finite and not negative, not " + std::to_string(lambda));
+    throw error{"the penalty lambda of a Lasso must be finite and not negative, not ", lambda};
 }
 
 }  // namespace gonio::detail
@@ -33,15 +33,41 @@ namespace gonio {
 
 GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count,
                                                  double smallest_share, sign_rule signs) {
-  if (count < 2) throw error("a regularisation path needs at least two penalties, not " + std::to_string(count));
+  if (count < 2) throw error{"a regularisation path needs at least two penalties, not ", count};
   if (!(smallest_share > 0.0 && smallest_share < 1.0))
-    throw error("the smallest penalty of a path must be a share in (0, 1) of the largest, not " +
-                std::to_string(smallest_share));
+    throw error{"the smallest penalty of a path must be a share in (0, 1) of the largest, not ", smallest_share};
   const double largest = largest_lambda(normal, signs);
   std::vector<double> lambdas(count);
   for (std::size_t i = 0; i < count; ++i)
     lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
   return lambdas;
+}
+
+}  // namespace gonio
+
+namespace gonio {
+
+template <sign_rule Signs>
+solution basic_lasso<Signs>::solve(const normal_equations& normal) const {
+  const auto start = [&](Eigen::Index column) { return iteration(normal, column, lambda_); };
+  return solve_signed<Signs>(normal, lambda_, "the Lasso", start);
+}
+
+template <sign_rule Signs>
+lasso_path solve_lasso_path(const normal_equations& normal, std::vector<double> lambdas) {
+  lasso_path path{std::move(lambdas), {}};
+  Eigen::MatrixXd last = Eigen::MatrixXd::Zero(normal.unknowns(), normal.right_hand_sides());
+  for (const double lambda : path.lambdas) {
+    detail::require_penalty(lambda);
+    const auto warm = [&](Eigen::Index column) {
+      active_set<Signs> run(normal, column, lambda);
+      run.start_from(last.col(column));
+      return run;
+    };
+    path.solutions.push_back(solve_signed<Signs>(normal, lambda, "the Lasso path", warm));
+    last = path.solutions.back().weights;
+  }
+  return path;
 }
 
 }  // namespace gonio

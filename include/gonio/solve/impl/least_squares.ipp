@@ -2,32 +2,198 @@
 /// Bodies of solve/least_squares.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/dense.hpp>
 #include <gonio/solve/least_squares.hpp>
-#include <gonio/solve/solver.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
-namespace gonio::detail {
+namespace gonio {
 
-GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
+namespace detail {
+
+GONIO_INLINE Eigen::MatrixXd triangular_equations(const least_squares_problem& problem) {
+  const Eigen::MatrixXd& right = problem.right_hand_side();
+  const Eigen::Index k = problem.unknowns(), columns = k + right.cols();
+  const Eigen::Index room = columns + std::max<Eigen::Index>(columns, 1024);
+  Eigen::MatrixXd stacked(std::min(problem.equations(), room), columns);
+  Eigen::Index filled = 0;
+  const auto triangularise = [&] {
+    if (filled <= columns) return;
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked.topRows(filled));
+    stacked.topRows(columns) = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
+    filled = columns;
+  };
+  problem.for_each_row_block([&](block range, const row_matrix& part) {
+    for (Eigen::Index row = 0; row < part.rows(); ++row) {
+      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+      if (filled == stacked.rows()) triangularise();
+      const double root = std::sqrt(problem.weights()[at]);
+      stacked.row(filled).head(k) = root * part.row(row);
+      stacked.row(filled).tail(right.cols()) = root * right.row(at);
+      ++filled;
+    }
+  });
+  triangularise();
+  return stacked.topRows(filled);
+}
+
+/// A matrix each row of which is multiplied by a number.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd scaled_rows(Eigen::MatrixXd matrix, const Eigen::VectorXd& factors) {
+  for (Eigen::Index column = 0; column < matrix.cols(); ++column) matrix.col(column).array() *= factors.array();
+  return matrix;
+}
+
+/// The x of the smallest norm with B x = `right`, where the rows of B are independent, given B': k x p, p <= k.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd minimum_norm(const Eigen::MatrixXd& transposed, Eigen::MatrixXd right) {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(transposed.rows(), right.cols());
+  if (right.rows() == 0) return x;
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(transposed);
+  const Eigen::MatrixXd lower = qr.matrixQR().topRows(right.rows()).transpose();
+  lower.triangularView<Eigen::Lower>().solveInPlace(right);
+  x.topRows(right.rows()) = right;
+  x.applyOnTheLeft(qr.householderQ());
+  return x;
+}
+
+/// Norms of columns to divide by: 1 for a column of zeros.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
   for (double& norm : norms)
     if (!(norm > 0.0)) norm = 1.0;
   return norms;
 }
 
-}  // namespace gonio::detail
+GONIO_INLINE Eigen::VectorXd stationarity_of_rows(const least_squares_problem& problem, const Eigen::MatrixXd& x) {
+  Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(x.rows(), x.cols());
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.rows());
+  problem.for_each_row_block([&](block range, const row_matrix& part) {
+    for (Eigen::Index row = 0; row < part.rows(); ++row) {
+      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+      const double weight = problem.weights()[at];
+      // A row lies contiguous, as a column of the transpose.
+      const Eigen::Map<const Eigen::VectorXd> a(part.row(row).data(), part.cols());
+      for (Eigen::Index column = 0; column < x.cols(); ++column) {
+        const double misfit = weight * (a.dot(x.col(column)) - problem.right_hand_side()(at, column));
+        gradient.col(column) += misfit * a;
+      }
+      squares += weight * a.cwiseAbs2();
+    }
+  });
+  const Eigen::VectorXd norms = divisors(squares.cwiseSqrt());
+  Eigen::VectorXd violation(x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    const double energy = problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights());
+    const double scale = std::sqrt(energy) + norms.dot(x.col(column).cwiseAbs());
+    const double worst = gradient.col(column).cwiseQuotient(norms).cwiseAbs().maxCoeff();
+    violation[column] = scale > 0.0 ? worst / scale : worst;
+  }
+  return violation;
+}
 
-namespace gonio {
+/// W^(1/2) [A, b] D^-1, where D scales the columns of A to length 1, and the QR factorisation of its left part.
+struct pivoted_rows {
+  Eigen::VectorXd lengths;
+  Eigen::MatrixXd right;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+};
+
+[[nodiscard]] GONIO_INLINE pivoted_rows factorise_rows(const least_squares_problem& problem, double threshold) {
+  const Eigen::MatrixXd equations = triangular_equations(problem);
+  Eigen::MatrixXd left = equations.leftCols(problem.unknowns());
+  pivoted_rows rows;
+  rows.lengths = divisors(left.colwise().norm());
+  for (Eigen::Index column = 0; column < left.cols(); ++column) left.col(column) *= 1.0 / rows.lengths[column];
+  rows.right = equations.rightCols(problem.right_hand_side().cols());
+  rows.qr.setThreshold(threshold);
+  rows.qr.compute(left);
+  return rows;
+}
+
+/// D^-1 Q D^-1 = V diag(values) V' with D^2 the diagonal of Q, without the eigenvalues that are taken for zero.
+struct normal_spectrum {
+  Eigen::VectorXd lengths;
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+
+[[nodiscard]] GONIO_INLINE normal_spectrum factorise_normal(const normal_equations& normal, double threshold) {
+  normal_spectrum kept;
+  kept.lengths = divisors(normal.gram().diagonal().cwiseSqrt());
+  const Eigen::VectorXd inverse = kept.lengths.cwiseInverse();
+  Eigen::MatrixXd scaled = normal.gram();
+  for (Eigen::Index column = 0; column < scaled.cols(); ++column)
+    for (Eigen::Index row = 0; row < scaled.rows(); ++row) scaled(row, column) *= inverse[row] * inverse[column];
+  const symmetric_eigen eigen = decompose_symmetric(scaled, "normal equations");  // ascending
+  const double relative = std::max(threshold, least_squares::gram_threshold);
+  const double least = relative * relative * eigen.values[eigen.values.size() - 1];
+  Eigen::Index rank = 0;
+  for (const double value : eigen.values) rank += value > least ? 1 : 0;
+  kept.values = eigen.values.tail(rank);
+  kept.vectors = eigen.vectors.rightCols(rank);
+  return kept;
+}
+
+}  // namespace detail
 
 GONIO_INLINE least_squares::least_squares(double rank_threshold) : threshold_(rank_threshold) {
   if (!(rank_threshold >= 0.0 && rank_threshold < 1.0))
-    throw error("the rank threshold of a least-squares solver must be at least 0 and less than 1, not " +
-                std::to_string(rank_threshold));
+    throw error{"the rank threshold of a least-squares solver must be at least 0 and less than 1, not ",
+                rank_threshold};
+}
+
+GONIO_INLINE Eigen::Index least_squares::rank(const least_squares_problem& problem) const {
+  return detail::factorise_rows(problem, threshold_).qr.rank();
+}
+
+GONIO_INLINE Eigen::Index least_squares::rank(const normal_equations& normal) const {
+  return detail::factorise_normal(normal, threshold_).values.size();
+}
+
+GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem) const {
+  auto [lengths, right, qr] = detail::factorise_rows(problem, threshold_);
+  const Eigen::Index rank = qr.rank();
+  right.applyOnTheLeft(qr.householderQ().adjoint());
+  const Eigen::MatrixXd triangle = qr.matrixR().topRows(rank).triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd kept = right.topRows(rank);
+
+  solution found;
+  if (rank == problem.unknowns()) {
+    const Eigen::MatrixXd scaled = triangle.triangularView<Eigen::Upper>().solve(kept);
+    found.weights = detail::scaled_rows(qr.colsPermutation() * scaled, lengths.cwiseInverse());
+  } else {
+    const Eigen::MatrixXd transposed = triangle.transpose();
+    found.weights = detail::minimum_norm(detail::scaled_rows(qr.colsPermutation() * transposed, lengths), kept);
+  }
+  found.residual = problem.residual(found.weights);
+  // 1/2 x'Qx - m'x as half the difference of two squares: the terms themselves cancel when x is large.
+  found.objective.resize(found.residual.size());
+  for (Eigen::Index column = 0; column < found.residual.size(); ++column)
+    found.objective[column] = 0.5 * (found.residual[column] * found.residual[column] -
+                                     problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
+  found.certificate = detail::stationarity_of_rows(problem, found.weights);
+  return found;
+}
+
+GONIO_INLINE solution least_squares::solve(const normal_equations& normal) const {
+  const auto [lengths, values, vectors] = detail::factorise_normal(normal, threshold_);
+  const Eigen::MatrixXd moment = detail::scaled_rows(normal.moment(), lengths.cwiseInverse());
+  const Eigen::MatrixXd kept = detail::scaled_rows(product(vectors.transpose(), moment), values.cwiseInverse());
+
+  solution found;
+  if (values.size() == normal.unknowns())
+    found.weights = detail::scaled_rows(product(vectors, kept), lengths.cwiseInverse());
+  else
+    found.weights = detail::minimum_norm(detail::scaled_rows(vectors, lengths), kept);
+  found.residual = normal.residual(found.weights);
+  found.objective = normal.objective(found.weights);
+  found.certificate = stationarity(normal, found.weights);
+  return found;
 }
 
 }  // namespace gonio

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -30,7 +31,9 @@ GONIO_INLINE row_matrix least_squares_problem::rows() const {
   return gathered;
 }
 
-GONIO_INLINE Eigen::Index least_squares_problem::observations() const { return (weights().array() > 0.0).count(); }
+GONIO_INLINE Eigen::Index least_squares_problem::observations() const {
+  return std::count_if(weights().begin(), weights().end(), [](double weight) { return weight > 0.0; });
+}
 
 GONIO_INLINE row_matrix least_squares_problem::weighted_rows() const {
   row_matrix gathered(observations(), unknowns());
@@ -48,7 +51,11 @@ GONIO_INLINE Eigen::MatrixXd least_squares_problem::weighted_right_hand_side() c
   Eigen::MatrixXd gathered(observations(), right_hand_side().cols());
   Eigen::Index filled = 0;
   for (Eigen::Index row = 0; row < equations(); ++row)
-    if (weights()[row] > 0.0) gathered.row(filled++) = std::sqrt(weights()[row]) * right_hand_side().row(row);
+    if (weights()[row] > 0.0) {
+      for (Eigen::Index column = 0; column < gathered.cols(); ++column)
+        gathered(filled, column) = std::sqrt(weights()[row]) * right_hand_side()(row, column);
+      ++filled;
+    }
   return gathered;
 }
 
@@ -69,8 +76,7 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
   std::vector<Eigen::Index> chosen(columns.begin(), columns.end());
   for (Eigen::Index& column : chosen) {
     if (column < 0 || column >= unknowns())
-      throw error("a least-squares problem of " + std::to_string(unknowns()) + " unknowns has no column " +
-                  std::to_string(column));
+      throw error{"a least-squares problem of ", unknowns(), " unknowns has no column ", column};
     if (columns_) column = (*columns_)[static_cast<std::size_t>(column)];
   }
   if (chosen.empty()) throw error("a least-squares problem needs at least one column");
@@ -85,11 +91,14 @@ GONIO_INLINE Eigen::VectorXd least_squares_problem::residual(const Eigen::Matrix
   const Eigen::VectorXd squares = sum_over_blocks(
       static_cast<std::size_t>(equations()), block_rows, zero,
       [&](Eigen::VectorXd& sum, block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
         const row_matrix part = read(range);
-        for (Eigen::Index column = 0; column < x.cols(); ++column) {
-          const Eigen::VectorXd misfit = part * x.col(column) - right_hand_side().col(column).segment(begin, count);
-          sum[column] += weights().segment(begin, count).dot(misfit.cwiseAbs2());
+        for (Eigen::Index row = 0; row < part.rows(); ++row) {
+          const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+          const Eigen::Map<const Eigen::VectorXd> a(part.row(row).data(), part.cols());
+          for (Eigen::Index column = 0; column < x.cols(); ++column) {
+            const double misfit = a.dot(x.col(column)) - right_hand_side()(at, column);
+            sum[column] += weights()[at] * misfit * misfit;
+          }
         }
       },
       threads_);
@@ -99,20 +108,20 @@ GONIO_INLINE Eigen::VectorXd least_squares_problem::residual(const Eigen::Matrix
 GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::MatrixXd b, Eigen::VectorXd w)
     : rows(std::move(source)), right_hand_side(std::move(b)), weights(std::move(w)) {
   if (weights.size() == 0) weights = Eigen::VectorXd::Ones(rows.rows);
-  const auto text = [](Eigen::Index n) { return std::to_string(n); };
   if (rows.rows == 0 || rows.columns == 0 || right_hand_side.cols() == 0)
-    throw error("a least-squares problem of " + text(rows.rows) + " rows, " + text(rows.columns) + " unknowns and " +
-                text(right_hand_side.cols()) + " right-hand sides is empty");
+    throw error{
+        "a least-squares problem of ", rows.rows, " rows, ", rows.columns, " unknowns and ", right_hand_side.cols(),
+        " right-hand sides is empty"};
   if (right_hand_side.rows() != rows.rows || weights.size() != rows.rows)
-    throw error("a least-squares problem of " + text(rows.rows) + " rows has " + text(right_hand_side.rows()) +
-                " right-hand values and " + text(weights.size()) + " weights");
+    throw error{"a least-squares problem of ", rows.rows,      " rows has ", right_hand_side.rows(),
+                " right-hand values and ",     weights.size(), " weights"};
   for (Eigen::Index row = 0; row < rows.rows; ++row) {
     for (Eigen::Index column = 0; column < right_hand_side.cols(); ++column)
       if (!std::isfinite(right_hand_side(row, column)))
-        throw error("row " + text(row) + " of a least-squares problem is not finite on its right-hand side");
+        throw error{"row ", row, " of a least-squares problem is not finite on its right-hand side"};
     if (!(weights[row] >= 0.0 && std::isfinite(weights[row])))
-      throw error("row " + text(row) + " of a least-squares problem has weight " + std::to_string(weights[row]) +
-                  ": weights must be finite and not negative");
+      throw error{"row ", row, " of a least-squares problem has weight ", weights[row],
+                  ": weights must be finite and not negative"};
   }
 }
 
@@ -132,8 +141,8 @@ GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, 
   for (Eigen::Index row = 0; row < part.rows(); ++row)
     for (Eigen::Index column = 0; column < part.cols(); ++column)
       if (!std::isfinite(part(row, column)))
-        throw error("row " + std::to_string(first_row + static_cast<std::size_t>(row)) +
-                    " of a least-squares problem is not finite in column " + std::to_string(column));
+        throw error{"row ", first_row + static_cast<std::size_t>(row),
+                    " of a least-squares problem is not finite in column ", column};
 }
 
 GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {

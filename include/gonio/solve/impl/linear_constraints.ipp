@@ -30,19 +30,16 @@ GONIO_INLINE linear_constraints linear_constraints::operator()(Eigen::Index unkn
 
 GONIO_INLINE void linear_constraints::require_consistent(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right,
                                                          Eigen::Index unknowns, const std::string& kind) {
-  const auto text = [](Eigen::Index n) { return std::to_string(n); };
   if (rows.rows() != right.size())
-    throw error(text(rows.rows()) + " rows of " + kind + " constraints have " + text(right.size()) +
-                " right-hand values");
+    throw error{rows.rows(), " rows of ", kind, " constraints have ", right.size(), " right-hand values"};
   if (rows.rows() > 0 && rows.cols() != unknowns)
-    throw error("row 0 of the " + kind + " constraints has " + text(rows.cols()) + " coefficients for " +
-                text(unknowns) + " unknowns");
+    throw error{"row 0 of the ", kind, " constraints has ", rows.cols(), " coefficients for ", unknowns, " unknowns"};
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     for (Eigen::Index column = 0; column < rows.cols(); ++column)
       if (!std::isfinite(rows(row, column)))
-        throw error("row " + text(row) + " of the " + kind + " constraints is not finite in column " + text(column));
+        throw error{"row ", row, " of the ", kind, " constraints is not finite in column ", column};
     if (!std::isfinite(right[row]))
-      throw error("row " + text(row) + " of the " + kind + " constraints is not finite on its right-hand side");
+      throw error{"row ", row, " of the ", kind, " constraints is not finite on its right-hand side"};
   }
 }
 
@@ -60,3 +57,88 @@ GONIO_INLINE double judged_row::relative_slack(double bound, double size) const 
 }
 
 }  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE Eigen::VectorXd column_lengths(const normal_equations& normal, const linear_constraints& constraints) {
+  const Eigen::VectorXd norms = normal.gram().diagonal().cwiseSqrt();
+  Eigen::VectorXd lengths = norms;
+  const auto raise_for_zeros = [&](const auto& row) {
+    double curved = 0.0, any = 0.0;
+    for (Eigen::Index j = 0; j < norms.size(); ++j) {
+      any = std::max(any, std::abs(row[j]));
+      if (norms[j] > 0.0) curved = std::max(curved, std::abs(row[j]) / norms[j]);
+    }
+    const double largest = curved > 0.0 ? curved : any;
+    for (Eigen::Index j = 0; j < norms.size(); ++j)
+      if (norms[j] == 0.0 && largest > 0.0) lengths[j] = std::max(lengths[j], std::abs(row[j]) / largest);
+  };
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) raise_for_zeros(constraints.D.row(i));
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) raise_for_zeros(constraints.E.row(i));
+  for (double& length : lengths)
+    if (length == 0.0) length = 1.0;
+  return lengths;
+}
+
+}  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE judged_row::judged_row(const Eigen::VectorXd& row, const Eigen::VectorXd& lengths,
+                                    const Eigen::Ref<const Eigen::VectorXd>& x) {
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    activity += row[j] * x[j];
+    largest = std::max(largest, std::abs(row[j]) / lengths[j]);
+  }
+}
+
+GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal, Eigen::Index right_hand_side,
+                                                 const Eigen::Ref<const Eigen::VectorXd>& x,
+                                                 const linear_constraints& constraints,
+                                                 const constraint_multipliers& multipliers) {
+  Eigen::VectorXd sum = -normal.moment().col(right_hand_side), terms = sum.cwiseAbs();
+  const auto add = [&](double factor, const auto& column) {
+    if (factor == 0.0) return;
+    sum += factor * column;
+    terms += std::abs(factor) * column.cwiseAbs();
+  };
+  for (Eigen::Index i = 0; i < x.size(); ++i) add(x[i], normal.gram().col(i));
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i)
+    add(multipliers.inequality[i], constraints.D.row(i).transpose());
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i)
+    add(multipliers.equality[i], constraints.E.row(i).transpose());
+  const Eigen::VectorXd lengths = column_lengths(normal, constraints);
+  const double scale = terms.cwiseQuotient(lengths).maxCoeff();
+  return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
+}
+
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE double kkt_violation(const normal_equations& normal, Eigen::Index right_hand_side,
+                                  const Eigen::Ref<const Eigen::VectorXd>& x, const linear_constraints& constraints,
+                                  const constraint_multipliers& multipliers) {
+  const scaled_gradient gradient = detail::lagrangian_gradient(normal, right_hand_side, x, constraints, multipliers);
+  if (!x.allFinite() || !gradient.value.allFinite()) return std::numeric_limits<double>::infinity();
+  double worst = 0.0, size = 0.0;
+  for (Eigen::Index j = 0; j < x.size(); ++j) {
+    if (constraints.non_negative && x[j] < 0.0) return std::numeric_limits<double>::infinity();
+    const bool at_bound = constraints.non_negative && x[j] == 0.0;
+    worst = std::max(worst, (at_bound ? -gradient.value[j] : std::abs(gradient.value[j])) / gradient.scale);
+    size = std::max(size, std::abs(x[j]) * gradient.column_norms[j]);
+  }
+  for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
+    const detail::judged_row row(constraints.D.row(i).transpose(), gradient.column_norms, x);
+    const double slack = row.relative_slack(constraints.d[i], size);
+    const double multiplier = multipliers.inequality[i] * row.largest / gradient.scale;
+    worst = std::max({worst, -slack, -multiplier, std::min(multiplier, slack)});
+  }
+  for (Eigen::Index i = 0; i < constraints.e.size(); ++i) {
+    const detail::judged_row row(constraints.E.row(i).transpose(), gradient.column_norms, x);
+    worst = std::max(worst, std::abs(row.relative_slack(constraints.e[i], size)));
+  }
+  return worst;
+}
+
+}  // namespace gonio

@@ -36,3 +36,65 @@ GONIO_INLINE void block_pivoting::find_wrong(const Eigen::VectorXd& gradient) {
 }
 
 }  // namespace gonio
+
+namespace gonio {
+
+GONIO_INLINE void block_pivoting::step() {
+  if (!wrong_.empty()) exchange();
+  if (wrong_.empty() || ++steps_ >= 3 * x_.size() + 20) finish();
+}
+
+GONIO_INLINE void block_pivoting::exchange() {
+  const auto wrong = std::ssize(wrong_);
+  if (wrong < fewest_wrong_) {
+    fewest_wrong_ = wrong;
+    chances_ = 3;
+  } else {
+    --chances_;
+  }
+  const std::size_t first = chances_ > 0 ? 0 : wrong_.size() - 1;
+  for (std::size_t i = first; i < wrong_.size(); ++i) {
+    const auto j = static_cast<std::size_t>(wrong_[i]);
+    free_[j] = !free_[j];
+  }
+  solve_free();
+}
+
+GONIO_INLINE void block_pivoting::finish() {
+  x_ = finish_by_active_set<sign_rule::non_negative>(normal_, right_hand_side_, 0.0, x_, "block principal pivoting");
+  finished_ = true;
+}
+
+GONIO_INLINE void block_pivoting::solve_free() {
+  growing_cholesky factor(normal_.unknowns());
+  std::vector<Eigen::Index> passive;
+  Eigen::VectorXd cross(normal_.unknowns());
+  for (Eigen::Index j = 0; j < x_.size(); ++j) {
+    if (!free_[static_cast<std::size_t>(j)]) continue;
+    const auto count = std::ssize(passive);
+    for (Eigen::Index i = 0; i < count; ++i) cross[i] = normal_.gram()(passive[static_cast<std::size_t>(i)], j);
+    // A column that depends on the free ones adds nothing: it stays at zero.
+    if (factor.append(cross.head(count), normal_.gram()(j, j)))
+      passive.push_back(j);
+    else
+      free_[static_cast<std::size_t>(j)] = false;
+  }
+  Eigen::VectorXd z(std::ssize(passive));
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = moment_[passive[static_cast<std::size_t>(i)]];
+  factor.solve(z);
+  x_.setZero();
+  Eigen::VectorXd gradient = -moment_;
+  for (Eigen::Index i = 0; i < z.size(); ++i) {
+    const Eigen::Index j = passive[static_cast<std::size_t>(i)];
+    x_[j] = z[i];
+    gradient += z[i] * normal_.gram().col(j);
+  }
+  find_wrong(gradient);
+}
+
+GONIO_INLINE solution nnls_block_pivoting::solve(const normal_equations& normal) const {
+  const auto start = [&](Eigen::Index column) { return iteration(normal, column); };
+  return solve_signed<sign_rule::non_negative>(normal, 0.0, "block principal pivoting", start);
+}
+
+}  // namespace gonio

@@ -31,8 +31,10 @@ GONIO_INLINE Eigen::VectorXd normal_equations::objective(const Eigen::MatrixXd& 
 }
 
 GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x) const {
-  const Eigen::VectorXd half_squares = objective(x) + 0.5 * energy_;
-  return (2.0 * half_squares).cwiseMax(0.0).cwiseSqrt();
+  Eigen::VectorXd norms = objective(x);
+  for (Eigen::Index column = 0; column < norms.size(); ++column)
+    norms[column] = std::sqrt(std::max(2.0 * norms[column] + energy_[column], 0.0));
+  return norms;
 }
 
 GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::Index> columns) const {
@@ -41,7 +43,7 @@ GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::In
   for (Eigen::Index j = 0; j < k; ++j) {
     const Eigen::Index from = columns[static_cast<std::size_t>(j)];
     for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[static_cast<std::size_t>(i)], from);
-    moment.row(j) = moment_.row(from);
+    for (Eigen::Index r = 0; r < moment.cols(); ++r) moment(j, r) = moment_(from, r);
   }
   return {std::move(gram), std::move(moment), energy_};
 }
@@ -54,24 +56,31 @@ GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, E
 }
 
 GONIO_INLINE void normal_equations::require_consistent() const {
-  const auto text = [](Eigen::Index n) { return std::to_string(n); };
   if (gram_.size() == 0 || moment_.cols() == 0)
-    throw error("normal equations of " + text(gram_.rows()) + " unknowns and " + text(moment_.cols()) +
-                " right-hand sides are empty");
+    throw error{"normal equations of ", gram_.rows(), " unknowns and ", moment_.cols(), " right-hand sides are empty"};
   if (gram_.rows() != gram_.cols() || moment_.rows() != gram_.rows() || energy_.size() != moment_.cols())
-    throw error("normal equations do not match in size: the Gram matrix is " + text(gram_.rows()) + " x " +
-                text(gram_.cols()) + ", the moment " + text(moment_.rows()) + " x " + text(moment_.cols()) + ", and " +
-                text(energy_.size()) + " right-hand sides have their energy");
+    throw error{"normal equations do not match in size: the Gram matrix is ",
+                gram_.rows(),
+                " x ",
+                gram_.cols(),
+                ", the moment ",
+                moment_.rows(),
+                " x ",
+                moment_.cols(),
+                ", and ",
+                energy_.size(),
+                " right-hand sides have their energy"};
   for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
-    const auto finite = [](double value) { return std::isfinite(value); };
-    const auto first = gram_.col(column).data();
-    if (!std::all_of(first, first + gram_.rows(), finite) || !moment_.row(column).allFinite())
-      throw error("column " + text(column) + " of normal equations is not finite");
+    bool finite = true;
+    for (Eigen::Index row = 0; row < gram_.rows(); ++row) finite = finite && std::isfinite(gram_(row, column));
+    for (Eigen::Index r = 0; r < moment_.cols(); ++r) finite = finite && std::isfinite(moment_(column, r));
+    if (!finite) throw error{"column ", column, " of normal equations is not finite"};
     if (gram_(column, column) < 0.0)
-      throw error("column " + text(column) + " of normal equations has the squared norm " +
-                  std::to_string(gram_(column, column)) + ": it cannot be negative");
+      throw error{"column ", column, " of normal equations has the squared norm ", gram_(column, column),
+                  ": it cannot be negative"};
   }
-  if (!energy_.allFinite()) throw error("the right-hand side of normal equations is not finite");
+  for (const double energy : energy_)
+    if (!std::isfinite(energy)) throw error("the right-hand side of normal equations is not finite");
 }
 
 GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {

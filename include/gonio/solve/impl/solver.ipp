@@ -42,3 +42,12 @@ GONIO_INLINE solution spread(solution found, std::span<const Eigen::Index> colum
 }
 
 }  // namespace gonio
+
+namespace gonio {
+
+GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_problem& problem) {
+  found.residual = problem.residual(found.weights);
+  return found;
+}
+
+}  // namespace gonio

@@ -16,8 +16,7 @@ namespace gonio {
 GONIO_INLINE brdf_table::brdf_table(valid_cells cells, std::vector<float> values)
     : cells_(std::move(cells)), values_(std::move(values)) {
   if (values_.size() != 3 * cells_.size())
-    throw error("a table over " + std::to_string(cells_.size()) + " cells needs 3 values a cell, got " +
-                std::to_string(values_.size()));
+    throw error{"a table over ", cells_.size(), " cells needs 3 values a cell, got ", values_.size()};
 }
 
 GONIO_INLINE brdf_table resample(const brdf_table& table, const valid_cells& cells, thread_count threads) {

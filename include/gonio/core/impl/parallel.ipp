@@ -1,0 +1,58 @@
+#pragma once
+/// Bodies of core/parallel.hpp.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE unsigned thread_count::resolve() const noexcept {
+  return value != 0 ? value : std::max(1u, std::thread::hardware_concurrency());
+}
+
+GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads) {
+  GONIO_ASSERT(block_size > 0);
+  const std::size_t blocks = (count + block_size - 1) / block_size;
+  const auto block_at = [&](std::size_t b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
+  const std::size_t workers = std::min<std::size_t>(threads.resolve(), blocks);
+  if (workers <= 1) {
+    for (std::size_t b = 0; b < blocks; ++b) body(block_at(b));
+    return;
+  }
+
+  std::atomic<std::size_t> next{0};
+  std::mutex failure_mutex;
+  std::exception_ptr failure;
+  std::size_t failed_block = blocks;
+  const auto work = [&] {
+    for (std::size_t b = next++; b < blocks; b = next++) {
+      try {
+        body(block_at(b));
+      } catch (...) {
+        const std::scoped_lock lock(failure_mutex);
+        if (b < failed_block) {
+          failed_block = b;
+          failure = std::current_exception();
+        }
+        next = blocks;
+      }
+    }
+  };
+  {
+    std::vector<std::jthread> team;
+    team.reserve(workers - 1);
+    for (std::size_t w = 1; w < workers; ++w) team.emplace_back(work);
+    work();
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace gonio

@@ -1,0 +1,37 @@
+#pragma once
+/// Gram matrices of rows, and the Cholesky factorisation of symmetric matrices, compiled once (see dense.hpp).
+/// Golub and Van Loan, Matrix Computations, 4th ed. 2013, 4.2.
+
+#include <gonio/solve/matrix_view.hpp>
+
+namespace gonio {
+
+/// A A', both triangles, of m x k: m^2 k operations.
+[[nodiscard]] Eigen::MatrixXd product_with_transpose(const matrix_view& a);
+
+/// The Cholesky factorisation A = L L' of a symmetric matrix, whose lower triangle is read; k^3 / 3 operations.
+class cholesky {
+ public:
+  explicit cholesky(const matrix_view& a);
+
+  /// Was A positive definite? If it was not, `solve` means nothing.
+  [[nodiscard]] bool positive_definite() const noexcept { return positive_definite_; }
+
+  /// A^-1 B: 2 k^2 operations for each column of B.
+  [[nodiscard]] Eigen::MatrixXd solve(const matrix_view& b) const;
+  /// L^-1 B: k^2 operations for each column of B.
+  [[nodiscard]] Eigen::MatrixXd solve_lower(const matrix_view& b) const;
+
+  /// The logarithm of A's determinant.
+  [[nodiscard]] double log_determinant() const;
+
+ private:
+  Eigen::MatrixXd lower_;  ///< L in the lower triangle
+  bool positive_definite_;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/cholesky.ipp>
+#endif

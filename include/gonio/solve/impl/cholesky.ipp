@@ -1,0 +1,60 @@
+#pragma once
+/// Bodies of solve/cholesky.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/cholesky.hpp>
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace gonio {
+
+GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
+  const Eigen::Index n = a.rows();
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n, n);
+  whole.selfadjointView<Eigen::Lower>().rankUpdate(a);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = j + 1; i < n; ++i) whole(j, i) = whole(i, j);
+  return whole;
+}
+
+GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_definite_(false) {
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(lower_);
+  positive_definite_ = in_place.info() == Eigen::Success;
+}
+
+// Substitution column by column rather than Eigen's, which generates a blocked kernel for each triangle: there are few
+// right-hand sides as a rule, and one at a time reads L once.
+
+GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
+  const Eigen::Index k = lower_.rows();
+  Eigen::MatrixXd x = b;
+  for (Eigen::Index column = 0; column < x.cols(); ++column)
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const Eigen::Index below = k - j - 1;
+      const double known = x(j, column) /= lower_(j, j);
+      x.col(column).tail(below) -= known * lower_.col(j).tail(below);
+    }
+  return x;
+}
+
+GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const {
+  const Eigen::Index k = lower_.rows();
+  Eigen::MatrixXd x = solve_lower(b);
+  for (Eigen::Index column = 0; column < x.cols(); ++column)
+    for (Eigen::Index j = k - 1; j >= 0; --j) {
+      const Eigen::Index below = k - j - 1;
+      const double known = lower_.col(j).tail(below).dot(x.col(column).tail(below));
+      x(j, column) = (x(j, column) - known) / lower_(j, j);
+    }
+  return x;
+}
+
+GONIO_INLINE double cholesky::log_determinant() const {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < lower_.rows(); ++k) sum += std::log(lower_(k, k));
+  return 2.0 * sum;
+}
+
+}  // namespace gonio

@@ -1,0 +1,78 @@
+#pragma once
+/// Bodies of solve/kkt.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/kkt.hpp>
+#include <gonio/solve/normal_equations.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <limits>
+
+namespace gonio {
+
+GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
+                                         const Eigen::Ref<const Eigen::VectorXd>& x) {
+  const Eigen::Index k = normal.unknowns();
+  scaled_gradient result{Eigen::VectorXd(k), 1.0, Eigen::VectorXd(k)};
+  Eigen::VectorXd magnitude(k);
+  for (Eigen::Index j = 0; j < k; ++j) {
+    result.value[j] = -normal.moment()(j, right_hand_side);
+    magnitude[j] = std::abs(result.value[j]);
+    result.column_norms[j] = std::sqrt(normal.gram()(j, j));
+  }
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    if (x[i] == 0.0) continue;
+    const double* column = normal.gram().col(i).data();
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const double term = x[i] * column[j];
+      result.value[j] += term;
+      magnitude[j] += std::abs(term);
+    }
+  }
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < result.value.size(); ++j) {
+    double& norm = result.column_norms[j];
+    if (norm == 0.0) norm = 1.0;
+    result.value[j] /= norm;
+    largest = std::max(largest, magnitude[j] / norm);
+  }
+  if (largest > 0.0) result.scale = largest;
+  return result;
+}
+
+GONIO_INLINE Eigen::VectorXd stationarity(const normal_equations& normal, const Eigen::MatrixXd& x) {
+  Eigen::VectorXd violation(x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    const scaled_gradient gradient = gradient_of(normal, column, x.col(column));
+    double worst = 0.0;
+    for (const double entry : gradient.value) worst = std::max(worst, std::abs(entry));
+    violation[column] = worst / gradient.scale;
+  }
+  return violation;
+}
+
+GONIO_INLINE Eigen::VectorXd kkt_violation(const normal_equations& normal, const Eigen::MatrixXd& x, double lambda,
+                                           sign_rule signs) {
+  Eigen::VectorXd violation(x.cols());
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    const scaled_gradient gradient = gradient_of(normal, column, x.col(column));
+    double worst = 0.0;
+    for (Eigen::Index j = 0; j < x.rows(); ++j) {
+      const double weight = x(j, column), slope = gradient.value[j], penalty = lambda / gradient.column_norms[j];
+      double off = 0.0;
+      if (weight > 0.0)
+        off = std::abs(slope + penalty);
+      else if (weight < 0.0)
+        off = signs == sign_rule::any ? std::abs(slope - penalty) : std::numeric_limits<double>::infinity();
+      else
+        off = signs == sign_rule::any ? std::abs(slope) - penalty : -slope - penalty;
+      worst = std::max(worst, off);
+    }
+    violation[column] = worst / gradient.scale;
+  }
+  return violation;
+}
+
+}  // namespace gonio

@@ -1,0 +1,132 @@
+#pragma once
+/// Bodies of solve/quadratic_program.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/dual_active_set.hpp>
+#include <gonio/solve/linear_constraints.hpp>
+#include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/solver.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side,
+                                                   const active_constraints* start) const {
+  const vector q = program_.moment(normal_, right_hand_side);
+  iteration run(program_, q, start ? *start : origin());
+  advance(run, step_limit());
+  if (run.converged() && !run.singular()) {
+    program_optimum found = judge(run, q, right_hand_side);
+    found.iterations = run.changes();
+    const vector& y = run.scaled_weights();
+    if (found.certificate <= good && !is_suspicious(found, y, q)) return found;
+    if (found.certificate <= good && falls_for_ever(y, q, right_hand_side)) throw error(falling(y));
+  }
+  return solve_by_proximal_points(right_hand_side, q, run.active(), run.changes());
+}
+
+GONIO_INLINE active_constraints program_solver::origin() const {
+  active_constraints start;
+  if (program_.non_negative) start.bounds.assign(static_cast<std::size_t>(program_.unknowns()), true);
+  return start;
+}
+
+GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const vector& q,
+                                                   Eigen::Index right_hand_side) const {
+  program_optimum found;
+  found.active = run.active();
+  found.weights = run.weights();
+  if (program_.non_negative) found.weights = found.weights.cwiseMax(0.0);
+  found.multipliers = run.multipliers();
+  found.multipliers.inequality = found.multipliers.inequality.cwiseMax(0.0);
+  const auto certify = [&](const vector& x) {
+    return kkt_violation(normal_, right_hand_side, x, constraints_, found.multipliers);
+  };
+  found.certificate = certify(found.weights);
+  if (found.certificate <= good) return found;
+  // Rows that leave only zero make weights of the size of rounding, which violate them completely.
+  const vector& y = run.scaled_weights();
+  const double tiny = 1e-14 * (q.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
+  const vector snapped = (y.array().abs() > tiny).select(found.weights, 0.0);
+  const double certificate = certify(snapped);
+  if (certificate < found.certificate) {
+    found.weights = snapped;
+    found.certificate = certificate;
+  }
+  return found;
+}
+
+GONIO_INLINE program_optimum program_solver::solve_by_proximal_points(Eigen::Index right_hand_side, const vector& q,
+                                                                      active_constraints active, int changes) const {
+  vector y = vector::Zero(q.size());
+  for (int point = 0; point < proximal_limit; ++point) {
+    const double shift = std::max(smallest_shift, std::ldexp(largest_shift, -point));
+    iteration run(program_, q + shift * y, active, shift);
+    advance(run, 10 * step_limit());
+    changes += run.changes();
+    if (run.singular() || !run.converged()) break;
+    const vector movement = run.scaled_weights() - y;
+    if (falls_for_ever(movement, q, right_hand_side)) throw error(falling(movement));
+    y = run.scaled_weights();
+    active = run.active();
+    program_optimum found = best(run, q, right_hand_side);
+    found.iterations = changes;
+    const bool settled = movement.cwiseAbs().maxCoeff() <= 1e-6 * y.cwiseAbs().maxCoeff();
+    const double enough = settled ? good : point >= patience ? sufficient : 0.0;
+    if (found.certificate <= enough && !is_suspicious(found, y, q)) return found;
+  }
+  throw error{
+      "a quadratic program has not been solved after ", changes,
+      " changes of its active constraints: its Gram matrix is not positive semidefinite or too ill-conditioned"};
+}
+
+GONIO_INLINE bool program_solver::is_suspicious(const program_optimum& found, const vector& y, const vector& q) const {
+  const double size = y.cwiseAbs().maxCoeff(), moment = q.cwiseAbs().maxCoeff();
+  const double given = program_.rows() > 0 ? std::max(moment, program_.b.cwiseAbs().maxCoeff()) : moment;
+  return size > 1e11 * given || (size > 1e6 * given && found.certificate * size > 1e-5 * moment);
+}
+
+GONIO_INLINE program_optimum program_solver::best(const iteration& run, const vector& q,
+                                                  Eigen::Index right_hand_side) const {
+  program_optimum polished = judge(iteration::polished(run, q), q, right_hand_side);
+  if (polished.certificate <= good) return polished;
+  program_optimum found = judge(run, q, right_hand_side);
+  return found.certificate < polished.certificate ? found : polished;
+}
+
+GONIO_INLINE bool program_solver::falls_for_ever(const vector& movement, const vector& q,
+                                                 Eigen::Index right_hand_side) const {
+  constexpr double feasible = 1e-8;
+  const double length = movement.cwiseAbs().maxCoeff();
+  if (!(length > 0.0)) return false;
+  const vector way = movement / length;
+  if (program_.non_negative && way.minCoeff() < -feasible) return false;
+  for (Eigen::Index i = 0; i < program_.rows(); ++i) {
+    const double rate = program_.normals.col(i).dot(way);
+    if (rate < -feasible || (i < program_.equalities && rate > feasible)) return false;
+  }
+  const double epsilon = 4.0 * static_cast<double>(q.size()) * std::numeric_limits<double>::epsilon();
+  const double curvature = std::max(0.0, way.dot(program_.G * way)), slope = q.dot(way);
+  if (curvature > epsilon * way.squaredNorm() || !(slope > 0.0)) return false;
+  const double rounding = epsilon * way.cwiseAbs2().dot(program_.G.diagonal());
+  const double reach = std::max(normal_.energy()[right_hand_side], q.cwiseAbs2().maxCoeff());
+  return slope * slope > 100.0 * reach * (curvature + rounding);
+}
+
+GONIO_INLINE std::string program_solver::falling(const vector& movement) {
+  Eigen::Index column = 0;
+  movement.cwiseAbs().maxCoeff(&column);
+  return "the quadratic program is unbounded: its objective falls for ever in a direction that moves weight " +
+         std::to_string(column);
+}
+
+}  // namespace gonio

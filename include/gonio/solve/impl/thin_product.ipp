@@ -1,0 +1,23 @@
+#pragma once
+/// Bodies of solve/thin_product.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/solve/thin_product.hpp>
+
+namespace gonio {
+
+GONIO_INLINE Eigen::MatrixXd thin_product(const matrix_view& a, const matrix_view& b) {
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  for (Eigen::Index j = 0; j < b.cols(); ++j)
+    for (Eigen::Index k = 0; k < a.cols(); ++k) c.col(j) += b(k, j) * a.col(k);
+  return c;
+}
+
+GONIO_INLINE Eigen::MatrixXd thin_transposed_product(const matrix_view& a, const matrix_view& b) {
+  Eigen::MatrixXd c(a.cols(), b.cols());
+  for (Eigen::Index j = 0; j < b.cols(); ++j)
+    for (Eigen::Index i = 0; i < a.cols(); ++i) c(i, j) = a.col(i).dot(b.col(j));
+  return c;
+}
+
+}  // namespace gonio

@@ -1,0 +1,15 @@
+#pragma once
+/// Products of matrices in double precision, compiled once (see dense.hpp).
+
+#include <gonio/solve/matrix_view.hpp>
+
+namespace gonio {
+
+/// A B for m x k and k x n: 2 m n k operations. `product(a.transpose(), b)` is A' B.
+[[nodiscard]] Eigen::MatrixXd product(const matrix_view& a, const matrix_view& b);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/product.ipp>
+#endif
