@@ -1,6 +1,7 @@
 #include "random_problems.hpp"
 #include <gonio/solve/choose_eta.hpp>
 
+#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
