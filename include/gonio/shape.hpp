@@ -3,6 +3,9 @@
 /// of the library does not.
 
 #include <gonio/io/mesh.hpp>
+#include <gonio/io/mesh_parts.hpp>
+#include <gonio/io/obj.hpp>
+#include <gonio/io/ply.hpp>
 #include <gonio/io/shape_model.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/assignment.hpp>

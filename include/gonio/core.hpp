@@ -1,0 +1,14 @@
+#pragma once
+/// All of `core/`: directions, half and difference angles, colours, errors, loops over threads.
+
+#include <gonio/core/assertion.hpp>
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/pinhole_camera.hpp>
+#include <gonio/core/progress.hpp>
+#include <gonio/core/rgb.hpp>
+#include <gonio/core/sampled_direction.hpp>
+#include <gonio/core/spectrum.hpp>

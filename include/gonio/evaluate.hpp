@@ -1,0 +1,8 @@
+#pragma once
+/// All of `evaluate/`: how good an estimate is.
+
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/perceived_norm.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/sphere_judge.hpp>

@@ -1,0 +1,35 @@
+#pragma once
+/// All of `solve/`: least-squares problems and their solvers.
+
+#include <gonio/solve/active_set.hpp>
+#include <gonio/solve/any_solver.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/choose_eta.hpp>
+#include <gonio/solve/compensated.hpp>
+#include <gonio/solve/coordinate_descent.hpp>
+#include <gonio/solve/dense.hpp>
+#include <gonio/solve/dual_active_set.hpp>
+#include <gonio/solve/gram.hpp>
+#include <gonio/solve/growing_cholesky.hpp>
+#include <gonio/solve/iteration.hpp>
+#include <gonio/solve/kkt.hpp>
+#include <gonio/solve/lasso.hpp>
+#include <gonio/solve/least_squares.hpp>
+#include <gonio/solve/least_squares_problem.hpp>
+#include <gonio/solve/levenberg_marquardt.hpp>
+#include <gonio/solve/linear_constraints.hpp>
+#include <gonio/solve/matrix_view.hpp>
+#include <gonio/solve/nnls.hpp>
+#include <gonio/solve/nnls_block_pivoting.hpp>
+#include <gonio/solve/nnls_coordinate_descent.hpp>
+#include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/row_source.hpp>
+#include <gonio/solve/scaled_program.hpp>
+#include <gonio/solve/solver.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
+#include <gonio/solve/thin_product.hpp>
+#include <gonio/solve/tikhonov.hpp>
+#include <gonio/solve/truncated_svd.hpp>
+#include <gonio/solve/working_set.hpp>
