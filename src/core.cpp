@@ -1,5 +1,15 @@
-// The bodies of core/.
+// The bodies of core/, and what alignment the library is compiled for.
 
+#include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/impl/error.ipp>
 #include <gonio/core/impl/parallel.ipp>
 #include <gonio/core/impl/pinhole_camera.ipp>
+
+namespace gonio::detail {
+
+template <int Static, int Dynamic>
+void library_is_compiled_for_alignment() {}
+
+template void library_is_compiled_for_alignment<EIGEN_MAX_STATIC_ALIGN_BYTES, EIGEN_MAX_ALIGN_BYTES>();
+
+}  // namespace gonio::detail

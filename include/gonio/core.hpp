@@ -4,6 +4,7 @@
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>

@@ -7,6 +7,8 @@
 /// counted from the plane of normal and h. Swapping wi and wo adds pi to phi_d, so Helmholtz reciprocity
 /// lets phi_d be folded into [0, pi).
 
+#include <gonio/core/compiled_alignment.hpp>
+
 #include <Eigen/Core>
 
 #include <cmath>

@@ -2,6 +2,8 @@
 /// Colours, linear in Rec. 709 primaries, and what is derived from them: luminance, CIE XYZ, CIELAB 1976,
 /// and the sRGB transfer curve (IEC 61966-2-1). White is D65.
 
+#include <gonio/core/compiled_alignment.hpp>
+
 #include <Eigen/Core>
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #pragma once
 /// How matrices are handed to functions that are compiled once.
 
+#include <gonio/core/compiled_alignment.hpp>
+
 #include <Eigen/Core>
 
 namespace gonio {

@@ -2,6 +2,7 @@
 /// The matrix of a least-squares problem, read a block of rows at a time wherever it lives: in an array, in the table
 /// of a basis, between its cells. A million rows by 99 need no second copy.
 
+#include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/parallel.hpp>
 
 #include <Eigen/Core>
