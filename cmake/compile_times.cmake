@@ -1,23 +1,98 @@
-# cmake [-D COMPILER=g++] [-D HEADERS=gonio/render.hpp] -P cmake/compile_times.cmake: the milliseconds that each public
-# header, or each of some, costs a file that includes nothing else, optimised, beside Eigen's Core.
-cmake_minimum_required(VERSION 3.25)
-cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
-if(NOT COMPILER)
-  set(COMPILER g++)
-endif()
+# cmake [-D GUARD=ON] [-D OUTPUT=docs/results/compile-cost.md] -P cmake/compile_times.cmake: what README's program and each
+# header that has all of a module cost a compiler, in CPU seconds and megabytes, beside a plain Eigen program with one
+# product and one Cholesky decomposition, which is compiled again before each. GUARD: README's program and gonio.hpp
+# alone, which fail where they are 30 % above their goals.
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} time)
+find_program(time time REQUIRED NO_CACHE)
 set(scratch "${source}/build/compile_times")
 file(MAKE_DIRECTORY "${scratch}")
-if(HEADERS)
-  set(headers ${HEADERS})
-else()
-  file(GLOB_RECURSE headers RELATIVE "${source}/include" "${source}/include/gonio/*.hpp")
+file(WRITE "${scratch}/plain.cpp" [[
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <fstream>
+#include <string>
+#include <vector>
+int main(int count, char**) {
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(count, count), gram = a * a.transpose();
+  const Eigen::MatrixXd x = gram.llt().solve(a);
+  return static_cast<int>(x(0, 0));
+}
+]])
+
+# compile(FILE OPTION...): sets `hundredths` of a second and `megabytes`.
+function(compile file)
+  execute_process(COMMAND "${time}" -f "%U %M" g++ -std=c++20 "-I${source}/include" -isystem /usr/include/eigen3
+                          ${ARGN} -c "${file}" -o "${scratch}/object.o"
+                  ERROR_VARIABLE used COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "([0-9]+)[.]([0-9][0-9]) ([0-9]+)\n$" line "${used}")
+  math(EXPR megabytes "${CMAKE_MATCH_3} / 1024")
+  math(EXPR hundredths "100 * ${CMAKE_MATCH_1} + 1${CMAKE_MATCH_2} - 100") # 1 in front: no octal number
+  set(hundredths ${hundredths} PARENT_SCOPE)
+  set(megabytes ${megabytes} PARENT_SCOPE)
+endfunction()
+
+# with_point(RESULT HUNDREDTHS): a number with two digits behind the point.
+function(with_point result hundredths)
+  math(EXPR whole "${hundredths} / 100")
+  math(EXPR rest "${hundredths} % 100 + 100")
+  string(SUBSTRING "${rest}" 1 2 rest)
+  set(${result} "${whole}.${rest}" PARENT_SCOPE)
+endfunction()
+
+# row(NAME GOAL MEGABYTES FILE OPTION...): a line of the table. The goal is a ratio in hundredths.
+function(row name goal goal_megabytes file)
+  compile("${scratch}/plain.cpp" -O2)
+  set(plain ${hundredths})
+  compile("${file}" ${ARGN})
+  math(EXPR ratio "100 * ${hundredths} / ${plain}")
+  with_point(seconds ${hundredths})
+  with_point(times ${ratio})
+  with_point(goal_times ${goal})
+  set(line "| ${name} | ${seconds} | ${times} | ${goal_times} | ${megabytes} | ${goal_megabytes} |")
+  message("${line}")
+  set_property(GLOBAL APPEND_STRING PROPERTY table "${line}\n")
+  math(EXPR most "130 * ${goal} / 100")
+  math(EXPR most_megabytes "130 * ${goal_megabytes} / 100")
+  if(GUARD AND (ratio GREATER most OR megabytes GREATER most_megabytes))
+    message(FATAL_ERROR "${name} costs its compiler 30 % more than it may")
+  endif()
+endfunction()
+
+function(header_row name goal goal_megabytes header)
+  file(WRITE "${scratch}/header.cpp" "#include <${header}>\n")
+  row("${name}" ${goal} ${goal_megabytes} "${scratch}/header.cpp" -O0)
+endfunction()
+
+set(heading "| what | CPU s | times the plain program | goal | MB | goal |\n|---|---|---|---|---|---|")
+message("${heading}")
+set(first "${source}/examples/teaching/first_program.cpp")
+row("README's program, header-only, -O2" 250 600 "${first}" -O2)
+row("README's program, gonio::compiled, -O2" 150 600 "${first}" -O2 -DGONIO_COMPILED)
+header_row("`gonio/gonio.hpp`, -O0" 400 900 gonio/gonio.hpp)
+if(GUARD)
+  return()
 endif()
-foreach(header IN ITEMS Eigen/Core xtensor/xtensor.hpp LISTS headers)
-  file(WRITE "${scratch}/one.cpp" "#include <${header}>\n")
-  string(TIMESTAMP start "%s%f")
-  execute_process(COMMAND "${COMPILER}" -std=c++20 -O2 "-I${source}/include" -isystem /usr/include/eigen3
-                          -c "${scratch}/one.cpp" -o "${scratch}/one.o" COMMAND_ERROR_IS_FATAL ANY)
-  string(TIMESTAMP end "%s%f")
-  math(EXPR milliseconds "(${end} - ${start}) / 1000")
-  message("${milliseconds} ms  ${header}")
+foreach(module IN ITEMS core solve table metric basis estimate design model capture evaluate io render shape)
+  header_row("`gonio/${module}.hpp`, -O0" 600 900 gonio/${module}.hpp)
 endforeach()
+row("the teaching path tracer, header-only, -O2" 400 900 "${source}/examples/teaching/path_tracer.cpp"
+    -O2 "-I${source}/examples")
+row("a metric, a basis and a solver of the reader's own, header-only, -O2" 400 900
+    "${source}/tests/header_only/own_parts.cpp" -O2)
+
+if(OUTPUT)
+  compile("${scratch}/plain.cpp" -O2)
+  with_point(seconds ${hundredths})
+  get_property(table GLOBAL PROPERTY table)
+  execute_process(COMMAND g++ -dumpfullversion OUTPUT_VARIABLE version OUTPUT_STRIP_TRAILING_WHITESPACE)
+  string(TIMESTAMP today "%Y-%m-%d")
+  file(WRITE "${source}/${OUTPUT}" "# What the headers cost a compiler
+
+Written by `cmake -D OUTPUT=${OUTPUT} -P cmake/compile_times.cmake`, ${today}, g++ ${version}. User CPU seconds and the largest
+memory of one compiler. The plain program has one product and one Cholesky decomposition of Eigen matrices, at -O2: ${seconds} s and
+${megabytes} MB here; it was compiled again before each line.
+
+${heading}
+${table}")
+endif()

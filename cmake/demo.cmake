@@ -1,18 +1,14 @@
 # cmake -P cmake/demo.cmake: builds the gonio tool, then measures a known material at 20 directions,
 # reconstructs it, and judges and shows the result.
-cmake_minimum_required(VERSION 3.25)
-include("${CMAKE_CURRENT_LIST_DIR}/setup.cmake")
-cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 set(results "${source}/build/demo-results")
 
-gonio_set_up(g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev
-             nlohmann-json3-dev libdlib-dev libnanoflann-dev)
+gonio_set_up(${gonio_library_packages} ${gonio_shape_packages})
 
 message("-- Building the gonio tool")
-cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 execute_process(COMMAND "${CMAKE_COMMAND}" -S "${source}" -B "${source}/build/demo" -G Ninja
-                        -D CMAKE_BUILD_TYPE=Release -D GONIO_NATIVE=ON
-                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF
+                        -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O2 -DNDEBUG" -D GONIO_NATIVE=ON
+                        -D GONIO_BUILD_TESTS=OFF -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=OFF
                 OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${source}/build/demo" --target gonio_tool
                         --parallel ${cores}

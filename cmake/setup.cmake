@@ -1,10 +1,18 @@
 # gonio_set_up(PACKAGE...) makes sure that what these Debian packages bring is there. It looks for a
 # file of each, not for the package, so that any other source of the same thing is as good.
 
+# Debian's packages of what a build needs, and of what only shapes do: dlib's CMake configuration names BLAS and LAPACK,
+# which its package does not depend on.
+set(gonio_library_packages
+  g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev nlohmann-json3-dev)
+set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
+set(gonio_test_packages doctest-dev librapidcheck-dev)
+
 # package, kind and name of the file that stands for it
 set(gonio_packages
   "g++                 program g++"
   "ninja-build         program ninja"
+  "time                program time"
   "clang-19            program clang++-19"
   "clang-format-14     program clang-format-14"
   "libclang-rt-19-dev  header  sanitizer/asan_interface.h"
@@ -15,6 +23,8 @@ set(gonio_packages
   "libcli11-dev        header  CLI/CLI.hpp"
   "nlohmann-json3-dev  header  nlohmann/json.hpp"
   "libdlib-dev         header  dlib/optimization/max_cost_assignment.h"
+  "libblas-dev         library blas"
+  "liblapack-dev       library lapack"
   "libnanoflann-dev    header  nanoflann.hpp"
   "doctest-dev         header  doctest/doctest.h"
   "librapidcheck-dev   header  rapidcheck.h"
@@ -31,6 +41,8 @@ function(gonio_find_missing result)
     endif()
     if(kind STREQUAL "program")
       find_program(found NAMES ${name} NO_CACHE)
+    elseif(kind STREQUAL "library")
+      find_library(found NAMES ${name} NO_CACHE PATHS /usr/lib/x86_64-linux-gnu /usr/lib/aarch64-linux-gnu)
     else()
       find_path(found NAMES ${name} NO_CACHE
                 PATHS /usr/include /usr/local/include /usr/lib/llvm-19/lib/clang/19/include)

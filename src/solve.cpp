@@ -1,13 +1,11 @@
-// The bodies of solve/.
+// The bodies of solve/, but for those in solve_dense.cpp and solve_orthogonal.cpp.
 
-#include <gonio/solve/impl/cholesky.ipp>
 #include <gonio/solve/impl/choose_eta.ipp>
 #include <gonio/solve/impl/dual_active_set.ipp>
 #include <gonio/solve/impl/gram.ipp>
 #include <gonio/solve/impl/growing_cholesky.ipp>
 #include <gonio/solve/impl/kkt.ipp>
 #include <gonio/solve/impl/lasso.ipp>
-#include <gonio/solve/impl/least_squares.ipp>
 #include <gonio/solve/impl/least_squares_problem.ipp>
 #include <gonio/solve/impl/levenberg_marquardt.ipp>
 #include <gonio/solve/impl/linear_constraints.ipp>
@@ -15,15 +13,11 @@
 #include <gonio/solve/impl/nnls_block_pivoting.ipp>
 #include <gonio/solve/impl/nnls_coordinate_descent.ipp>
 #include <gonio/solve/impl/normal_equations.ipp>
-#include <gonio/solve/impl/product.ipp>
 #include <gonio/solve/impl/quadratic_program.ipp>
 #include <gonio/solve/impl/row_source.ipp>
 #include <gonio/solve/impl/scaled_program.ipp>
 #include <gonio/solve/impl/solver.ipp>
-#include <gonio/solve/impl/symmetric_eigen.ipp>
-#include <gonio/solve/impl/thin_product.ipp>
 #include <gonio/solve/impl/tikhonov.ipp>
-#include <gonio/solve/impl/truncated_svd.ipp>
 #include <gonio/solve/impl/working_set.ipp>
 
 namespace gonio {

@@ -27,6 +27,7 @@
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/row_source.hpp>
 #include <gonio/solve/scaled_program.hpp>
+#include <gonio/solve/semidefinite.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 #include <gonio/solve/thin_product.hpp>

@@ -4,8 +4,9 @@
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/levenberg_marquardt.hpp>
+#include <gonio/solve/semidefinite.hpp>
+#include <gonio/solve/thin_product.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -27,9 +28,16 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
     if (!held) free.push_back(i);
   }
   while (!free.empty()) {
-    const Eigen::VectorXd slope = gradient + hessian * step;  // with the step of those that are held
-    const Eigen::MatrixXd among = hessian(free, free);
-    const Eigen::VectorXd moves = among.ldlt().solve(-slope(free));
+    const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of those that are held
+    const auto count = static_cast<Eigen::Index>(free.size());
+    Eigen::MatrixXd among(count, count);
+    Eigen::VectorXd descent(count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+      const Eigen::Index column = free[static_cast<std::size_t>(j)];
+      descent[j] = -(gradient[column] + change[column]);
+      for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[static_cast<std::size_t>(i)], column);
+    }
+    const Eigen::VectorXd moves = solve_semidefinite(among, descent);
     std::vector<Eigen::Index> inside;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const Eigen::Index i = free[j];
@@ -40,7 +48,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
         inside.push_back(i);
     }
     if (inside.size() == free.size()) {
-      step(free) = moves;
+      for (std::size_t j = 0; j < free.size(); ++j) step[free[j]] = moves[static_cast<Eigen::Index>(j)];
       break;
     }
     free = std::move(inside);

@@ -5,6 +5,7 @@
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>
 #include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/solver.hpp>
 
 #include <Eigen/Core>
@@ -115,7 +116,7 @@ GONIO_INLINE bool program_solver::falls_for_ever(const vector& movement, const v
     if (rate < -feasible || (i < program_.equalities && rate > feasible)) return false;
   }
   const double epsilon = 4.0 * static_cast<double>(q.size()) * std::numeric_limits<double>::epsilon();
-  const double curvature = std::max(0.0, way.dot(program_.G * way)), slope = q.dot(way);
+  const double curvature = std::max(0.0, way.dot(thin_product(program_.G, way).col(0))), slope = q.dot(way);
   if (curvature > epsilon * way.squaredNorm() || !(slope > 0.0)) return false;
   const double rounding = epsilon * way.cwiseAbs2().dot(program_.G.diagonal());
   const double reach = std::max(normal_.energy()[right_hand_side], q.cwiseAbs2().maxCoeff());

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/scaled_program.hpp>
+#include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/working_set.hpp>
 
 #include <Eigen/Core>
@@ -76,9 +77,9 @@ GONIO_INLINE void working_set::solve(vector& a, vector& c) const {
   factor_.solve(a);
   if (w == 0) return;
   for (Eigen::Index i = 0; i < w; ++i) c[i] = (c[i] - triangle_.col(i).head(i).dot(c.head(i))) / triangle_(i, i);
-  c -= basis_.leftCols(w).transpose() * a;
+  c -= thin_transposed_product(basis_.leftCols(w), a);
   schur_.solve(c);
-  a += solved_.leftCols(w) * c;
+  a += thin_product(solved_.leftCols(w), c);
   solve_triangle(c);
 }
 
@@ -89,7 +90,7 @@ GONIO_INLINE bool working_set::append_to_basis(Eigen::Index row, Eigen::Index at
   basis_.col(at) = rest / length;
   vector solved = basis_.col(at);
   factor_.solve(solved);
-  vector cross = basis_.leftCols(at).transpose() * solved;
+  vector cross = thin_transposed_product(basis_.leftCols(at), solved);
   if (!schur_.append(cross, basis_.col(at).dot(solved))) return false;
   solved_.col(at) = solved;
   triangle_.col(at).head(at) = coefficients;

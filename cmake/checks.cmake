@@ -1,0 +1,43 @@
+# cmake [-D ONLY=papers|sanitize|format|weight] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
+# or one part of it.
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+
+set(parts format weight papers sanitize)
+if(ONLY)
+  if(NOT ONLY IN_LIST parts)
+    message(FATAL_ERROR "ONLY is one of ${parts}")
+  endif()
+  set(parts ${ONLY})
+endif()
+gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages}
+             clang-19 libclang-rt-19-dev clang-format-14 time)
+
+if("format" IN_LIST parts)
+  set(sources)
+  foreach(folder IN ITEMS include src examples tests bench docs)
+    file(GLOB_RECURSE found "${source}/${folder}/*.hpp" "${source}/${folder}/*.ipp" "${source}/${folder}/*.cpp")
+    list(APPEND sources ${found})
+  endforeach()
+  step("clang-format" clang-format-14 --dry-run -Werror ${sources})
+endif()
+
+# Does README's program, or gonio.hpp, cost its compiler 30 % more than it may?
+if("weight" IN_LIST parts)
+  step("weight" ${cmake} -D GUARD=ON -P cmake/compile_times.cmake)
+endif()
+
+# The quick runs of the papers' experiments, in the build of cmake/test.cmake.
+if("papers" IN_LIST parts)
+  step("papers: configure" ${cmake} -S . -B build/test -G Ninja
+       -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON)
+  step("papers: build" ${cmake} --build build/test --target gonio_papers test_papers --parallel ${cores})
+  step("papers: test" ${ctest} --test-dir build/test --label-regex papers)
+endif()
+
+if("sanitize" IN_LIST parts)
+  set(dir build/sanitize)
+  step("clang, sanitized: configure" ${cmake} --preset sanitize -B ${dir} -D GONIO_TEST_HEADERS_ALONE=ON)
+  step("clang, sanitized: build" ${cmake} --build ${dir} --parallel ${cores})
+  step("clang, sanitized: test" ${ctest} --preset sanitize --test-dir ${dir})
+endif()

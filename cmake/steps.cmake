@@ -1,0 +1,20 @@
+# What the scripts of this folder share: steps whose seconds are printed, and how many cores there are.
+cmake_minimum_required(VERSION 3.25)
+include("${CMAKE_CURRENT_LIST_DIR}/setup.cmake")
+cmake_path(GET CMAKE_CURRENT_LIST_DIR PARENT_PATH source)
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+set(cmake "${CMAKE_COMMAND}")
+set(ctest "${CMAKE_CTEST_COMMAND}" --output-on-failure --no-tests=error --parallel ${cores})
+
+# step(NAME COMMAND...) runs a command, tells the seconds it took, and stops everything if it fails.
+function(step name)
+  message("\n== ${name}")
+  string(TIMESTAMP start "%s")
+  execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${source}" RESULT_VARIABLE failed)
+  string(TIMESTAMP end "%s")
+  math(EXPR seconds "${end} - ${start}")
+  if(failed)
+    message(FATAL_ERROR "${name} failed after ${seconds} s")
+  endif()
+  message("== ${name}: ${seconds} s")
+endfunction()
