@@ -1,6 +1,7 @@
 #include "design_search.hpp"
 
 #include <gonio/basis/misplacement.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/exhaustive_search.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// What `gonio design` and the experiments on directions search with.
 
+#include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/design/near_field_geometry.hpp>

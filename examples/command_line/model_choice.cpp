@@ -1,9 +1,9 @@
 #include "model_choice.hpp"
 
+#include "json.hpp"
+#include "measures_as_json.hpp"
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
-
-#include <map>
 
 namespace cli {
 
@@ -33,18 +33,19 @@ const gonio::lobe_kind& with_fresnel_factor(const gonio::lobe_kind& kind) {
       " with Fresnel's factor: it is for phong, blinn-phong and phong-blinn (microfacet models have it)");
 }
 
-void add_fit_options(CLI::App& command, gonio::model_fit_options& options) {
-  static const std::map<std::string, gonio::fit_norm> norms{
-      {"l1", gonio::fit_norm::l1}, {"l2", gonio::fit_norm::l2}, {"huber", gonio::fit_norm::huber}};
-  command
-      .add_option("--loss", options.norm, "How residuals add up: l1 (the base of highlights), l2 (their tops), huber")
-      ->transform(CLI::CheckedTransformer(norms, CLI::ignore_case).description("{l1,l2,huber}"))
-      ->default_str("l2");
-  command.add_flag("--cosine-weighted", options.cosine_weighted, "Compare reflectance times the cosine of the light");
-  command.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
-      ->check(CLI::Range(0, 10'000))
-      ->capture_default_str();
-  command.add_option("--seed", options.seed, "Seed of the random starts")->capture_default_str();
+void add_fit_options(command& to, gonio::model_fit_options& options) {
+  to.add_choice(
+        "--loss", [&options](int norm) { options.norm = static_cast<gonio::fit_norm>(norm); },
+        {{"l1", static_cast<int>(gonio::fit_norm::l1)},
+         {"l2", static_cast<int>(gonio::fit_norm::l2)},
+         {"huber", static_cast<int>(gonio::fit_norm::huber)}},
+        "How residuals add up: l1 (the base of highlights), l2 (their tops), huber")
+      .default_str("l2");
+  to.add_flag("--cosine-weighted", options.cosine_weighted, "Compare reflectance times the cosine of the light");
+  to.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
+      .check(check::range(0, 10'000))
+      .capture_default_str();
+  to.add_option("--seed", options.seed, "Seed of the random starts").capture_default_str();
 }
 
 gonio::model_fit fit_by_metric(const std::string& metric, const std::vector<const gonio::lobe_kind*>& kinds,

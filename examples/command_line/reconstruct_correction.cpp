@@ -1,10 +1,13 @@
 /// gonio reconstruct --method correction.
 
+#include "fixed.hpp"
+#include "materials.hpp"
 #include "progress_bar.hpp"
 #include "reconstruct_methods.hpp"
 #include "story.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/io/merl_gzip.hpp>
 
 #include <charconv>
 #include <cmath>

@@ -2,12 +2,18 @@
 
 #include "reconstruct_methods.hpp"
 
+#include "fixed.hpp"
+#include "materials.hpp"
+#include "measures_as_json.hpp"
 #include "progress_bar.hpp"
+#include "solver_choice.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <cmath>

@@ -1,7 +1,8 @@
 #pragma once
 /// The methods of `gonio reconstruct`, one function each, and what they have in common.
 
-#include "inputs.hpp"
+#include "json.hpp"
+#include "materials.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>

@@ -39,21 +39,20 @@ double number_of_eta(const std::string& text) {
   return value;
 }
 
-void add_solver_options(CLI::App& command, solver_choice& choice) {
-  command
-      .add_option("--solver", choice.name,
-                  "nnls: weights >= 0; qp: the same as a quadratic program; tikhonov: penalty on their squares; lasso: "
-                  "on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov for pca, "
-                  "nnls for linear)")
-      ->check(CLI::IsMember({"nnls", "qp", "tikhonov", "lasso", "tsvd", "ls"}));
-  command.add_option(
+void add_solver_options(command& to, solver_choice& choice) {
+  to.add_option("--solver", choice.name,
+                "nnls: weights >= 0; qp: the same as a quadratic program; tikhonov: penalty on their squares; lasso: "
+                "on their magnitudes; tsvd: truncated singular values; ls: least squares (default: tikhonov for pca, "
+                "nnls for linear)")
+      .check(check::one_of({"nnls", "qp", "tikhonov", "lasso", "tsvd", "ls"}));
+  to.add_option(
       "--eta", choice.eta,
       "Penalty of tikhonov: the larger, the nearer to the mean material; or gcv (generalised "
       "cross-validation) or loo (leave one out) to choose it (default: gcv, for pca among what the prior finds "
       "plausible for noise of up to 30 %)");
-  command.add_option("--lambda", choice.lambda, "Penalty of lasso, as a share of the one at which all weights vanish")
-      ->capture_default_str();
-  command.add_option("--variance", choice.variance, "Share of the variance that tsvd keeps")->capture_default_str();
+  to.add_option("--lambda", choice.lambda, "Penalty of lasso, as a share of the one at which all weights vanish")
+      .capture_default_str();
+  to.add_option("--variance", choice.variance, "Share of the variance that tsvd keeps").capture_default_str();
 }
 
 gonio::any_solver make_solver(solver_choice choice, const solver_choice& own) {

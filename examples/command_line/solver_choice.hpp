@@ -3,8 +3,6 @@
 
 #include <gonio/solve/any_solver.hpp>
 
-#include <CLI/CLI.hpp>
-
 #include <string>
 
 namespace cli {
@@ -17,7 +15,7 @@ struct solver_choice {
 };
 
 /// Adds `--solver`, `--eta`, `--lambda` and `--variance`.
-void add_solver_options(CLI::App& command, solver_choice& choice);
+void add_solver_options(command& command, solver_choice& choice);
 
 /// `--eta` as a number. Throws gonio::error unless it is one.
 [[nodiscard]] double number_of_eta(const std::string& text);

@@ -1,31 +1,24 @@
-/// gonio evaluate: the published experiments, and the prior on real measurements.
+/// `gonio-papers`: the published experiments, and ours on real measurements.
 
-#include "evaluate.hpp"
+#include "papers/experiments.hpp"
 
-#include "command.hpp"
-#include "inputs.hpp"
-
-namespace cli {
-
-void add_evaluate(CLI::App& app) {
-  auto* command = app.add_subcommand("evaluate", "Run an experiment and print its table");
-  command->require_subcommand(1);
-  add_nielsen_test_materials(*command);
-  add_measured_materials(*command);
-  add_linear_combination(*command);
-  add_noell_tables(*command);
-  add_noell_measured(*command);
-  add_noell_corrections(*command);
-  add_directions(*command);
-  add_directions_measured(*command);
-  add_figures(*command);
-  add_soft_specular(*command);
-  add_eta(*command);
-  add_models(*command);
-  add_model_properties(*command);
-  add_model_recovery(*command);
-  add_laboratory(*command);
-  add_importance_sampling(*command);
+int main(int argc, char** argv) {
+  cli::program app("gonio-papers", "Run an experiment and print its table", GONIO_VERSION);
+  papers::add_nielsen_test_materials(app);
+  papers::add_measured_materials(app);
+  papers::add_linear_combination(app);
+  papers::add_noell_tables(app);
+  papers::add_noell_measured(app);
+  papers::add_noell_corrections(app);
+  papers::add_directions(app);
+  papers::add_directions_measured(app);
+  papers::add_figures(app);
+  papers::add_soft_specular(app);
+  papers::add_eta(app);
+  papers::add_models(app);
+  papers::add_model_properties(app);
+  papers::add_model_recovery(app);
+  papers::add_laboratory(app);
+  papers::add_importance_sampling(app);
+  return app.run(argc, argv);
 }
-
-}  // namespace cli

@@ -1,12 +1,12 @@
 #pragma once
 /// Results of a long experiment that survive its end.
 
-#include "inputs.hpp"
+#include "command_line/json.hpp"
 
 #include <fstream>
 #include <map>
 
-namespace cli {
+namespace papers {
 
 /// Results that earlier runs left in a file, one JSON object a line; new ones are appended as they come. Without a file
 /// they are only remembered.
@@ -45,4 +45,4 @@ class resumable_results {
   std::ofstream file_;
 };
 
-}  // namespace cli
+}  // namespace papers

@@ -1,12 +1,24 @@
-/// gonio evaluate laboratory: measured tables put into the simulated laboratory, scanned, calibrated, reconstructed,
+/// gonio-papers laboratory: measured tables put into the simulated laboratory, scanned, calibrated, reconstructed,
 /// and compared with what was in the machine.
 
-#include "../lab/measure.hpp"
-#include "evaluate.hpp"
-#include "lab.hpp"
-#include "progress_bar.hpp"
-#include "reconstruct_methods.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/machine_choice.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/reconstruct_methods.hpp"
+#include "command_line/threads_option.hpp"
+#include "lab/measure.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <array>
@@ -14,7 +26,7 @@
 #include <memory>
 #include <random>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -112,7 +124,7 @@ json errors_of(const laboratory_options& options, const laboratory& where, const
   reconstruct_options how;
   how.materials.prior = options.prior;
   how.threads = options.threads;
-  std::vector<gonio::material_result> results;
+  std::vector<material_result> results;
   sample_errors of_samples;
   for (std::size_t r = 0; r < repetitions; ++r) {
     gonio::sample_set samples;
@@ -138,12 +150,11 @@ void print(const json& result) {
                "mapped rms | Delta E env | Delta E lights | peak ratio "
                "|\n|---|---|---|---|---|---|---|---|---|\n";
   for (const json& line : result)
-    std::cout << "| " << line["material"].get<std::string>() << " | " << line["errors"]["samples"] << " by "
-              << line["method"].get<std::string>() << " | " << line["wrong"].get<std::string>() << " | "
-              << fixed(100.0 * line["errors"]["sample_error_median"].get<double>(), 3) << ", "
-              << fixed(100.0 * line["errors"]["sample_error_worst"].get<double>(), 3) << " | "
-              << (line["errors"].contains("within_95") ? fixed(100.0 * line["errors"]["within_95"].get<double>(), 0)
-                                                       : "")
+    std::cout << "| " << line["material"].text() << " | " << line["errors"]["samples"] << " by "
+              << line["method"].text() << " | " << line["wrong"].text() << " | "
+              << fixed(100.0 * line["errors"]["sample_error_median"].number(), 3) << ", "
+              << fixed(100.0 * line["errors"]["sample_error_worst"].number(), 3) << " | "
+              << (line["errors"].contains("within_95") ? fixed(100.0 * line["errors"]["within_95"].number(), 0) : "")
               << " | " << fixed(line["errors"]["mapped_rms"], 3) << " | " << fixed(line["errors"]["delta_e_env"], 2)
               << " | " << fixed(line["errors"]["delta_e_lights"], 2) << " | " << fixed(line["errors"]["peak_ratio"], 2)
               << " |\n";
@@ -182,26 +193,26 @@ void run(const laboratory_options& options) {
 
 }  // namespace
 
-void add_laboratory(CLI::App& evaluate) {
-  auto* command =
-      evaluate.add_subcommand("laboratory", "Tables scanned, calibrated and reconstructed in a simulated laboratory");
+void add_laboratory(command& app) {
+  auto command =
+      app.add_subcommand("laboratory", "Tables scanned, calibrated and reconstructed in a simulated laboratory");
   const auto options = std::make_shared<laboratory_options>();
-  command->add_option("tables", options->tables, "Tables to put into the machine (.binary or .binary.gz)")->required();
-  command->add_option("--directions", options->directions, "A few directions, for pca (.csv)")->required();
-  command->add_option("--many", options->many, "Number of random directions for correction; 0: not at all")
-      ->capture_default_str();
-  add_prior_option(*command, options->prior);
-  add_machine_options(*command, options->machine);
-  command->add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--repetitions", options->repetitions, "Laboratories of which pca's errors are the mean")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the first laboratory")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run(*options); });
+  command.add_option("tables", options->tables, "Tables to put into the machine (.binary or .binary.gz)").required();
+  command.add_option("--directions", options->directions, "A few directions, for pca (.csv)").required();
+  command.add_option("--many", options->many, "Number of random directions for correction; 0: not at all")
+      .capture_default_str();
+  add_prior_option(command, options->prior);
+  add_machine_options(command, options->machine);
+  command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Laboratories of which pca's errors are the mean")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the first laboratory").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

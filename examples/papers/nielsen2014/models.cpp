@@ -1,22 +1,29 @@
-/// gonio evaluate models: Nielsen, Frisvad, Conradsen and Aanaes 2014, "Addressing Grazing Angle Reflections in Phong
+/// gonio-papers models: Nielsen, Frisvad, Conradsen and Aanaes 2014, "Addressing Grazing Angle Reflections in Phong
 /// Models", on surrogates of the materials that they fit.
 
-#include "evaluate.hpp"
-#include "model_choice.hpp"
-#include "progress_bar.hpp"
-#include "resumable_results.hpp"
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/model_choice.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/resumable_results.hpp"
 #include <gonio/evaluate/appearance.hpp>
+#include <gonio/io/networks.hpp>
 
 #include <iostream>
 #include <map>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
-// Not unnamed: the tool is compiled as one unit.
-namespace models {
+namespace {
 
-struct options {
+struct models_options {
   std::filesystem::path networks, state;
   std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
       only;
@@ -28,7 +35,7 @@ struct options {
 /// Every third theta_d and fifth phi_d: a lobe is smooth there, and the fit takes a fifteenth of the time.
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
 
-json fit_one(const options& given, const std::string& model, const std::string& loss,
+json fit_one(const models_options& given, const std::string& model, const std::string& loss,
              std::span<const gonio::fit_observation> observations, const gonio::brdf_table& truth,
              const gonio::appearance_judge& judge) {
   const gonio::model_fit fit =
@@ -41,7 +48,7 @@ json fit_one(const options& given, const std::string& model, const std::string& 
 }
 
 /// Everything that was fitted, in the order of the materials.
-json fit_all(const options& given, progress_bar& bar) {
+json fit_all(const models_options& given, progress_bar& bar) {
   const auto all = gonio::io::read_networks(given.networks);
   const auto networks = given.only.empty() ? all : networks_in(all, given.only);
   const gonio::valid_cells cells = cells_of_fit();
@@ -72,7 +79,7 @@ std::vector<json> of(const json& rows, const std::string& key, const std::string
   return some;
 }
 
-void print_means(const options& given, const json& rows) {
+void print_means(const models_options& given, const json& rows) {
   std::cout
       << "| model | loss | fits | converged | evaluations, mean | Delta E lights: mean | median | worst | Delta E "
          "env: mean | median | worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
@@ -85,7 +92,7 @@ void print_means(const options& given, const json& rows) {
         lights.push_back(fit["delta_e_lights"]);
         environment.push_back(fit["delta_e_env"]);
         evaluations.push_back(fit["evaluations"]);
-        if (fit["converged"].get<bool>()) ++converged;
+        if (fit["converged"].truth()) ++converged;
       }
       const distribution l(lights), e(environment);
       std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
@@ -97,7 +104,7 @@ void print_means(const options& given, const json& rows) {
 }
 
 /// alpha of the variant, and what is seen of each model, by material.
-void print_materials(const options& given, const json& rows) {
+void print_materials(const models_options& given, const json& rows) {
   std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
   for (const std::string& model : given.models) std::cout << ' ' << model << " |";
   std::cout << "\n|---|---|---|---|";
@@ -110,15 +117,15 @@ void print_materials(const options& given, const json& rows) {
     for (const char* variant : {"phong-blinn", "phong-blinn-fresnel"}) {
       std::cout << " | ";
       if (fits.contains(variant))
-        std::cout << fixed(fits.at(variant)["lobes"].back()["parameters"]["alpha"].get<double>(), 2);
+        std::cout << fixed(fits.at(variant)["lobes"].back()["parameters"]["alpha"].number(), 2);
     }
     for (const std::string& model : given.models)
-      std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].get<double>(), 2);
+      std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].number(), 2);
     std::cout << " |\n";
   }
 }
 
-void run(const options& given) {
+void run(const models_options& given) {
   progress_bar bar;
   const json rows = fit_all(given, bar);
   bar.wipe();
@@ -130,25 +137,23 @@ void run(const options& given) {
   print_materials(given, rows);
 }
 
-}  // namespace models
+}  // namespace
 
-void add_models(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_models(command& app) {
+  auto command = app.add_subcommand(
       "models", "Analytic models fitted to 100 materials: which are like Phong, which like Blinn-Phong (Nielsen 2014)");
-  const auto options = std::make_shared<models::options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("--models", options->models, "As `gonio fit --model` has them")->capture_default_str();
-  command->add_option("--losses", options->losses, "l1 and l2")
-      ->check(CLI::IsMember({"l1", "l2"}))
-      ->capture_default_str();
-  command->add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
-      ->check(CLI::IsMember({"lin", "log", "cubic"}))
-      ->capture_default_str();
-  command->add_option("--materials", options->only, "Only these materials");
-  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
-  command->add_flag("--json", options->print_json, "Print every fit as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { models::run(*options); });
+  const auto options = std::make_shared<models_options>();
+  add_networks_option(command, options->networks);
+  command.add_option("--models", options->models, "As `gonio fit --model` has them").capture_default_str();
+  command.add_option("--losses", options->losses, "l1 and l2").check(check::one_of({"l1", "l2"})).capture_default_str();
+  command.add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
+      .check(check::one_of({"lin", "log", "cubic"}))
+      .capture_default_str();
+  command.add_option("--materials", options->only, "Only these materials");
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_flag("--json", options->print_json, "Print every fit as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,6 +1,8 @@
 /// Nielsen et al. 2015, Fig. 8 and 9, and Xu et al. 2016, Fig. 19: points and spheres.
 
-#include "figures.hpp"
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/xu2016/figures.hpp"
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/image_candidates.hpp>
@@ -12,7 +14,7 @@
 
 #include <algorithm>
 
-namespace cli::figures {
+namespace papers::figures {
 
 namespace {
 
@@ -216,19 +218,18 @@ tables xu_19(const options& given, const gonio::progress& listener) {
       "The fewest points by condition number that reach the error of points by expected error (printed: 20 for 5)",
       {{"by expected error", 0}, {"error"}, {"by condition number", 0}}};
   for (const auto& row : points.rows) {
-    const auto reached = std::ranges::find_if(points.rows, [&](const auto& other) {
-      return other[2].template get<double>() <= row[3].template get<double>();
-    });
+    const auto reached =
+        std::ranges::find_if(points.rows, [&](const auto& other) { return other[2].number() <= row[3].number(); });
     saved.rows.push_back({row[0], row[3], reached == points.rows.end() ? json("not reached") : (*reached)[0]});
   }
   table steps{"Does the error fall with each further point?", {{"criterion"}, {"steps", 0}, {"of which it rises", 0}}};
   for (const std::size_t column : {std::size_t{2}, std::size_t{3}}) {
     std::size_t rises = 0;
     for (std::size_t i = 1; i < points.rows.size(); ++i)
-      if (points.rows[i][column].get<double>() > points.rows[i - 1][column].get<double>()) ++rises;
+      if (points.rows[i][column].number() > points.rows[i - 1][column].number()) ++rises;
     steps.rows.push_back({points.columns[column].title, points.rows.size() - 1, rises});
   }
   return {points, against_spheres(lab, given, listener), std::move(saved), std::move(steps), bounds(lab)};
 }
 
-}  // namespace cli::figures
+}  // namespace papers::figures

@@ -1,14 +1,15 @@
 /// Nielsen et al. 2015, Fig. 5: their search, and those of Xu et al. 2016 and ours, against random swaps in the same
 /// time.
 
-#include "figures.hpp"
+#include "papers/experiments.hpp"
+#include "papers/xu2016/figures.hpp"
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 
 #include <algorithm>
 #include <chrono>
 
-namespace cli::figures {
+namespace papers::figures {
 
 namespace {
 
@@ -143,4 +144,4 @@ tables nielsen_5(const options& given, const gonio::progress& listener) {
   return {race_by_condition(lab, given, listener), race_by_expected_error(lab, given, listener)};
 }
 
-}  // namespace cli::figures
+}  // namespace papers::figures

@@ -1,13 +1,22 @@
-/// gonio evaluate nielsen-test-materials: Nielsen et al. 2015, section 6, on surrogates of their materials.
+/// gonio-papers nielsen-test-materials: Nielsen et al. 2015, section 6, on surrogates of their materials.
 
-#include "evaluate.hpp"
-#include "nielsen_split.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/few_samples.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/io/prior.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -53,15 +62,14 @@ void run(const nielsen_options& options) {
   for (const std::size_t n : gonio::nielsen_direction_counts) {
     const auto directions = gonio::nielsen_directions(n);
     const auto reconstruct = [&](const gonio::log_relative_pca& from) {
-      return gonio::reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), judge,
-                                                options.threads);
+      return reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), judge, options.threads);
     };
     gonio::report(listener, "reconstructing from " + std::to_string(n), 0.0);
     const auto full = reconstruct(prior), thin = reconstruct(shipped);
     result["directions"][std::to_string(n)] = {
         {"full", mean_errors(full)}, {"shipped_form", mean_errors(thin)}, {"materials", errors_by_name(full)}};
   }
-  const auto bound = gonio::project_on(prior, truths, judge, options.threads);
+  const auto bound = project_on(prior, truths, judge, options.threads);
   result["projection"] = {{"full", mean_errors(bound)}, {"materials", errors_by_name(bound)}};
   bar.wipe();
 
@@ -86,16 +94,16 @@ void run(const nielsen_options& options) {
 
 }  // namespace
 
-void add_nielsen_test_materials(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
-      "nielsen-test-materials",
-      "Nielsen et al. 2015: ten materials from 1 to 20 published directions, 90 others learned");
+void add_nielsen_test_materials(command& app) {
+  auto command =
+      app.add_subcommand("nielsen-test-materials",
+                         "Nielsen et al. 2015: ten materials from 1 to 20 published directions, 90 others learned");
   const auto options = std::make_shared<nielsen_options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run(*options); });
+  add_networks_option(command, options->networks);
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

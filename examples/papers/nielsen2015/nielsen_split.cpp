@@ -1,10 +1,16 @@
-#include "nielsen_split.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
 
+#include "command_line/chosen_networks.hpp"
+#include "command_line/prior_option.hpp"
+#include "papers/networks_option.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <utility>
 
-namespace cli {
+namespace papers {
 
 gonio::log_relative_pca learn_all_components(const gonio::named_networks& networks, const gonio::valid_cells& cells,
                                              gonio::thread_count threads, const gonio::progress& listener) {
@@ -43,4 +49,4 @@ std::optional<std::vector<gonio::half_difference>> written_points(const std::fil
   return directions;
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,17 +1,20 @@
 #pragma once
 /// The experiment of Nielsen et al. 2015, section 6, that most tables are of: 90 materials learned, ten others tested.
 
-#include "evaluate.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/networks_option.hpp"
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/evaluate/material_result.hpp>
+#include <gonio/io/networks.hpp>
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace cli {
+namespace papers {
 
 /// All principal components of some networks' materials, relative to their median.
 [[nodiscard]] gonio::log_relative_pca learn_all_components(const gonio::named_networks& networks,
@@ -35,9 +38,9 @@ struct nielsen_split {
 [[nodiscard]] std::string points_file(const std::string& set, std::size_t count);
 
 /// A set of points that is written down: `published`, or one of a folder, named after its number and criterion as
-/// `gonio evaluate directions --write` does. Nothing where there is none of that many.
+/// `gonio-papers directions --write` does. Nothing where there is none of that many.
 [[nodiscard]] std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
                                                                                 const std::string& set,
                                                                                 std::size_t count);
 
-}  // namespace cli
+}  // namespace papers

@@ -1,18 +1,34 @@
-/// gonio evaluate soft-specular: Nielsen et al. 2015, section 8: one prior against one for soft and one for specular
+/// gonio-papers soft-specular: Nielsen et al. 2015, section 8: one prior against one for soft and one for specular
 /// materials.
 
-#include "evaluate.hpp"
-#include "progress_bar.hpp"
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/few_samples.hpp"
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <functional>
 #include <iostream>
 #include <memory>
 #include <optional>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -38,7 +54,7 @@ struct rivals {
 /// What a row of the table is about: the reconstruction taken of each material.
 struct chosen_results {
   std::string label;
-  std::vector<gonio::material_result> results;
+  std::vector<material_result> results;
 };
 
 /// The materials whose errors the paper shows (Figure 2): soft, and not captured by the one prior.
@@ -73,17 +89,17 @@ rivals learn_rivals(const soft_specular_options& options, gonio::material_set tr
 
 /// For each material the one of two results that `takes_second(m)` says.
 template <class Choice>
-std::vector<gonio::material_result> choose(const std::vector<gonio::material_result>& first,
-                                           const std::vector<gonio::material_result>& second, Choice&& takes_second) {
-  std::vector<gonio::material_result> chosen = first;
+std::vector<material_result> choose(const std::vector<material_result>& first,
+                                    const std::vector<material_result>& second, Choice&& takes_second) {
+  std::vector<material_result> chosen = first;
   for (std::size_t m = 0; m < chosen.size(); ++m)
     if (takes_second(m)) chosen[m] = second[m];
   return chosen;
 }
 
-std::vector<gonio::material_result> better(const std::vector<gonio::material_result>& first,
-                                           const std::vector<gonio::material_result>& second,
-                                           const std::function<double(const gonio::comparison&)>& measure) {
+std::vector<material_result> better(const std::vector<material_result>& first,
+                                    const std::vector<material_result>& second,
+                                    const std::function<double(const gonio::comparison&)>& measure) {
   return choose(first, second, [&](std::size_t m) { return measure(second[m].errors) < measure(first[m].errors); });
 }
 
@@ -96,7 +112,7 @@ std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio
                                                  gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::nielsen_directions(count));
   const auto reconstruct = [&](const ridge& estimator) {
-    return gonio::reconstruct_from_cells(estimator, cells, truths, from.metric, judge, threads);
+    return reconstruct_from_cells(estimator, cells, truths, from.metric, judge, threads);
   };
   const auto all = reconstruct(from.all), soft = reconstruct(from.switching.soft()),
              specular = reconstruct(from.switching.specular());
@@ -119,7 +135,7 @@ void print_row(std::size_t count, const chosen_results& row) {
   const json means = mean_errors(row.results);
   std::cout << "| " << count << " | " << row.label << " | " << fixed(means["mapped_rms"], 3) << " | "
             << fixed(means["delta_e_env"], 2) << " | " << fixed(means["delta_e_lights"], 2);
-  const auto example = std::ranges::find(row.results, papers_example, &gonio::material_result::name);
+  const auto example = std::ranges::find(row.results, papers_example, &material_result::name);
   std::cout << " | " << fixed(mapped_rms(example->errors), 3) << " | " << fixed(delta_e_env(example->errors), 2)
             << " | " << fixed(example->errors.delta_e_lights, 2) << " |\n";
 }
@@ -164,23 +180,23 @@ void run(const soft_specular_options& options) {
 
 }  // namespace
 
-void add_soft_specular(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_soft_specular(command& app) {
+  auto command = app.add_subcommand(
       "soft-specular",
       "One prior against a soft and a specular one on ten materials, 90 others learned (Nielsen 2015)");
   const auto options = std::make_shared<soft_specular_options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("-n,--counts", options->counts, "Numbers of the published directions: 1, 2, 5, 10, 20")
-      ->check(CLI::IsMember({1, 2, 5, 10, 20}))
-      ->capture_default_str();
-  command->add_option("--eta", options->eta, "Tikhonov's penalty of the one prior")->capture_default_str();
-  command->add_option("--eta-of-halves", options->eta_of_halves,
-                      "That of the soft and the specular one (default: in proportion to their materials)");
-  command->add_option("--threshold", options->threshold,
-                      "Contrast from which on a material is specular (default: the median of the 90)");
-  command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run(*options); });
+  add_networks_option(command, options->networks);
+  command.add_option("-n,--counts", options->counts, "Numbers of the published directions: 1, 2, 5, 10, 20")
+      .check(check::one_of({1, 2, 5, 10, 20}))
+      .capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty of the one prior").capture_default_str();
+  command.add_option("--eta-of-halves", options->eta_of_halves,
+                     "That of the soft and the specular one (default: in proportion to their materials)");
+  command.add_option("--threshold", options->threshold,
+                     "Contrast from which on a material is specular (default: the median of the 90)");
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,8 +1,18 @@
-/// gonio evaluate linear-combination: Noell et al. 2014, the LC estimate from full data under three metrics.
+/// gonio-papers linear-combination: Noell et al. 2014, the LC estimate from full data under three metrics.
 
-#include "evaluate.hpp"
-#include "progress_bar.hpp"
-#include <gonio/evaluate/linear_combination.hpp>
+#include "papers/noell2014/linear_combination.hpp"
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
@@ -11,7 +21,7 @@
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -34,10 +44,10 @@ class combination_experiment {
         judge_(materials_.cells, 36, threads_) {}
 
   template <gonio::error_metric Metric>
-  [[nodiscard]] std::vector<gonio::material_result> run(const Metric& metric) const {
+  [[nodiscard]] std::vector<material_result> run(const Metric& metric) const {
     const gonio::leave_one_out_decomposition others{gonio::measured{materials_, metric, threads_}, gonio::nnls{},
                                                     threads_};
-    return gonio::combine_others(others, gonio::nielsen_test_materials(), materials_, relative_, judge_, threads_);
+    return combine_others(others, gonio::nielsen_test_materials(), materials_, relative_, judge_, threads_);
   }
 
  private:
@@ -51,7 +61,7 @@ void run_combination(const combination_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
   const combination_experiment experiment(options, listener);
-  std::vector<std::pair<std::string, std::vector<gonio::material_result>>> results;
+  std::vector<std::pair<std::string, std::vector<material_result>>> results;
   const auto run_one = [&](const std::string& name, const auto& metric) {
     gonio::report(listener, "combining under " + name, 0.0);
     results.emplace_back(name, experiment.run(metric));
@@ -83,14 +93,14 @@ void run_combination(const combination_options& options) {
 
 }  // namespace
 
-void add_linear_combination(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
-      "linear-combination", "Noell et al. 2014: ten materials as non-negative combinations of the 99 others");
+void add_linear_combination(command& app) {
+  auto command = app.add_subcommand("linear-combination",
+                                    "Noell et al. 2014: ten materials as non-negative combinations of the 99 others");
   const auto options = std::make_shared<combination_options>();
-  add_networks_option(*command, options->networks);
-  command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run_combination(*options); });
+  add_networks_option(command, options->networks);
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_combination(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

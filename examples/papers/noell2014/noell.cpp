@@ -1,17 +1,23 @@
-/// gonio evaluate noell-table1, noell-table2: the benchmark of Noell, Koehler and Stricker 2014, section 3.1.
+/// gonio-papers noell-table1, noell-table2: the benchmark of Noell, Koehler and Stricker 2014, section 3.1.
 
-#include "evaluate.hpp"
-#include "noell_experiment.hpp"
-#include "noell_judges.hpp"
-#include "progress_bar.hpp"
-#include "resumable_results.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/noell2014/noell_experiment.hpp"
+#include "papers/noell2014/noell_judges.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include <span>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -169,7 +175,7 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
       other.iterations = iterations;
       const std::vector<json> before = sweep.results(other), after = sweep.results(last);
       for (std::size_t i = 0; i < harm.size(); ++i)
-        harm[i] = std::max(harm[i], after[i]["delta_e_env"].get<double>() / before[i]["delta_e_env"].get<double>());
+        harm[i] = std::max(harm[i], after[i]["delta_e_env"].number() / before[i]["delta_e_env"].number());
     }
     const auto worst = std::ranges::max_element(harm);
     const auto material = static_cast<std::size_t>(worst - harm.begin()) % sweep.materials().size();
@@ -213,49 +219,47 @@ void run_noell(const noell_options& options) {
     print_table(options, sweep);
 }
 
-CLI::App* add_noell(CLI::App& evaluate, const std::string& name, const std::string& description,
-                    const noell_options& defaults) {
-  auto* command = evaluate.add_subcommand(name, description);
+void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults) {
+  auto command = app.add_subcommand(name, description);
   const auto options = std::make_shared<noell_options>(defaults);
-  add_networks_option(*command, options->networks);
-  add_environment_option(*command, options->environment);
-  command->add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
-      ->capture_default_str();
+  add_networks_option(command, options->networks);
+  add_environment_option(command, options->environment);
+  command.add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--methods", options->methods,
           "Any of: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's weights), "
           "lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for another metric than log")
-      ->check(CLI::Validator([](std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
-      ->capture_default_str();
+      .check(check::without([](const std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
+      .capture_default_str();
   command
-      ->add_option("--data", options->data_ratios,
-                   "Shares of the table that are measured, or, above 1, numbers of samples")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--seeds", options->seeds, "Seeds of cells and outliers")->capture_default_str();
+      .add_option("--data", options->data_ratios,
+                  "Shares of the table that are measured, or, above 1, numbers of samples")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--seeds", options->seeds, "Seeds of cells and outliers").capture_default_str();
   command
-      ->add_option("--iterations", options->iterations,
-                   "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
-                   "after at most 10")
-      ->check(CLI::NonNegativeNumber);
-  command->add_option("--state", options->state, "File in which results are kept, so that a run can be resumed");
-  command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run_noell(*options); });
-  return command;
+      .add_option("--iterations", options->iterations,
+                  "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
+                  "after at most 10")
+      .check(check::non_negative_number());
+  command.add_option("--state", options->state, "File in which results are kept, so that a run can be resumed");
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_noell(*options); });
 }
 
 }  // namespace
 
-void add_noell_tables(CLI::App& evaluate) {
+void add_noell_tables(command& app) {
   noell_options first;
   first.methods = {"our", "lc"};
-  first.data_ratios.assign(gonio::noell_data_ratios.begin(), gonio::noell_data_ratios.end());
-  first.outlier_ratios.assign(gonio::noell_outlier_ratios.begin(), gonio::noell_outlier_ratios.end());
+  first.data_ratios.assign(noell_data_ratios.begin(), noell_data_ratios.end());
+  first.outlier_ratios.assign(noell_outlier_ratios.begin(), noell_outlier_ratios.end());
   add_noell(evaluate, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
 
   noell_options second;
@@ -265,4 +269,4 @@ void add_noell_tables(CLI::App& evaluate) {
   add_noell(evaluate, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,16 +1,22 @@
-/// gonio evaluate noell-corrections: Noell, Koehler and Stricker 2014, section 2: is a correction function a
+/// gonio-papers noell-corrections: Noell, Koehler and Stricker 2014, section 2: is a correction function a
 /// combination of the others?
 
-#include "evaluate.hpp"
-#include "progress_bar.hpp"
-#include <gonio/evaluate/correction_check.hpp>
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/noell2014/correction_check.hpp"
+#include <gonio/io/networks.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -34,9 +40,8 @@ void run_corrections(const corrections_options& options) {
   const auto check = [&](const std::string& rule, const gonio::correction_rule& how) {
     gonio::report(listener, "making correction functions", 0.0);
     const gonio::correction functions{materials, how, gonio::nnls{}, options.threads};
-    rows.push_back({rule, "NNLS", gonio::deviations_from_others(functions, gonio::nnls{}, options.threads)});
-    rows.push_back(
-        {rule, "least squares", gonio::deviations_from_others(functions, gonio::least_squares{}, options.threads)});
+    rows.push_back({rule, "NNLS", deviations_from_others(functions, gonio::nnls{}, options.threads)});
+    rows.push_back({rule, "least squares", deviations_from_others(functions, gonio::least_squares{}, options.threads)});
   };
   check("as printed", gonio::correction_rule::as_printed());
   check("gonio's default", {});
@@ -60,14 +65,14 @@ void run_corrections(const corrections_options& options) {
 
 }  // namespace
 
-void add_noell_corrections(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_noell_corrections(command& app) {
+  auto command = app.add_subcommand(
       "noell-corrections", "Noell et al. 2014, section 2: correction functions as combinations of one another");
   const auto options = std::make_shared<corrections_options>();
-  add_networks_option(*command, options->networks);
-  command->add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run_corrections(*options); });
+  add_networks_option(command, options->networks);
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_corrections(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

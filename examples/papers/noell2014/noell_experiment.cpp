@@ -1,12 +1,14 @@
-#include "noell_experiment.hpp"
+#include "papers/noell2014/noell_experiment.hpp"
 
-#include "noell_judges.hpp"
+#include "command_line/json.hpp"
+#include "papers/noell2014/noell_judges.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/networks.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
@@ -17,10 +19,9 @@
 #include <map>
 #include <tuple>
 
-namespace cli {
+namespace papers {
 
-// Not unnamed: the tool is compiled as one unit, in which a class of external linkage has members of these types.
-namespace noell {
+namespace {
 
 /// "our-lin" is the method "our" under the metric "lin"; "gamma-3" has a number in its place.
 struct method_name {
@@ -67,25 +68,24 @@ struct combinations_under {
   std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
 };
 
-}  // namespace noell
+}  // namespace
 
 struct noell_experiment::parts {
   gonio::thread_count threads;
   gonio::material_set truths;
   noell_judges judges;
-  std::tuple<noell::combinations_under<gonio::lin>, noell::combinations_under<gonio::root>,
-             noell::combinations_under<gonio::log>>
+  std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
   /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
   struct correction_cache {
-    noell::made_on_demand<gonio::correction> all, fewer;
+    made_on_demand<gonio::correction> all, fewer;
     std::string left_out;
   };
   correction_cache corrections, printed_corrections;
 
   template <class Metric>
   const gonio::measured<Metric>& materials(const Metric& metric) {
-    return std::get<noell::combinations_under<Metric>>(combinations).materials.get([&] {
+    return std::get<combinations_under<Metric>>(combinations).materials.get([&] {
       return gonio::measured{truths, metric, threads};
     });
   }
@@ -94,7 +94,7 @@ struct noell_experiment::parts {
   template <class Metric>
   [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
     const auto located = gonio::locate_samples(truths.cells, samples, threads);
-    auto& plans = std::get<noell::combinations_under<Metric>>(combinations).plans;
+    auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
     const auto plan =
         plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.at, gonio::nnls{}, threads);
     return plan.first->second.without({which.material}).fit(located.channels());
@@ -113,8 +113,8 @@ struct noell_experiment::parts {
 
   /// The estimate of a material by a method, from all other materials.
   template <class Metric>
-  [[nodiscard]] gonio::brdf_table estimate(const noell::method_name& method, const Metric& metric,
-                                           const noell_case& which, const gonio::sample_set& samples) {
+  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const Metric& metric, const noell_case& which,
+                                           const gonio::sample_set& samples) {
     const auto tabulated = [&](const auto& estimator) {
       return estimator.fit(samples).tabulate(truths.cells, threads);
     };
@@ -132,7 +132,7 @@ struct noell_experiment::parts {
           gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads});
     limits.smallest_change = 0.0;
     const bool printed = method.method == "printed";
-    const double gamma = printed ? gonio::noell_gamma(which.outlier_ratio) : method.gamma;
+    const double gamma = printed ? noell_gamma(which.outlier_ratio) : method.gamma;
     const auto& functions = corrections_without(which.material, printed);
     if (printed) limits.inertia = 0.0;
     const gonio::decomposition initial{others, gonio::nnls{}, threads};
@@ -143,7 +143,7 @@ struct noell_experiment::parts {
                                                  gonio::nnls{}, limits, threads});
   }
 
-  [[nodiscard]] gonio::brdf_table estimate(const noell::method_name& method, const noell_case& which,
+  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const noell_case& which,
                                            const gonio::sample_set& samples) {
     if (method.metric == "lin") return estimate(method, gonio::lin{}, which, samples);
     if (method.metric == "root") return estimate(method, gonio::root{}, which, samples);
@@ -174,7 +174,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
                                       {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
 
   const auto start = std::chrono::steady_clock::now();
-  const gonio::brdf_table estimate = parts_->estimate(*noell::parse(method), which, samples);
+  const gonio::brdf_table estimate = parts_->estimate(*parse(method), which, samples);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
   json result = parts_->judges.judge(estimate, truth);
@@ -183,30 +183,26 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
 }
 
 bool noell_experiment::iterates(const std::string& method) {
-  const std::string name = noell::parse(method)->method;
+  const std::string name = parse(method)->method;
   return name == "our" || name == "printed" || name == "gamma";
 }
 
 std::string noell_experiment::complaint(const std::string& method) {
-  return noell::parse(method) ? "" : "there is no method '" + method + "'";
+  return parse(method) ? "" : "there is no method '" + method + "'";
 }
 
 std::optional<double> noell_experiment::published(const std::string& method, double data_ratio, double outlier_ratio) {
-  const auto name = noell::parse(method);
+  const auto name = parse(method);
   const bool table_2 = data_ratio == 1.0 && outlier_ratio == 0.0 && name->metric != "log";
   const std::size_t column = name->metric == "lin" ? 0 : 1;
   if (name->method == "our" || name->method == "printed")
-    return table_2 ? gonio::noell_table_2[0][column]
-                   : gonio::noell_table_1(gonio::noell_method::ours, data_ratio, outlier_ratio);
+    return table_2 ? noell_table_2[0][column] : noell_table_1(noell_method::ours, data_ratio, outlier_ratio);
   if (name->method == "lc")
-    return table_2 ? gonio::noell_table_2[1][column]
-                   : gonio::noell_table_1(gonio::noell_method::combination, data_ratio, outlier_ratio);
+    return table_2 ? noell_table_2[1][column] : noell_table_1(noell_method::combination, data_ratio, outlier_ratio);
   if (name->method == "rbf")
-    return table_2 ? gonio::noell_table_2[2][column]
-                   : gonio::noell_table_1(gonio::noell_method::radial, data_ratio, outlier_ratio);
-  if (name->method == "pull-push")
-    return gonio::noell_table_1(gonio::noell_method::pull_push, data_ratio, outlier_ratio);
+    return table_2 ? noell_table_2[2][column] : noell_table_1(noell_method::radial, data_ratio, outlier_ratio);
+  if (name->method == "pull-push") return noell_table_1(noell_method::pull_push, data_ratio, outlier_ratio);
   return std::nullopt;
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,14 +1,14 @@
 #pragma once
 /// One reconstruction of the benchmark of Noell et al. 2014: a material, its simulated measurement, a method.
 
-#include "inputs.hpp"
-#include <gonio/evaluate/noell_tables.hpp>
+#include "command_line/json.hpp"
+#include "papers/noell2014/noell_tables.hpp"
 
 #include <memory>
 #include <optional>
 #include <string>
 
-namespace cli {
+namespace papers {
 
 struct noell_case {
   std::string material;
@@ -49,4 +49,4 @@ class noell_experiment {
   std::unique_ptr<parts> parts_;
 };
 
-}  // namespace cli
+}  // namespace papers

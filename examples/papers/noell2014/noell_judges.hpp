@@ -1,7 +1,7 @@
 #pragma once
 /// Who judges the reconstructions of the experiments after Noell et al. 2014.
 
-#include "inputs.hpp"
+#include "command_line/json.hpp"
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/image.hpp>
@@ -9,12 +9,12 @@
 
 #include <optional>
 
-namespace cli {
+namespace papers {
 
 /// Adds `--environment FILE`, which is optional.
-inline void add_environment_option(CLI::App& command, std::filesystem::path& environment) {
-  command.add_option("--environment", environment,
-                     "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+inline void add_environment_option(command& to, std::filesystem::path& environment) {
+  to.add_option("--environment", environment,
+                "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
 }
 
 /// Looks at tables over given cells under the formula environment and, if there is one, a natural light.
@@ -44,4 +44,4 @@ class noell_judges {
   gonio::thread_count threads_;
 };
 
-}  // namespace cli
+}  // namespace papers

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace gonio {
+namespace papers {
 
 /// Shares of a material's table that are measured: the columns of Table 1.
 inline constexpr std::array noell_data_ratios{1.0, 0.7, 0.5, 0.3, 0.1};
@@ -65,4 +65,4 @@ enum class noell_method { ours, combination, radial, pull_push };
 inline constexpr std::array<std::array<double, 3>, 3> noell_table_2{
     {{0.44, 0.31, 0.28}, {13.39, 5.05, 4.88}, {24.14, 3.32, 4.11}}};
 
-}  // namespace gonio
+}  // namespace papers

@@ -1,23 +1,38 @@
-/// gonio evaluate directions-measured: real measurements, reconstructed from few directions that were chosen for them.
+/// gonio-papers directions-measured: real measurements, reconstructed from few directions that were chosen for them.
 
-#include "evaluate.hpp"
-#include "nielsen_split.hpp"
-#include "progress_bar.hpp"
-#include "resumable_results.hpp"
-#include "scattered_errors.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/scattered_errors.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>
 #include <limits>
 #include <memory>
 #include <optional>
 
-namespace cli {
+namespace papers {
 
-// Not unnamed: the tool is compiled as one unit.
-namespace directions_measured {
+namespace {
 
-struct options {
+struct directions_options {
   std::filesystem::path networks, tables, folder = shipped_directions(), state;
   std::vector<std::filesystem::path> samples;
   std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
@@ -35,7 +50,8 @@ struct workshop {
   gonio::appearance_judge judge;
 };
 
-workshop open_workshop(const options& given, const gonio::valid_cells& cells, const gonio::progress& listener) {
+workshop open_workshop(const directions_options& given, const gonio::valid_cells& cells,
+                       const gonio::progress& listener) {
   return {learn_all_components(gonio::io::read_networks(given.networks), cells, given.threads, listener),
           gonio::appearance_judge(cells, 36, given.threads)};
 }
@@ -43,7 +59,7 @@ workshop open_workshop(const options& given, const gonio::valid_cells& cells, co
 // ---- tables: judged as a whole -------------------------------------------------------------------------------------
 
 /// The cells to measure, as many times as a set is drawn.
-std::vector<std::vector<std::size_t>> cells_of(const options& given, const gonio::valid_cells& cells,
+std::vector<std::vector<std::size_t>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
                                                const std::string& set, std::size_t count) {
   std::vector<std::vector<std::size_t>> drawn;
   if (set == "random") {
@@ -56,10 +72,10 @@ std::vector<std::vector<std::size_t>> cells_of(const options& given, const gonio
 }
 
 /// Means over the repetitions.
-json judge_table(const options& given, const workshop& shop, const std::string& name, const gonio::brdf_table& truth,
-                 const std::vector<std::vector<std::size_t>>& drawn) {
+json judge_table(const directions_options& given, const workshop& shop, const std::string& name,
+                 const gonio::brdf_table& truth, const std::vector<std::vector<std::size_t>>& drawn) {
   const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
-  std::vector<gonio::material_result> results;
+  std::vector<material_result> results;
   for (const auto& cells : drawn) {
     const auto estimate = estimator.fit(gonio::measure(truth, cells)).tabulate(truth.cells(), given.threads);
     results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.judge, given.threads)});
@@ -115,7 +131,7 @@ stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::
 }
 
 /// The measurements to use, as many times as a set is drawn; random ones are where they are.
-std::vector<stand_ins> samples_of(const options& given, const gonio::sample_set& all, const std::string& set,
+std::vector<stand_ins> samples_of(const directions_options& given, const gonio::sample_set& all, const std::string& set,
                                   std::size_t count) {
   std::vector<stand_ins> drawn;
   if (set == "random") {
@@ -128,7 +144,7 @@ std::vector<stand_ins> samples_of(const options& given, const gonio::sample_set&
 }
 
 /// Means over the repetitions.
-json judge_samples(const options& given, const workshop& shop, const gonio::sample_set& all,
+json judge_samples(const directions_options& given, const workshop& shop, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
   const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
   const auto times = static_cast<double>(drawn.size());
@@ -163,7 +179,7 @@ json judge_samples(const options& given, const workshop& shop, const gonio::samp
 /// Does what is not done yet, opening the workshop when it must.
 class experiment {
  public:
-  experiment(const options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
+  experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
 
   [[nodiscard]] json tables() {
     json rows = json::array();
@@ -222,7 +238,7 @@ class experiment {
     return *shop_;
   }
 
-  const options& given_;
+  const directions_options& given_;
   progress_bar& bar_;
   resumable_results results_;
   std::optional<workshop> shop_;  // of the last table's cells, most often those of the next, too
@@ -240,10 +256,10 @@ json means_of(const json& rows) {
     }
     (*found)["materials"] = (*found)["materials"].get<int>() + 1;
     for (const auto& [key, value] : row["result"].items())
-      (*found)["result"][key] = (*found)["result"].value(key, 0.0) + value.get<double>();
+      (*found)["result"][key] = (*found)["result"].value(key, 0.0) + value.number();
   }
   for (json& mean : means)
-    for (auto& value : mean["result"]) value = value.get<double>() / mean["materials"].get<double>();
+    for (auto& value : mean["result"]) value = value.number() / mean["materials"].number();
   return means;
 }
 
@@ -262,15 +278,15 @@ void print_rows(const json& rows, std::span<const column> columns) {
     return line;
   }() << '\n';
   const auto print_row = [&](const std::string& name, const json& row) {
-    std::cout << "| " << name << " | " << row["count"] << " | " << row["set"].get<std::string>() << " |";
-    for (const column& c : columns) std::cout << ' ' << fixed(row["result"][c.key].get<double>(), c.digits) << " |";
+    std::cout << "| " << name << " | " << row["count"] << " | " << row["set"].text() << " |";
+    for (const column& c : columns) std::cout << ' ' << fixed(row["result"][c.key].number(), c.digits) << " |";
     std::cout << '\n';
   };
   for (const json& row : means) print_row("mean of " + std::to_string(row["materials"].get<int>()), row);
   for (const json& row : rows) print_row(row["material"], row);
 }
 
-void print(const options& given, const json& tables, const json& scattered) {
+void print(const directions_options& given, const json& tables, const json& scattered) {
   std::cout << "eta = " << given.eta << ", random: means of " << given.repetitions << " sets.\n";
   if (!tables.empty()) {
     static constexpr std::array columns{column{"mapped_rms", "mapped rms", 3}, column{"delta_e_env", "Delta E env", 2},
@@ -287,7 +303,7 @@ void print(const options& given, const json& tables, const json& scattered) {
   }
 }
 
-void run(const options& given) {
+void run(const directions_options& given) {
   if (given.tables.empty() && given.samples.empty())
     throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
@@ -300,31 +316,32 @@ void run(const options& given) {
     print(given, tables, scattered);
 }
 
-}  // namespace directions_measured
+}  // namespace
 
-void add_directions_measured(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_directions_measured(command& app) {
+  auto command = app.add_subcommand(
       "directions-measured", "Reconstruct real measurements from the directions that are the best for a database");
-  const auto options = std::make_shared<directions_measured::options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  command->add_option("--samples", options->samples,
-                      "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
-  command->add_option("--directions", options->folder, "Folder of sets, as `evaluate directions --write` writes them");
-  command->add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
-      ->check(
-          CLI::IsMember({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
-      ->capture_default_str();
-  add_counts_option(*command, options->counts);
-  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the first random set")->capture_default_str();
-  command->add_option("--repetitions", options->repetitions, "Random sets of each number")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { directions_measured::run(*options); });
+  const auto options = std::make_shared<directions_options>();
+  add_networks_option(command, options->networks);
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_option("--samples", options->samples,
+                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_option("--directions", options->folder,
+                     "Folder of sets, as `gonio-papers directions --write` writes them");
+  command.add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
+      .check(
+          check::one_of({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
+      .capture_default_str();
+  add_counts_option(command, options->counts);
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the first random set").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,16 +1,22 @@
-/// gonio evaluate eta: how far the chosen penalty is from the best in hindsight.
+/// gonio-papers eta: how far the chosen penalty is from the best in hindsight.
 
-#include "evaluate.hpp"
-#include "nielsen_split.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <Eigen/Eigenvalues>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -148,7 +154,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
 /// Two digits that count.
 std::string brief(const json& eta) {
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.2g", eta.get<double>());
+  std::snprintf(text.data(), text.size(), "%.2g", eta.number());
   return text.data();
 }
 
@@ -157,8 +163,8 @@ void print_eta_row(const json& row) {
   const auto rms = [&](const char* way) { return " | " + fixed(row[way]["rms"], 4); };
   const auto ratio = [&](const char* way) { return " | " + fixed(row[way]["ratio"], 3); };
   const auto all = [&](const char* way) { return eta(way) + rms(way) + ratio(way); };
-  std::cout << "| " << row["set"].get<std::string>() << " | " << row["n"] << " | " << 100.0 * row["noise"].get<double>()
-            << " %" << eta("best") << rms("best") << ratio("best_of_each") << rms("forty") << ratio("forty")
+  std::cout << "| " << row["set"].text() << " | " << row["n"] << " | " << 100.0 * row["noise"].number() << " %"
+            << eta("best") << rms("best") << ratio("best_of_each") << rms("forty") << ratio("forty")
             << all("stated_noise") << all("unknown_noise") << ratio("unbounded_gcv") << " |\n";
 }
 
@@ -196,23 +202,23 @@ void compare_etas(const eta_options& options) {
 
 }  // namespace
 
-void add_eta(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
-      "eta", "Tikhonov's penalty as it is chosen, against the best in hindsight on ten materials");
+void add_eta(command& app) {
+  auto command =
+      app.add_subcommand("eta", "Tikhonov's penalty as it is chosen, against the best in hindsight on ten materials");
   const auto options = std::make_shared<eta_options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("--sets", options->sets, "Directions: published (1, 2, 5, 10 or 20), or of which files ship")
-      ->check(CLI::IsMember({"published", "expected-error", "perceived"}))
-      ->capture_default_str();
-  add_counts_option(*command, options->counts);
-  command->add_option("--noise", options->noises, "Relative deviations of the measurements")->capture_default_str();
-  command->add_option("--repetitions", options->repetitions, "How often each material is measured with noise")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the noise")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print everything as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { compare_etas(*options); });
+  add_networks_option(command, options->networks);
+  command.add_option("--sets", options->sets, "Directions: published (1, 2, 5, 10 or 20), or of which files ship")
+      .check(check::one_of({"published", "expected-error", "perceived"}))
+      .capture_default_str();
+  add_counts_option(command, options->counts);
+  command.add_option("--noise", options->noises, "Relative deviations of the measurements").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "How often each material is measured with noise")
+      .check(check::range(1, 10'000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the noise").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print everything as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { compare_etas(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

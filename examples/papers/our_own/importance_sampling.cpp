@@ -1,9 +1,17 @@
-/// gonio evaluate importance-sampling: how much less light estimates vary with directions drawn by importance of the
+/// gonio-papers importance-sampling: how much less light estimates vary with directions drawn by importance of the
 /// BRDF than with cosine-weighted ones.
 
-#include "evaluate.hpp"
-#include "progress_bar.hpp"
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/image.hpp>
+#include <gonio/io/merl_gzip.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
@@ -12,7 +20,7 @@
 #include <memory>
 #include <random>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -149,26 +157,26 @@ void run_sampling(const sampling_options& options) {
 
 }  // namespace
 
-void add_importance_sampling(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_importance_sampling(command& app) {
+  auto command = app.add_subcommand(
       "importance-sampling", "How much less estimates of light vary with directions drawn by importance of the BRDF");
   const auto options = std::make_shared<sampling_options>();
-  command->add_option("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
-  command->add_option("--networks", options->networks.file,
-                      "File of networks of the 100 materials (.npy): the ten test materials");
-  add_thin_option(*command, options->networks.thin);
-  command->add_option("--environment", options->environments,
-                      "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
-  command->add_option("--points", options->points, "Points of the sphere")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--draws", options->draws, "Directions for each point")
-      ->check(CLI::Range(2, 100'000'000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of points and directions")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print the ratios as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run_sampling(*options); });
+  command.add_option("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
+  command.add_option("--networks", options->networks.file,
+                     "File of networks of the 100 materials (.npy): the ten test materials");
+  add_thin_option(command, options->networks.thin);
+  command.add_option("--environment", options->environments,
+                     "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
+  command.add_option("--points", options->points, "Points of the sphere")
+      .check(check::range(1, 1'000'000))
+      .capture_default_str();
+  command.add_option("--draws", options->draws, "Directions for each point")
+      .check(check::range(2, 100'000'000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of points and directions").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print the ratios as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_sampling(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,14 +1,28 @@
-/// gonio evaluate measured-materials: tables of another database, reconstructed from random samples.
+/// gonio-papers measured-materials: tables of another database, reconstructed from random samples.
 
-#include "evaluate.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
 #include "pictures.hpp"
-#include "progress_bar.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -34,7 +48,7 @@ gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_
 
 /// One table: its errors for each number of samples (all repetitions), and the row of spheres.
 struct table_report {
-  std::vector<std::vector<gonio::material_result>> errors;
+  std::vector<std::vector<material_result>> errors;
   std::vector<gonio::image> spheres;
 };
 
@@ -75,7 +89,7 @@ void run(const measured_options& options) {
     const auto [errors, spheres] = judge_table(options, prior, files[f].name, truth, judges.back());
     for (std::size_t i = 0; i < options.counts.size(); ++i) {
       json means = mean_errors(errors[i]);
-      means["peak_ratio"] = gonio::mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
+      means["peak_ratio"] = mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
       result[files[f].name][std::to_string(options.counts[i])] = means;
     }
     if (!options.picture.empty()) rows.push_back(gonio::side_by_side(spheres, 4));
@@ -99,25 +113,25 @@ void run(const measured_options& options) {
 
 }  // namespace
 
-void add_measured_materials(CLI::App& evaluate) {
-  auto* command =
-      evaluate.add_subcommand("measured-materials", "Reconstruct each table of a folder from random samples of it");
+void add_measured_materials(command& app) {
+  auto command =
+      app.add_subcommand("measured-materials", "Reconstruct each table of a folder from random samples of it");
   const auto options = std::make_shared<measured_options>();
-  command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)")->required();
-  add_prior_option(*command, options->prior);
-  command->add_option("--counts", options->counts, "Numbers of samples")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the first set of samples")->capture_default_str();
-  command->add_option("--repetitions", options->repetitions, "Sets of samples for each count")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--spheres", options->picture,
-                      "Picture to write (.png): a row for each table, the truth at the right");
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run(*options); });
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)").required();
+  add_prior_option(command, options->prior);
+  command.add_option("--counts", options->counts, "Numbers of samples")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the first set of samples").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--spheres", options->picture,
+                     "Picture to write (.png): a row for each table, the truth at the right");
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

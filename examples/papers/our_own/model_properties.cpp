@@ -1,13 +1,16 @@
-/// gonio evaluate model-properties: which analytic models are reciprocal, and how much they reflect.
+/// gonio-papers model-properties: which analytic models are reciprocal, and how much they reflect.
 
-#include "evaluate.hpp"
-#include "model_choice.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/model_choice.hpp"
+#include "papers/experiments.hpp"
 #include <gonio/model/physical_properties.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -53,10 +56,10 @@ void print_properties(bool as_json) {
             << "| model | parameters | reciprocal | isotropic | albedo from above | largest albedo | at |\n"
             << "|---|---|---|---|---|---|---|\n";
   const auto verdict = [](const json& amount) {
-    return amount.get<double>() < 1e-6 ? std::string("yes") : "off by " + fixed(amount, 2);
+    return amount.number() < 1e-6 ? std::string("yes") : "off by " + fixed(amount, 2);
   };
   for (const json& row : rows) {
-    std::cout << "| " << row["model"]["lobe"].get<std::string>() << " |";
+    std::cout << "| " << row["model"]["lobe"].text() << " |";
     for (const auto& [name, value] : row["model"]["parameters"].items())
       std::cout << ' ' << name << ' ' << fixed(value, 3);
     std::cout << " | " << verdict(row["asymmetry"]) << " | " << verdict(row["anisotropy"]) << " | "
@@ -67,12 +70,11 @@ void print_properties(bool as_json) {
 
 }  // namespace
 
-void add_model_properties(CLI::App& evaluate) {
-  auto* command =
-      evaluate.add_subcommand("model-properties", "Reciprocity, isotropy and albedo of the analytic models");
+void add_model_properties(command& app) {
+  auto command = app.add_subcommand("model-properties", "Reciprocity, isotropy and albedo of the analytic models");
   const auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "Print as JSON");
-  command->callback([as_json] { print_properties(*as_json); });
+  command.add_flag("--json", *as_json, "Print as JSON");
+  command.callback([as_json] { print_properties(*as_json); });
 }
 
-}  // namespace cli
+}  // namespace papers

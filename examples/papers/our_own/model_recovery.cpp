@@ -1,8 +1,12 @@
-/// gonio evaluate model-recovery: do fits find the parameters that made the data, and how much noise do they pass on?
+/// gonio-papers model-recovery: do fits find the parameters that made the data, and how much noise do they pass on?
 
-#include "evaluate.hpp"
-#include "model_choice.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/model_choice.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
 
 #include <Eigen/Cholesky>
 
@@ -10,12 +14,11 @@
 #include <memory>
 #include <random>
 
-namespace cli {
+namespace papers {
 
-// Not unnamed: the tool is compiled as one unit.
-namespace recovery {
+namespace {
 
-struct options {
+struct recovery_options {
   std::size_t draws = 100, samples = 600, few = 20, starts = 10;
   double noise = 0.01;
   std::uint64_t seed = 0;
@@ -108,7 +111,7 @@ std::vector<gonio::fit_observation> observe_with_noise(const gonio::analytic_brd
   return all;
 }
 
-json recover(const gonio::lobe_kind& kind, const options& given) {
+json recover(const gonio::lobe_kind& kind, const recovery_options& given) {
   std::mt19937_64 random(given.seed);
   const auto& lambert = gonio::lobe_kind::of<gonio::lambert_shape>();
   const gonio::model_fit_options fit{.threads = given.threads};
@@ -146,7 +149,7 @@ json recover(const gonio::lobe_kind& kind, const options& given) {
           {"noise_mean_of_those", passed_on.empty() ? 0.0 : distribution(passed_on).mean}};
 }
 
-void run(const options& given) {
+void run(const recovery_options& given) {
   progress_bar bar;
   json rows = json::array();
   for (const gonio::lobe_kind* kind : gonio::lobe_kinds()) {
@@ -167,39 +170,39 @@ void run(const options& given) {
                "the bound | mean of those |\n"
             << "|---|---|---|---|---|---|---|\n";
   for (const json& row : rows) {
-    std::cout << "| " << row["lobe"].get<std::string>() << " | " << row["recovered"] << " of " << row["draws"] << " | ";
+    std::cout << "| " << row["lobe"].text() << " | " << row["recovered"] << " of " << row["draws"] << " | ";
     std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1e", row["worst"].get<double>());
+    std::snprintf(text.data(), text.size(), "%.1e", row["worst"].number());
     std::cout << text.data() << " | " << fixed(row["evaluations"], 1) << " | " << fixed(row["noise_median"], 2) << " | "
               << row["noise_within_4"] << " of " << row["draws"] << " | " << fixed(row["noise_mean_of_those"], 2)
               << " |\n";
   }
 }
 
-}  // namespace recovery
+}  // namespace
 
-void add_model_recovery(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_model_recovery(command& app) {
+  auto command = app.add_subcommand(
       "model-recovery", "Fits to what analytic models made: their parameters again, and the noise that is passed on");
-  const auto options = std::make_shared<recovery::options>();
-  command->add_option("--draws", options->draws, "Random materials of each kind")
-      ->check(CLI::Range(1, 100'000))
-      ->capture_default_str();
-  command->add_option("--samples", options->samples, "Samples without noise")
-      ->check(CLI::Range(4, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--few", options->few, "Samples with noise")
-      ->check(CLI::Range(4, 1'000'000))
-      ->capture_default_str();
-  command->add_option("--noise", options->noise, "Relative deviation")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--starts", options->starts, "Random starts of fits with noise, beside the consecutive one")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { recovery::run(*options); });
+  const auto options = std::make_shared<recovery_options>();
+  command.add_option("--draws", options->draws, "Random materials of each kind")
+      .check(check::range(1, 100'000))
+      .capture_default_str();
+  command.add_option("--samples", options->samples, "Samples without noise")
+      .check(check::range(4, 1'000'000))
+      .capture_default_str();
+  command.add_option("--few", options->few, "Samples with noise")
+      .check(check::range(4, 1'000'000))
+      .capture_default_str();
+  command.add_option("--noise", options->noise, "Relative deviation")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--starts", options->starts, "Random starts of fits with noise, beside the consecutive one")
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,26 +1,32 @@
-/// gonio evaluate noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
+/// gonio-papers noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
 /// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
 
-#include "evaluate.hpp"
-#include "noell_judges.hpp"
-#include "progress_bar.hpp"
-#include "scattered_errors.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/noell2014/noell_judges.hpp"
+#include "papers/noell2014/noell_tables.hpp"
+#include "papers/our_own/scattered_errors.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
-#include <gonio/evaluate/noell_tables.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/networks.hpp>
 #include <gonio/metric/log.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
-// Not unnamed: the tool is compiled as one unit.
-namespace noell_measured {
+namespace {
 
-struct options {
+struct measured_options {
   std::filesystem::path networks, environment, tables;
   std::vector<std::filesystem::path> samples;
   double data_ratio = 0.1;
@@ -32,7 +38,7 @@ struct options {
 
 /// The materials on some cells, their corrections, and the judges there.
 struct workshop {
-  workshop(const options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
+  workshop(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : threads(given.threads),
         materials(gonio::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
                   gonio::log{}, threads),
@@ -44,7 +50,7 @@ struct workshop {
   template <class Use>
   void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
     const gonio::decomposition combination{materials, gonio::nnls{}, threads};
-    const gonio::relative_deviation_weights weights{gonio::noell_gamma(outlier_ratio)};
+    const gonio::relative_deviation_weights weights{noell_gamma(outlier_ratio)};
     const gonio::correction_limits ten_rounds{.smallest_change = 0.0, .inertia = 0.0};
     use("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads}.fit(samples));
     use("printed",
@@ -65,8 +71,8 @@ json row(const std::string& name, const std::string& method, std::size_t samples
 }
 
 /// Judged on the whole table.
-void judge_table(const options& given, const workshop& shop, const std::string& name, const gonio::brdf_table& truth,
-                 json& rows) {
+void judge_table(const measured_options& given, const workshop& shop, const std::string& name,
+                 const gonio::brdf_table& truth, json& rows) {
   const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
   const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
   for (const double outlier_ratio : given.outlier_ratios)
@@ -84,7 +90,7 @@ void judge_table(const options& given, const workshop& shop, const std::string& 
 }
 
 /// Judged on the measurements that the estimate was not made from.
-void judge_samples(const options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
+void judge_samples(const measured_options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
   const gonio::sample_set all = read_measurements(path);
   const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
   const auto [some, others] = gonio::part(all, count, given.seed);
@@ -106,7 +112,7 @@ void judge_samples(const options& given, const workshop& shop, const std::filesy
   }
 }
 
-void print(const options& given, const json& rows) {
+void print(const measured_options& given, const json& rows) {
   if (given.print_json) {
     std::cout << rows.dump(1) << '\n';
     return;
@@ -120,13 +126,13 @@ void print(const options& given, const json& rows) {
     return result.contains(key) ? fixed(result[key], 2) : std::string();
   };
   for (const json& result : rows)
-    std::cout << "| " << result["name"].get<std::string>() << " | " << result["samples"] << " | "
-              << fixed(result["outlier_ratio"], 1) << " | " << result["method"].get<std::string>() << " | "
+    std::cout << "| " << result["name"].text() << " | " << result["samples"] << " | "
+              << fixed(result["outlier_ratio"], 1) << " | " << result["method"].text() << " | "
               << fixed(result["log_error"], 3) << " | " << figure(result, "delta_e_env") << " | "
               << figure(result, "delta_e_natural") << " | " << figure(result, "peak_ratio") << " |\n";
 }
 
-void run(const options& given) {
+void run(const measured_options& given) {
   if (given.tables.empty() && given.samples.empty())
     throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
@@ -155,27 +161,27 @@ void run(const options& given) {
   print(given, rows);
 }
 
-}  // namespace noell_measured
+}  // namespace
 
-void add_noell_measured(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_noell_measured(command& app) {
+  auto command = app.add_subcommand(
       "noell-measured", "Reconstruct real measurements, some of which are outliers, from the materials of a database");
-  const auto options = std::make_shared<noell_measured::options>();
-  add_networks_option(*command, options->networks);
-  add_environment_option(*command, options->environment);
-  command->add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  command->add_option("--samples", options->samples,
-                      "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
-  command->add_option("--data", options->data_ratio, "Share of the data that is measured")
-      ->check(CLI::PositiveNumber & CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of cells and outliers")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { noell_measured::run(*options); });
+  const auto options = std::make_shared<measured_options>();
+  add_networks_option(command, options->networks);
+  add_environment_option(command, options->environment);
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_option("--samples", options->samples,
+                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_option("--data", options->data_ratio, "Share of the data that is measured")
+      .check(check::positive_number() & check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

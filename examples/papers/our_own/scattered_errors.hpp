@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cli {
+namespace papers {
 
 /// Root mean square of the difference of ln(f + 0.001) over values of all channels; negative ones count as zero.
 class logarithmic_error {
@@ -38,4 +38,4 @@ class cosine_weighted_error {
   double missed_ = 0.0, all_ = 0.0;
 };
 
-}  // namespace cli
+}  // namespace papers

@@ -1,24 +1,36 @@
-/// gonio evaluate directions: where to measure; published sets and ours on materials that neither has seen.
+/// gonio-papers directions: where to measure; published sets and ours on materials that neither has seen.
 
-#include "../lab/near_field_lab.hpp"
-#include "design_search.hpp"
-#include "evaluate.hpp"
-#include "nielsen_split.hpp"
-#include "progress_bar.hpp"
-#include "resumable_results.hpp"
-#include "solver_choice.hpp"
+#include "command_line/design_search.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/solver_choice.hpp"
+#include "command_line/threads_option.hpp"
+#include "lab/near_field_lab.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
+#include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>
 #include <memory>
 #include <optional>
 
-namespace cli {
+namespace papers {
 
 namespace {
 
@@ -190,7 +202,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
 
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
   const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
-  std::vector<gonio::material_result> results;
+  std::vector<material_result> results;
   for (std::size_t number = 0; number < lab.truths.names.size(); ++number) {
     const gonio::brdf_table truth = lab.truths.table(number);
     const auto estimate = reconstructed(lab, truth, options, found, options.seed + 1000 * number);
@@ -211,7 +223,7 @@ json judged(const laboratory& lab, const directions_options& options, const desi
 
 /// JSON has no infinity: it comes back as null.
 std::string printed(const json& value, int digits) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) return "infinite";
+  if (!value.is_number() || !std::isfinite(value.number())) return "infinite";
   return fixed(value, digits);
 }
 
@@ -230,7 +242,7 @@ void write_set(const directions_options& options, const json& row) {
   for (const json& pose : row["result"]["poses"]) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
   std::string name = options.geometry;
   if (takes_pictures(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
-  name += '-' + std::to_string(row["count"].get<int>()) + '-' + row["set"].get<std::string>() + ".csv";
+  name += '-' + std::to_string(row["count"].get<int>()) + '-' + row["set"].text() + ".csv";
   std::filesystem::create_directories(options.folder);
   gonio::io::write_direction_pairs(options.folder / name, poses);
 }
@@ -257,8 +269,8 @@ void run(const directions_options& options) {
                    options.step,
                    options.seed,
                    options.expected,
-                   options.networks.thin.theta_d,
-                   options.networks.thin.phi_d};
+                   options.networks.thin.steps.first,
+                   options.networks.thin.steps.second};
     const json* result = results.find(key);
     if (!result) {
       if (!lab) lab.emplace(open_laboratory(options, listener));
@@ -284,43 +296,43 @@ void run(const directions_options& options) {
 
 }  // namespace
 
-void add_directions(CLI::App& evaluate) {
-  auto* command = evaluate.add_subcommand(
+void add_directions(command& app) {
+  auto command = app.add_subcommand(
       "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
   const auto options = std::make_shared<directions_options>();
-  add_networks_option(*command, options->networks);
-  command->add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
-      ->check(CLI::IsMember(
+  add_networks_option(command, options->networks);
+  command.add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
+      .check(check::one_of(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
-      ->capture_default_str();
-  command->add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
-  add_counts_option(*command, options->counts);
-  command->add_option("--geometry", options->geometry, "As `gonio design` has them")
-      ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
-      ->capture_default_str();
-  command->add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
-      ->capture_default_str();
-  command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
-  command->add_option("--eta", options->eta, "Tikhonov's penalty")->capture_default_str();
-  command->add_option("--reconstruction-eta", options->reconstruction_eta,
-                      "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
-                      "auto, as `gonio reconstruct` chooses it");
-  command->add_option("--noise", options->noise, "Relative deviation of every measurement")->capture_default_str();
+      .capture_default_str();
+  command.add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
+  add_counts_option(command, options->counts);
+  command.add_option("--geometry", options->geometry, "As `gonio design` has them")
+      .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      .capture_default_str();
+  command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--reconstruction-eta", options->reconstruction_eta,
+                     "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
+                     "auto, as `gonio reconstruct` chooses it");
+  command.add_option("--noise", options->noise, "Relative deviation of every measurement").capture_default_str();
   command
-      ->add_option("--misplaced", options->misplacement,
-                   "Degrees by which light and viewer are off their places, towards random sides")
-      ->capture_default_str();
+      .add_option("--misplaced", options->misplacement,
+                  "Degrees by which light and viewer are off their places, towards random sides")
+      .capture_default_str();
   command
-      ->add_option("--expected-misplacement", options->expected,
-                   "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
-                   "of pictures, by a reconstruction that finds where they were")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of what is random")->capture_default_str();
-  command->add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
-  command->add_option("--write", options->folder, "Folder to write each set to, as directions (.csv)");
-  command->add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { run(*options); });
+      .add_option("--expected-misplacement", options->expected,
+                  "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
+                  "of pictures, by a reconstruction that finds where they were")
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_option("--write", options->folder, "Folder to write each set to, as directions (.csv)");
+  command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -1,14 +1,23 @@
-/// gonio evaluate figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 that can be simulated.
+/// gonio-papers figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 that can be simulated.
 
-#include "evaluate.hpp"
-#include "figures.hpp"
-#include "nielsen_split.hpp"
-#include "progress_bar.hpp"
+#include "papers/xu2016/figures.hpp"
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
 
 #include <iostream>
 #include <memory>
 
-namespace cli {
+namespace papers {
 
 namespace figures {
 
@@ -44,9 +53,9 @@ std::vector<std::string> names_of_figures() {
 
 std::string printed_cell(const json& cell, int digits) {
   if (cell.is_null()) return "";
-  if (cell.is_string()) return cell.get<std::string>();
+  if (cell.is_string()) return cell.text();
   if (cell.is_number_integer()) return cell.dump();
-  const auto value = cell.get<double>();
+  const auto value = cell.number();
   return std::isfinite(value) ? fixed(value, digits) : "infinite";
 }
 
@@ -95,37 +104,37 @@ void run_figure(const options& given, const std::string& name, bool print_json) 
 
 }  // namespace figures
 
-void add_figures(CLI::App& evaluate) {
+void add_figures(command& app) {
   struct choice {
     figures::options given;
     std::string name;
     bool print_json = false;
   };
-  auto* command = evaluate.add_subcommand("figures", "A figure of Nielsen et al. 2015 or Xu et al. 2016 as a table");
+  auto command = app.add_subcommand("figures", "A figure of Nielsen et al. 2015 or Xu et al. 2016 as a table");
   const auto chosen = std::make_shared<choice>();
   figures::options& given = chosen->given;
-  add_networks_option(*command, given.networks);
-  command->add_option("--figure", chosen->name, "Year and number of the figure")
-      ->required()
-      ->check(CLI::IsMember(figures::names_of_figures()));
-  command->add_option("--most", given.most, "The largest number of measurements (default: the figure's)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--repetitions", given.repetitions, "Seeds of the searches that are random")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--random-sets", given.random_sets, "Random sets of which the mean is shown")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--fov", given.fields_of_view, "Near field: angles in degrees that the sample spans from above")
-      ->capture_default_str();
-  command->add_option("--step", given.step, "Near field: degrees between candidates")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--eta", given.eta, "Tikhonov's penalty")->check(CLI::PositiveNumber)->capture_default_str();
-  command->add_option("--seed", given.seed, "Seed of what is random")->capture_default_str();
-  command->add_flag("--json", chosen->print_json, "Print as JSON");
-  add_threads_option(*command, given.threads);
-  command->callback([chosen] { figures::run_figure(chosen->given, chosen->name, chosen->print_json); });
+  add_networks_option(command, given.networks);
+  command.add_option("--figure", chosen->name, "Year and number of the figure")
+      .required()
+      .check(check::one_of(figures::names_of_figures()));
+  command.add_option("--most", given.most, "The largest number of measurements (default: the figure's)")
+      .check(check::positive_number());
+  command.add_option("--repetitions", given.repetitions, "Seeds of the searches that are random")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--random-sets", given.random_sets, "Random sets of which the mean is shown")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--fov", given.fields_of_view, "Near field: angles in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", given.step, "Near field: degrees between candidates")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();
+  command.add_option("--seed", given.seed, "Seed of what is random").capture_default_str();
+  command.add_flag("--json", chosen->print_json, "Print as JSON");
+  add_threads_option(command, given.threads);
+  command.callback([chosen] { figures::run_figure(chosen->given, chosen->name, chosen->print_json); });
 }
 
-}  // namespace cli
+}  // namespace papers

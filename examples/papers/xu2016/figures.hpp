@@ -1,16 +1,20 @@
 #pragma once
-/// gonio evaluate figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 as tables, one function each.
+/// gonio-papers figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 as tables, one function each.
 
-#include "evaluate.hpp"
-#include "mapped_errors.hpp"
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/xu2016/mapped_errors.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/design/exhaustive_search.hpp>
+#include <gonio/io/networks.hpp>
 
 #include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-namespace cli::figures {
+namespace papers::figures {
 
 struct options {
   studied_networks networks;
@@ -97,4 +101,4 @@ template <gonio::sweeping_objective Objective>
 [[nodiscard]] tables xu_13(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_19(const options& given, const gonio::progress& listener);
 
-}  // namespace cli::figures
+}  // namespace papers::figures

@@ -1,18 +1,22 @@
 /// Xu et al. 2016, Fig. 5, 6, 7 and 13: pictures of a flat sample from close by.
 
-#include "figures.hpp"
+#include "command_line/chosen_networks.hpp"
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/xu2016/figures.hpp"
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/evaluate/material_result.hpp>
+#include <gonio/evaluate/test_materials.hpp>
 
 #include <algorithm>
 #include <limits>
 #include <random>
 
-namespace cli::figures {
+namespace papers::figures {
 
 namespace {
 
@@ -101,13 +105,13 @@ table points_for_pictures(const std::vector<std::pair<std::string, std::vector<j
       {{"field of view"}, {"pictures", 0}, {"error"}, {"published points", 0}, {"points by expected error", 0}}};
   const auto fewest = [](const std::vector<json>& errors, double wanted) -> json {
     for (std::size_t i = 0; i < errors.size(); ++i)
-      if (!errors[i].is_null() && errors[i].get<double>() <= wanted) return i + 1;
+      if (!errors[i].is_null() && errors[i].number() <= wanted) return i + 1;
     return "more than " + std::to_string(errors.size());
   };
   for (const auto& [name, errors] : series)
     for (std::size_t i = 0; i < std::min<std::size_t>(errors.size(), 2); ++i)
-      shown.rows.push_back({name, i + 1, errors[i], fewest(points.published, errors[i].get<double>()),
-                            fewest(points.expected, errors[i].get<double>())});
+      shown.rows.push_back({name, i + 1, errors[i], fewest(points.published, errors[i].number()),
+                            fewest(points.expected, errors[i].number())});
   return shown;
 }
 
@@ -289,4 +293,4 @@ tables xu_13(const options& given, const gonio::progress& listener) {
           std::move(angles), std::move(printed)};
 }
 
-}  // namespace cli::figures
+}  // namespace papers::figures

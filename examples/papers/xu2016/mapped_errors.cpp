@@ -1,5 +1,6 @@
-#include "mapped_errors.hpp"
+#include "papers/xu2016/mapped_errors.hpp"
 
+#include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -8,7 +9,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cli {
+namespace papers {
 
 mapped_errors::mapped_errors(gonio::log_relative_pca prior, const gonio::material_set& truths, double eta,
                              gonio::thread_count threads)
@@ -103,4 +104,4 @@ Eigen::ArrayX3d mapped_errors::root_mean_square(const Eigen::ArrayXd& squares) c
   return errors;
 }
 
-}  // namespace cli
+}  // namespace papers

@@ -11,14 +11,14 @@
 #include <span>
 #include <vector>
 
-namespace cli {
+namespace papers {
 
 /// Errors in the mapped domain of materials that are reconstructed by Tikhonov's penalty from their values at some
 /// cells: root mean square over all cells, one row a material and one column a colour channel.
 ///
 /// The components are orthogonal: |x - mu - Q c|^2 is what their projection misses plus |Sigma (c - c of the
 /// projection)|^2, so only the weights c have to be found. Reflectance that would be negative is not clamped, of which
-/// `gonio evaluate directions` sees the difference: below 0.001.
+/// `gonio-papers directions` sees the difference: below 0.001.
 class mapped_errors {
  public:
   /// The truths must be over the prior's cells.
@@ -56,4 +56,4 @@ class mapped_errors {
   Eigen::ArrayXd missed_;      ///< squares of what the projections miss: 3m
 };
 
-}  // namespace cli
+}  // namespace papers

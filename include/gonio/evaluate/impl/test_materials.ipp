@@ -1,11 +1,9 @@
 #pragma once
-/// Bodies of evaluate/material_result.hpp.
+/// Bodies of evaluate/test_materials.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/evaluate/comparison.hpp>
-#include <gonio/evaluate/material_result.hpp>
+#include <gonio/evaluate/test_materials.hpp>
 
-#include <span>
 #include <string>
 #include <vector>
 
