@@ -38,7 +38,7 @@ gonio::similarity_transform find_pose(const gonio::shape_model& model, const gon
 
 void add_shape(command& app) {
   auto shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/shapes.md)");
-  shape.require_subcommand(1);
+  shape.require_subcommand();
   add_shape_learn(shape);
   add_shape_recover(shape);
   add_shape_demo(shape);

@@ -1,6 +1,7 @@
 #pragma once
 /// The steps of `gonio shape`, and what they have in common.
 
+#include "command_line/command.hpp"
 #include <gonio/shape/mesh_picture.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 #include <gonio/shape/shape_model.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// Analytic models as options name them, and how they are printed.
 
+#include "command.hpp"
 #include "json.hpp"
 #include "measures_as_json.hpp"
 #include <gonio/model/fit_model.hpp>
@@ -17,7 +18,7 @@ namespace cli {
 [[nodiscard]] const gonio::lobe_kind& with_fresnel_factor(const gonio::lobe_kind& kind);
 
 /// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
-void add_fit_options(command& command, gonio::model_fit_options& options);
+void add_fit_options(command& to, gonio::model_fit_options& options);
 
 /// Fits by one of the metrics lin, log and cubic.
 [[nodiscard]] gonio::model_fit fit_by_metric(const std::string& metric,

@@ -8,6 +8,7 @@
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
+#include <gonio/metric/log_relative.hpp>
 #include <gonio/metric/root.hpp>
 #include <gonio/render/image.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The command line's choice of a solver: `--solver` and the options that each takes.
 
+#include "command.hpp"
 #include <gonio/solve/any_solver.hpp>
 
 #include <string>
@@ -15,7 +16,7 @@ struct solver_choice {
 };
 
 /// Adds `--solver`, `--eta`, `--lambda` and `--variance`.
-void add_solver_options(command& command, solver_choice& choice);
+void add_solver_options(command& to, solver_choice& choice);
 
 /// `--eta` as a number. Throws gonio::error unless it is one.
 [[nodiscard]] double number_of_eta(const std::string& text);

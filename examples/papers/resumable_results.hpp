@@ -2,9 +2,13 @@
 /// Results of a long experiment that survive its end.
 
 #include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include <gonio/core/error.hpp>
 
+#include <filesystem>
 #include <fstream>
 #include <map>
+#include <string>
 
 namespace papers {
 
@@ -17,7 +21,7 @@ class resumable_results {
     std::ifstream earlier(path);
     for (std::string line; std::getline(earlier, line);) {
       // A run that was killed may have left half a line.
-      const json entry = json::parse(line, nullptr, false);
+      const json entry = json::parse(line);
       if (entry.is_object() && entry.contains("key") && entry.contains("result"))
         results_.insert_or_assign(entry["key"].dump(), entry["result"]);
     }

@@ -149,7 +149,7 @@ void print(const json& result) {
   std::cout << "| material | samples | what is wrong | their error, % (median, worst) | 95 % intervals hold, % | "
                "mapped rms | Delta E env | Delta E lights | peak ratio "
                "|\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const json& line : result)
+  for (const json& line : result.elements())
     std::cout << "| " << line["material"].text() << " | " << line["errors"]["samples"] << " by "
               << line["method"].text() << " | " << line["wrong"].text() << " | "
               << fixed(100.0 * line["errors"]["sample_error_median"].number(), 3) << ", "

@@ -72,7 +72,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
   return rows;
 }
 
-std::vector<json> of(const json& rows, const std::string& key, const std::string& value) {
+std::vector<json> of(const std::vector<json>& rows, const std::string& key, const std::string& value) {
   std::vector<json> some;
   for (const json& row : rows)
     if (row[key] == value) some.push_back(row);
@@ -87,11 +87,11 @@ void print_means(const models_options& given, const json& rows) {
     for (const std::string& loss : given.losses) {
       std::vector<double> lights, environment, evaluations;
       std::size_t converged = 0;
-      for (const json& row : of(json(of(rows, "model", model)), "loss", loss)) {
+      for (const json& row : of(of(rows.elements(), "model", model), "loss", loss)) {
         const json& fit = row["fit"];
-        lights.push_back(fit["delta_e_lights"]);
-        environment.push_back(fit["delta_e_env"]);
-        evaluations.push_back(fit["evaluations"]);
+        lights.push_back(fit["delta_e_lights"].number());
+        environment.push_back(fit["delta_e_env"].number());
+        evaluations.push_back(fit["evaluations"].number());
         if (fit["converged"].truth()) ++converged;
       }
       const distribution l(lights), e(environment);
@@ -111,13 +111,14 @@ void print_materials(const models_options& given, const json& rows) {
   for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|";
   std::cout << '\n';
   std::map<std::pair<std::string, std::string>, std::map<std::string, json>> by_material;
-  for (const json& row : rows) by_material[{row["material"], row["loss"]}][row["model"]] = row["fit"];
+  for (const json& row : rows.elements())
+    by_material[{row["material"].text(), row["loss"].text()}][row["model"].text()] = row["fit"];
   for (const auto& [key, fits] : by_material) {
     std::cout << "| " << key.first << " | " << key.second;
     for (const char* variant : {"phong-blinn", "phong-blinn-fresnel"}) {
       std::cout << " | ";
       if (fits.contains(variant))
-        std::cout << fixed(fits.at(variant)["lobes"].back()["parameters"]["alpha"].number(), 2);
+        std::cout << fixed(fits.at(variant)["lobes"].elements().back()["parameters"]["alpha"].number(), 2);
     }
     for (const std::string& model : given.models)
       std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].number(), 2);

@@ -15,6 +15,7 @@
 #include <gonio/io/networks.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
+#include <gonio/metric/log_relative.hpp>
 #include <gonio/metric/root.hpp>
 #include <gonio/solve/nnls.hpp>
 

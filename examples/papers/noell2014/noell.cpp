@@ -58,8 +58,8 @@ struct noell_setting {
 [[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
   std::vector<double> values, peaks, means;
   for (const json& result : results) {
-    values.push_back(result[measure]);
-    peaks.push_back(result["peak_ratio"]);
+    values.push_back(result[measure].number());
+    peaks.push_back(result["peak_ratio"].number());
   }
   const std::size_t materials = values.size() / seeds;
   for (std::size_t seed = 0; seed < seeds; ++seed)
@@ -260,13 +260,13 @@ void add_noell_tables(command& app) {
   first.methods = {"our", "lc"};
   first.data_ratios.assign(noell_data_ratios.begin(), noell_data_ratios.end());
   first.outlier_ratios.assign(noell_outlier_ratios.begin(), noell_outlier_ratios.end());
-  add_noell(evaluate, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
+  add_noell(app, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
 
   noell_options second;
   second.methods = {"our-lin", "our-root", "our", "lc-lin", "lc-root", "lc"};
   second.data_ratios = {1.0};
   second.outlier_ratios = {0.0};
-  add_noell(evaluate, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);
+  add_noell(app, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);
 }
 
 }  // namespace papers

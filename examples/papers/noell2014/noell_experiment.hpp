@@ -2,11 +2,17 @@
 /// One reconstruction of the benchmark of Noell et al. 2014: a material, its simulated measurement, a method.
 
 #include "command_line/json.hpp"
+#include "papers/experiments.hpp"
 #include "papers/noell2014/noell_tables.hpp"
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/progress.hpp>
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace papers {
 

@@ -2,11 +2,14 @@
 /// Who judges the reconstructions of the experiments after Noell et al. 2014.
 
 #include "command_line/json.hpp"
+#include "papers/experiments.hpp"
 #include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/environment_map.hpp>
 
+#include <filesystem>
 #include <optional>
 
 namespace papers {

@@ -246,20 +246,22 @@ class experiment {
 
 /// The means over materials of each number and set, in the order of the rows.
 json means_of(const json& rows) {
-  json means = json::array();
-  for (const json& row : rows) {
+  std::vector<json> means;
+  for (const json& row : rows.elements()) {
     auto found = std::ranges::find_if(
         means, [&](const json& mean) { return mean["count"] == row["count"] && mean["set"] == row["set"]; });
     if (found == means.end()) {
       means.push_back({{"count", row["count"]}, {"set", row["set"]}, {"materials", 0}, {"result", json::object()}});
       found = means.end() - 1;
     }
-    (*found)["materials"] = (*found)["materials"].get<int>() + 1;
-    for (const auto& [key, value] : row["result"].items())
-      (*found)["result"][key] = (*found)["result"].value(key, 0.0) + value.number();
+    (*found)["materials"] = (*found)["materials"].number() + 1.0;
+    for (const auto& [key, value] : row["result"].items()) {
+      json& sum = (*found)["result"][key];
+      sum = (sum.is_null() ? 0.0 : sum.number()) + value.number();
+    }
   }
   for (json& mean : means)
-    for (auto& value : mean["result"]) value = value.number() / mean["materials"].number();
+    for (auto& [key, value] : mean["result"].items()) value = value.number() / mean["materials"].number();
   return means;
 }
 
@@ -282,8 +284,8 @@ void print_rows(const json& rows, std::span<const column> columns) {
     for (const column& c : columns) std::cout << ' ' << fixed(row["result"][c.key].number(), c.digits) << " |";
     std::cout << '\n';
   };
-  for (const json& row : means) print_row("mean of " + std::to_string(row["materials"].get<int>()), row);
-  for (const json& row : rows) print_row(row["material"], row);
+  for (const json& row : means.elements()) print_row("mean of " + fixed(row["materials"], 0), row);
+  for (const json& row : rows.elements()) print_row(row["material"].text(), row);
 }
 
 void print(const directions_options& given, const json& tables, const json& scattered) {

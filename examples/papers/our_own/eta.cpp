@@ -8,6 +8,7 @@
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include <gonio/basis/pca.hpp>
+#include <gonio/basis/project.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 
@@ -197,7 +198,7 @@ void compare_etas(const eta_options& options) {
       << "| directions | n | noise | best eta | rms | each its best | eta 40: rms | ratio | noise stated: eta | rms "
          "| ratio | not stated: eta | rms | ratio | GCV by itself: ratio |\n"
       << "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
-  for (const json& row : rows) print_eta_row(row);
+  for (const json& row : rows.elements()) print_eta_row(row);
 }
 
 }  // namespace

@@ -8,11 +8,13 @@
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
-#include "pictures.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/render/sphere.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>

@@ -58,7 +58,7 @@ void print_properties(bool as_json) {
   const auto verdict = [](const json& amount) {
     return amount.number() < 1e-6 ? std::string("yes") : "off by " + fixed(amount, 2);
   };
-  for (const json& row : rows) {
+  for (const json& row : rows.elements()) {
     std::cout << "| " << row["model"]["lobe"].text() << " |";
     for (const auto& [name, value] : row["model"]["parameters"].items())
       std::cout << ' ' << name << ' ' << fixed(value, 3);

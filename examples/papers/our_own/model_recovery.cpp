@@ -169,7 +169,7 @@ void run(const recovery_options& given) {
             << "| lobe | exact: found to 1e-6 | worst relative error | evaluations | noise: median | within 4 times "
                "the bound | mean of those |\n"
             << "|---|---|---|---|---|---|---|\n";
-  for (const json& row : rows) {
+  for (const json& row : rows.elements()) {
     std::cout << "| " << row["lobe"].text() << " | " << row["recovered"] << " of " << row["draws"] << " | ";
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.1e", row["worst"].number());

@@ -125,7 +125,7 @@ void print(const measured_options& given, const json& rows) {
   const auto figure = [](const json& result, const char* key) {
     return result.contains(key) ? fixed(result[key], 2) : std::string();
   };
-  for (const json& result : rows)
+  for (const json& result : rows.elements())
     std::cout << "| " << result["name"].text() << " | " << result["samples"] << " | "
               << fixed(result["outlier_ratio"], 1) << " | " << result["method"].text() << " | "
               << fixed(result["log_error"], 3) << " | " << figure(result, "delta_e_env") << " | "

@@ -227,22 +227,23 @@ std::string printed(const json& value, int digits) {
   return fixed(value, digits);
 }
 
-void print_row(const std::string& set, std::size_t count, const json& result) {
+void print_row(const json& row) {
+  const json& result = row["result"];
   const json& errors = result["errors"];
-  std::cout << "| " << count << " | " << set << " | " << printed(result["expected_error"], 4) << " | "
-            << printed(result["condition"], 2) << " | " << printed(errors["mapped_rms"], 3) << " | "
+  std::cout << "| " << row["count"] << " | " << row["set"].text() << " | " << printed(result["expected_error"], 4)
+            << " | " << printed(result["condition"], 2) << " | " << printed(errors["mapped_rms"], 3) << " | "
             << printed(errors["delta_e_env"], 2) << " | " << printed(errors["delta_e_lights"], 2) << " | "
             << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
 /// A set as a file of directions that is named after what it is for.
 void write_set(const directions_options& options, const json& row) {
-  const auto vector = [](const json& w) { return gonio::direction(w[0], w[1], w[2]); };
+  const auto vector = [](const json& w) { return gonio::direction(w[0].number(), w[1].number(), w[2].number()); };
   std::vector<gonio::direction_pair> poses;
-  for (const json& pose : row["result"]["poses"]) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
+  for (const json& pose : row["result"]["poses"].elements()) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
   std::string name = options.geometry;
   if (takes_pictures(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
-  name += '-' + std::to_string(row["count"].get<int>()) + '-' + row["set"].text() + ".csv";
+  name += '-' + row["count"].dump() + '-' + row["set"].text() + ".csv";
   std::filesystem::create_directories(options.folder);
   gonio::io::write_direction_pairs(options.folder / name, poses);
 }
@@ -284,14 +285,14 @@ void run(const directions_options& options) {
   bar.wipe();
 
   if (!options.folder.empty())
-    for (const json& row : all) write_set(options, row);
+    for (const json& row : all.elements()) write_set(options, row);
   if (options.print_json) {
     std::cout << all.dump(2) << '\n';
     return;
   }
   std::cout << "| n | chosen by | E | condition | test: rms | Delta E env | Delta E lights | peak |\n"
             << "|---|---|---|---|---|---|---|---|\n";
-  for (const json& row : all) print_row(row["set"], row["count"], row["result"]);
+  for (const json& row : all.elements()) print_row(row);
 }
 
 }  // namespace
