@@ -1,11 +1,12 @@
+#include "papers/noell2014/correction_check.hpp"
+
 #include "../made_up_materials.hpp"
-#include <gonio/evaluate/correction_check.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 
 #include <doctest/doctest.h>
 
-using gonio::deviations_from_others;
+using papers::deviations_from_others;
 
 namespace {
 

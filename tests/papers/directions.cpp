@@ -1,8 +1,8 @@
-/// gonio evaluate directions on a few made-up materials.
+/// gonio-papers directions on a few made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include <gonio/evaluate/material_result.hpp>
+#include "papers_tool.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   write_made_up_networks(folder, names);
   const auto at = [&](const char* name) { return (folder / name).string(); };
   const auto evaluate = [&](const std::string& arguments) {
-    return gonio_tool("evaluate directions --thin 3 5 --networks " + at("n.npy") + " " + arguments);
+    return gonio_papers("directions --thin 3 5 --networks " + at("n.npy") + " " + arguments);
   };
 
   const std::string points = "-n 5 --sets published industry random --state " + at("state");

@@ -1,7 +1,7 @@
-/// gonio evaluate directions-measured on made-up materials.
+/// gonio-papers directions-measured on made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
+#include "papers_tool.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/networks.hpp>
 
@@ -30,7 +30,7 @@ class made_up_measurements {
 
   [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
   [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
-    return gonio_tool("evaluate directions-measured --networks " + at("n.npy") + " " + arguments);
+    return gonio_papers("directions-measured --networks " + at("n.npy") + " " + arguments);
   }
 
  private:

@@ -1,8 +1,8 @@
-/// gonio evaluate eta on a few made-up materials.
+/// gonio-papers eta on a few made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include <gonio/evaluate/material_result.hpp>
+#include "papers_tool.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -14,9 +14,9 @@ TEST_CASE("chosen penalties against the best in hindsight") {
   std::vector<std::string> names = gonio::nielsen_test_materials();
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
   write_made_up_networks(folder, names);
-  const std::string evaluate = "evaluate eta --thin 3 5 --networks " + (folder / "n.npy").string() + " ";
+  const std::string evaluate = "eta --thin 3 5 --networks " + (folder / "n.npy").string() + " ";
 
-  const auto printed = gonio_tool(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");
+  const auto printed = gonio_papers(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
   const auto rows = nlohmann::json::parse(printed.output);
   REQUIRE(rows.size() == 4);  // two sets of directions, two noises
@@ -33,10 +33,10 @@ TEST_CASE("chosen penalties against the best in hindsight") {
   }
   CHECK(rows[1]["best"]["rms"] > rows[0]["best"]["rms"]);
 
-  const auto table = gonio_tool(evaluate + "-n 5 --noise 0.1 --sets published --repetitions 1");
+  const auto table = gonio_papers(evaluate + "-n 5 --noise 0.1 --sets published --repetitions 1");
   REQUIRE_MESSAGE(table.exit_code == 0, table.output);
   CHECK(table.output.find("\n| published | 5 | 10 % | ") != std::string::npos);
-  const auto refused = gonio_tool(evaluate + "-n 21 --sets expected-error");
+  const auto refused = gonio_papers(evaluate + "-n 21 --sets expected-error");
   CHECK(refused.exit_code == 2);
   CHECK(refused.output.find("point-21-expected-error.csv") != std::string::npos);
 }

@@ -1,8 +1,8 @@
-/// gonio evaluate figures on a few made-up materials.
+/// gonio-papers figures on a few made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include <gonio/evaluate/material_result.hpp>
+#include "papers_tool.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -25,7 +25,7 @@ class figures_database {
   }
 
   [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
-    return gonio_tool("evaluate " + arguments + " --thin 3 5 --networks " + (folder_ / "n.npy").string());
+    return gonio_papers("" + arguments + " --thin 3 5 --networks " + (folder_ / "n.npy").string());
   }
 
   /// The tables of a figure.

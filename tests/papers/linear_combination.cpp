@@ -1,5 +1,6 @@
+#include "papers/noell2014/linear_combination.hpp"
+
 #include "../made_up_materials.hpp"
-#include <gonio/evaluate/linear_combination.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/nnls.hpp>
 
@@ -18,7 +19,7 @@ TEST_CASE("a material that is a combination of others comes back, another not") 
   const gonio::appearance_judge judge(cells, 12);
   const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
   const std::array<std::string, 2> names{"material-5", "material-1"};
-  const auto results = gonio::combine_others(others, names, materials, metric, judge);
+  const auto results = papers::combine_others(others, names, materials, metric, judge);
   REQUIRE(results.size() == 2);
   CHECK(results[0].name == "material-5");
   CHECK(results[0].errors.mapped_rms.maxCoeff() < 1e-3);

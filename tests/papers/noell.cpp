@@ -1,7 +1,7 @@
 /// The experiments after Noell et al. 2014 on a few made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
+#include "papers_tool.hpp"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ class made_up_database {
 
   /// What the tool prints.
   [[nodiscard]] std::string evaluate(const std::string& arguments) const {
-    const auto result = gonio_tool("evaluate " + arguments + " --networks " + at("n.npy"));
+    const auto result = gonio_papers("" + arguments + " --networks " + at("n.npy"));
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
     return result.output;
   }
@@ -86,8 +86,8 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   CHECK(rows[5]["method"] == "lc");
   for (const auto& row : rows) CHECK(row["log_error"].get<double>() < 2.0);
 
-  const auto everything = gonio_tool("evaluate noell-measured --data 1 --networks " + database.at("n.npy") +
-                                     " --samples " + database.at("paint.brdf"));
+  const auto everything = gonio_papers("noell-measured --data 1 --networks " + database.at("n.npy") + " --samples " +
+                                       database.at("paint.brdf"));
   CHECK(everything.exit_code == 2);
   CHECK(everything.output.find("--data below 1") != std::string::npos);
 }

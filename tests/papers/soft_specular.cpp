@@ -1,8 +1,8 @@
-/// gonio evaluate soft-specular on a few made-up materials.
+/// gonio-papers soft-specular on a few made-up materials.
 
-#include "../cli/tool.hpp"
 #include "made_up_networks.hpp"
-#include <gonio/evaluate/material_result.hpp>
+#include "papers_tool.hpp"
+#include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ class made_up_database {
   }
 
   [[nodiscard]] auto evaluate(const std::string& arguments) const {
-    return gonio_tool("evaluate soft-specular --thin 3 5 --networks " + (folder_ / "n.npy").string() + " " + arguments);
+    return gonio_papers("soft-specular --thin 3 5 --networks " + (folder_ / "n.npy").string() + " " + arguments);
   }
 
  private:
