@@ -3,7 +3,7 @@
 
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
-#include <gonio/evaluate/material_result.hpp>
+#include <gonio/evaluate/test_materials.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>

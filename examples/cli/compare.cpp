@@ -1,7 +1,14 @@
 /// gonio compare: the errors of an estimate.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/prior.hpp>
 
 #include <iostream>
 #include <memory>
@@ -41,15 +48,15 @@ void compare_tables(const compare_options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
-  auto* command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
+void add_compare(command& app) {
+  auto command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
   const auto options = std::make_shared<compare_options>();
-  command->add_option("estimate", options->estimate, "Estimated table (.binary or .binary.gz)")->required();
-  command->add_option("truth", options->truth, "True table (.binary or .binary.gz)")->required();
-  add_prior_option(*command, options->prior);
-  command->add_flag("--json", options->print_json, "Print the errors as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([options] { compare_tables(*options); });
+  command.add_option("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
+  command.add_option("truth", options->truth, "True table (.binary or .binary.gz)").required();
+  add_prior_option(command, options->prior);
+  command.add_flag("--json", options->print_json, "Print the errors as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { compare_tables(*options); });
 }
 
 }  // namespace cli

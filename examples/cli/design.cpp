@@ -1,10 +1,14 @@
 /// `gonio design`: what to measure, so that a prior's materials are told apart best.
 
-#include "command.hpp"
-#include "design_search.hpp"
-#include "inputs.hpp"
-#include "progress_bar.hpp"
+#include "command_line/design_search.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include <gonio/io/capture_constraint.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <iostream>
@@ -53,51 +57,51 @@ void run(design_command command) {
 
 }  // namespace
 
-void add_design(CLI::App& app) {
-  auto* command = app.add_subcommand("design", "Find what to measure");
+void add_design(command& app) {
+  auto command = app.add_subcommand("design", "Find what to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
-  add_prior_option(*command, options->prior);
-  command->add_option("-n,--count", design.count, "Number of measurements")->capture_default_str();
+  add_prior_option(command, options->prior);
+  command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--geometry", design.geometry,
           "point: a goniometer's samples; sphere: pictures of a sphere; near-field: pictures of a flat sample by "
           "a close camera; fixed-camera, fixed-light: such pictures with one camera, or one light")
-      ->check(CLI::IsMember({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
-      ->capture_default_str();
+      .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      .capture_default_str();
   command
-      ->add_option(
+      .add_option(
           "--criterion", design.criterion,
           "expected-error: Xu et al. 2016; perceived: the same as seen on spheres; condition: Nielsen et al. 2015; "
           "a-optimal, d-optimal: of the weights' covariance")
-      ->check(CLI::IsMember({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
-      ->capture_default_str();
+      .check(check::one_of({"expected-error", "perceived", "condition", "a-optimal", "d-optimal"}))
+      .capture_default_str();
   command
-      ->add_option("--search", design.search,
-                   "exchange: the best of all, one after another, then replaced by better ones; greedy: without the "
-                   "replacing; descent: from random ones, for large priors. Other criteria than the expected error "
-                   "descend")
-      ->check(CLI::IsMember({"exchange", "greedy", "descent"}))
-      ->capture_default_str();
-  command->add_option("--eta", design.eta, "Tikhonov's penalty of the reconstruction")->capture_default_str();
-  command->add_option("--noise", design.noise, "Deviation of every measurement's logarithm")->capture_default_str();
+      .add_option("--search", design.search,
+                  "exchange: the best of all, one after another, then replaced by better ones; greedy: without the "
+                  "replacing; descent: from random ones, for large priors. Other criteria than the expected error "
+                  "descend")
+      .check(check::one_of({"exchange", "greedy", "descent"}))
+      .capture_default_str();
+  command.add_option("--eta", design.eta, "Tikhonov's penalty of the reconstruction").capture_default_str();
+  command.add_option("--noise", design.noise, "Deviation of every measurement's logarithm").capture_default_str();
   command
-      ->add_option("--misplaced", options->misplacement,
-                   "Points: degrees by which light and viewer may each be off their directions")
-      ->capture_default_str();
-  command->add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
-      ->capture_default_str();
-  command->add_option("--step", options->step, "Near field: degrees between candidates")->capture_default_str();
-  command->add_option("--constraint", options->constraint,
-                      "What the apparatus cannot do (a text file, docs/formats.md)");
-  command->add_option("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
-  command->add_option("--seed", design.seed, "Seed of what is random")->capture_default_str();
-  command->add_flag("--json", options->print_json, "Print the result as JSON");
-  add_threads_option(*command, design.threads);
-  command->add_option("-o,--output", options->output, "Directions to write; of pictures, those of the centre (.csv)")
-      ->required();
-  command->callback([options] { run(*options); });
+      .add_option("--misplaced", options->misplacement,
+                  "Points: degrees by which light and viewer may each be off their directions")
+      .capture_default_str();
+  command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
+  command.add_option("--constraint", options->constraint,
+                     "What the apparatus cannot do (a text file, docs/formats.md)");
+  command.add_option("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print the result as JSON");
+  add_threads_option(command, design.threads);
+  command.add_option("-o,--output", options->output, "Directions to write; of pictures, those of the centre (.csv)")
+      .required();
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

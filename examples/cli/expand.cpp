@@ -1,9 +1,14 @@
 /// gonio expand: a material as a table, from a network, the prior or a formula.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/chosen_networks.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/merl.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <algorithm>
@@ -40,21 +45,21 @@ gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cel
 
 }  // namespace
 
-void add_expand(CLI::App& app) {
-  auto* command =
+void add_expand(command& app) {
+  auto command =
       app.add_subcommand("expand", "Write a material given by a network, the prior or a formula as a MERL table");
   const auto options = std::make_shared<expand_options>();
-  auto* networks = command->add_option("--networks", options->networks,
-                                       "File of networks (.npy, names in merl_names.txt beside it)");
-  add_prior_option(*command, options->prior);
-  command->add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
+  auto networks =
+      command.add_option("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
+  add_prior_option(command, options->prior);
+  command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
   std::string known;
   for (const std::string& formula : gonio::formula_material_names()) known += (known.empty() ? "" : ", ") + formula;
-  command->add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
-      ->excludes(networks);
-  command->add_option("-o,--output", options->output, "Table to write (.binary, or .npy)")->required();
-  add_threads_option(*command, options->threads);
-  command->callback([options] {
+  command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
+      .excludes(networks);
+  command.add_option("-o,--output", options->output, "Table to write (.binary, or .npy)").required();
+  add_threads_option(command, options->threads);
+  command.callback([options] {
     if (options->formula.empty() && options->name.empty())
       throw gonio::error("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
     write_table(options->output, table_of(*options, gonio::valid_cells()));

@@ -1,9 +1,14 @@
 /// gonio fit: an analytic model of measurements.
 
-#include "command.hpp"
-#include "inputs.hpp"
-#include "model_choice.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/model_choice.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include "pictures.hpp"
+#include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/renderer_material.hpp>
 
 #include <iostream>
@@ -73,35 +78,35 @@ void fit(const fit_command_options& options) {
 
 }  // namespace
 
-void add_fit(CLI::App& app) {
-  auto* command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
+void add_fit(command& app) {
+  auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
   const auto options = std::make_shared<fit_command_options>();
   command
-      ->add_option("measurements", options->measurements,
-                   "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
-      ->required();
+      .add_option("measurements", options->measurements,
+                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      .required();
   std::string names;
   for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
     names += (names.empty() ? "" : ", ") + std::string(kind->name());
   command
-      ->add_option("--model", options->model,
-                   "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
-      ->capture_default_str();
+      .add_option("--model", options->model,
+                  "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
+      .capture_default_str();
   command
-      ->add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log (ln(1 + x)) or cubic root")
-      ->check(CLI::IsMember({"lin", "log", "cubic"}))
-      ->capture_default_str();
-  command->add_flag("--fresnel", options->fresnel,
-                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
-  add_fit_options(*command, options->fit);
-  command->add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
-  command->add_option("--image", options->picture,
-                      "Spheres of measurement (if it is a table) and model to write (.png)");
-  command->add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");
-  command->add_option("--mitsuba", options->mitsuba, "Material of Mitsuba 3 to write (.xml)");
-  command->add_flag("--json", options->print_json, "Print the fit as JSON");
-  add_threads_option(*command, options->fit.threads);
-  command->callback([options] { fit(*options); });
+      .add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log (ln(1 + x)) or cubic root")
+      .check(check::one_of({"lin", "log", "cubic"}))
+      .capture_default_str();
+  command.add_flag("--fresnel", options->fresnel,
+                   "The last lobe times the reflectance of a dielectric (Phong's lobes)");
+  add_fit_options(command, options->fit);
+  command.add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
+  command.add_option("--image", options->picture,
+                     "Spheres of measurement (if it is a table) and model to write (.png)");
+  command.add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");
+  command.add_option("--mitsuba", options->mitsuba, "Material of Mitsuba 3 to write (.xml)");
+  command.add_flag("--json", options->print_json, "Print the fit as JSON");
+  add_threads_option(command, options->fit.threads);
+  command.callback([options] { fit(*options); });
 }
 
 }  // namespace cli

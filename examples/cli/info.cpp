@@ -1,7 +1,13 @@
 /// gonio info: what a file holds.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "commands.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/prior.hpp>
 
 #include <iostream>
 #include <memory>
@@ -77,17 +83,17 @@ json describe_file(const std::filesystem::path& path) {
 
 void print(const json& facts) {
   for (const auto& [key, value] : facts.items())
-    std::cout << key << ": " << (value.is_string() ? value.get<std::string>() : value.dump()) << '\n';
+    std::cout << key << ": " << (value.is_string() ? value.text() : value.dump()) << '\n';
 }
 
 }  // namespace
 
-void add_info(CLI::App& app) {
-  auto* command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
+void add_info(command& app) {
+  auto command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
   const auto options = std::make_shared<info_options>();
-  command->add_option("file", options->file, "The file")->required();
-  command->add_flag("--json", options->print_json, "Print as JSON");
-  command->callback([options] {
+  command.add_option("file", options->file, "The file").required();
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  command.callback([options] {
     const json facts = describe_file(options->file);
     if (options->print_json)
       std::cout << facts.dump(2) << '\n';

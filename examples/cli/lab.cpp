@@ -2,19 +2,19 @@
 
 #include "lab.hpp"
 
-#include "command.hpp"
+#include "commands.hpp"
 
 namespace cli {
 
-void add_lab(CLI::App& app) {
-  auto* lab = app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes (docs/tutorial-laboratory.md)");
-  lab->require_subcommand(1);
-  add_lab_plan(*lab);
-  add_lab_scan(*lab);
-  add_lab_replay(*lab);
-  add_lab_calibrate(*lab);
-  add_lab_probe(*lab);
-  add_lab_unwrap(*lab);
+void add_lab(command& app) {
+  auto lab = app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes (docs/tutorial-laboratory.md)");
+  lab.require_subcommand();
+  add_lab_plan(lab);
+  add_lab_scan(lab);
+  add_lab_replay(lab);
+  add_lab_calibrate(lab);
+  add_lab_probe(lab);
+  add_lab_unwrap(lab);
 }
 
 }  // namespace cli

@@ -1,62 +1,15 @@
 #pragma once
-/// The steps of `gonio lab`, one file each, and the simulated laboratory that they have in common.
+/// The steps of `gonio lab`, one file each.
 
-#include "../lab/gantry.hpp"
-#include "../lab/robot.hpp"
-#include "inputs.hpp"
-
-#include <CLI/CLI.hpp>
-
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "command_line/command.hpp"
 
 namespace cli {
 
-void add_lab_plan(CLI::App& lab);
-void add_lab_scan(CLI::App& lab);
-void add_lab_replay(CLI::App& lab);
-void add_lab_calibrate(CLI::App& lab);
-void add_lab_probe(CLI::App& lab);
-void add_lab_unwrap(CLI::App& lab);
-
-/// Which machine stands in the laboratory.
-struct machine_choice {
-  std::string name = "gantry";
-  double tolerance = 0.5;  ///< degrees by which one may miss the robot's nearest lamp
-};
-
-/// Adds `--machine` and `--lamp-tolerance`.
-inline void add_machine_options(CLI::App& command, machine_choice& machine) {
-  command
-      .add_option("--machine", machine.name,
-                  "gantry: two arms, for lamp and camera; robot: a camera under an arc of lamps every 7.5 degrees")
-      ->check(CLI::IsMember({"gantry", "robot"}))
-      ->capture_default_str();
-  command
-      .add_option("--lamp-tolerance", machine.tolerance,
-                  "Degrees from a direction within which robot takes its nearest lamp instead")
-      ->check(CLI::Range(0.0, 90.0))
-      ->capture_default_str();
-}
-
-/// Calls `use(machine)` with the machine in a room.
-template <class Use>
-auto with_machine(const machine_choice& choice, lab::dark_room& room, Use&& use) {
-  if (choice.name == "robot") {
-    lab::robot machine(room, gonio::radians(choice.tolerance));
-    return use(machine);
-  }
-  lab::gantry machine(room);
-  return use(machine);
-}
-
-/// Pairs of directions as lines for people, counted from 1.
-[[nodiscard]] inline std::string in_degrees(const gonio::direction_pair& pair) {
-  const auto angles = [](const gonio::direction& w) {
-    return fixed(gonio::degrees(gonio::polar_angle(w)), 1) + ", " + fixed(gonio::degrees(gonio::azimuth(w)), 1);
-  };
-  return "light at " + angles(pair.wi) + ", viewer at " + angles(pair.wo);
-}
+void add_lab_plan(command& lab);
+void add_lab_scan(command& lab);
+void add_lab_replay(command& lab);
+void add_lab_calibrate(command& lab);
+void add_lab_probe(command& lab);
+void add_lab_unwrap(command& lab);
 
 }  // namespace cli

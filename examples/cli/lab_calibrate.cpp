@@ -1,5 +1,7 @@
 /// gonio lab calibrate: scans of a material and of the white reference as samples of the material's BRDF.
 
+#include "command_line/fixed.hpp"
+#include "command_line/machine_choice.hpp"
 #include "lab.hpp"
 #include <gonio/capture/calibration.hpp>
 #include <gonio/io/samples.hpp>
@@ -95,34 +97,34 @@ void run(const calibrate_command& options) {
 
 }  // namespace
 
-void add_lab_calibrate(CLI::App& lab) {
-  auto* command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
+void add_lab_calibrate(command& lab) {
+  auto command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
   const auto options = std::make_shared<calibrate_command>();
-  command->add_option("material", options->material, "Scan of the material (.scan)")->required();
-  command->add_option("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
-      ->required();
-  command->add_option("--reflectance", options->reflectance, "Of the white reference")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
+  command.add_option("material", options->material, "Scan of the material (.scan)").required();
+  command.add_option("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
+      .required();
+  command.add_option("--reflectance", options->reflectance, "Of the white reference")
+      .check(check::range(0.01, 1.0))
+      .capture_default_str();
   command
-      ->add_option("--gamma", options->gamma,
-                   "The camera's response is known: counts are the exposure to the power of 1/gamma (1: linear)")
-      ->check(CLI::PositiveNumber);
-  command->add_option("--saturation", options->saturation, "Share of the largest count from which a pixel is saturated")
-      ->check(CLI::Range(0.1, 1.0))
-      ->capture_default_str();
-  command->add_option("--read-noise", options->noise.read, "Deviation of every count")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--shot-noise", options->noise.shot, "Variance in counts for each count")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--flicker", options->noise.relative, "Relative deviation of each exposure")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--response", options->response, "The camera's response, to write (.csv)");
-  command->add_option("-o,--output", options->output, "Samples to write (.csv)")->required();
-  command->callback([options] { run(*options); });
+      .add_option("--gamma", options->gamma,
+                  "The camera's response is known: counts are the exposure to the power of 1/gamma (1: linear)")
+      .check(check::positive_number());
+  command.add_option("--saturation", options->saturation, "Share of the largest count from which a pixel is saturated")
+      .check(check::range(0.1, 1.0))
+      .capture_default_str();
+  command.add_option("--read-noise", options->noise.read, "Deviation of every count")
+      .check(check::non_negative_number())
+      .capture_default_str();
+  command.add_option("--shot-noise", options->noise.shot, "Variance in counts for each count")
+      .check(check::non_negative_number())
+      .capture_default_str();
+  command.add_option("--flicker", options->noise.relative, "Relative deviation of each exposure")
+      .check(check::non_negative_number())
+      .capture_default_str();
+  command.add_option("--response", options->response, "The camera's response, to write (.csv)");
+  command.add_option("-o,--output", options->output, "Samples to write (.csv)").required();
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

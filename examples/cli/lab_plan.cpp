@@ -1,5 +1,7 @@
 /// gonio lab plan: which directions a machine can measure, in which order, and how long that takes.
 
+#include "command_line/fixed.hpp"
+#include "command_line/machine_choice.hpp"
 #include "lab.hpp"
 #include <gonio/capture/scan.hpp>
 #include <gonio/io/samples.hpp>
@@ -69,17 +71,17 @@ void run(const plan_command& options) {
 
 }  // namespace
 
-void add_lab_plan(CLI::App& lab) {
-  auto* command = lab.add_subcommand("plan", "Directions as poses of a machine, in the order of a short way");
+void add_lab_plan(command& lab) {
+  auto command = lab.add_subcommand("plan", "Directions as poses of a machine, in the order of a short way");
   const auto options = std::make_shared<plan_command>();
-  auto* what = command->add_option_group("what", "What to measure (one of)");
-  what->add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
-  what->add_flag("--whole", options->whole,
-                 "Every camera pose of the half hemisphere under every lamp of the robot's arc");
-  what->require_option(1);
-  add_machine_options(*command, options->machine);
-  command->add_option("-o,--output", options->output, "Poses to write (.csv)")->required();
-  command->callback([options] { run(*options); });
+  auto what = command.add_option_group("what", "What to measure (one of)");
+  what.add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
+  what.add_flag("--whole", options->whole,
+                "Every camera pose of the half hemisphere under every lamp of the robot's arc");
+  what.require_option(1);
+  add_machine_options(command, options->machine);
+  command.add_option("-o,--output", options->output, "Poses to write (.csv)").required();
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -1,7 +1,9 @@
 /// gonio lab probe, gonio lab unwrap: an environment's picture in a mirror sphere, and back.
 
-#include "../lab/mirror_sphere_lab.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/threads_option.hpp"
 #include "lab.hpp"
+#include "lab/mirror_sphere_lab.hpp"
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/environment_map.hpp>
@@ -98,42 +100,41 @@ void unwrap(const probe_command& options) {
             << " % outside the 10 degrees around what the sphere hides\n";
 }
 
-void add_distance_option(CLI::App& command, double& distance) {
-  command
-      .add_option("--distance", distance,
-                  "From the sphere's centre to the camera, in radii of the sphere; far away if it is not given")
-      ->check(CLI::Range(1.001, 1e6));
+void add_distance_option(command& to, double& distance) {
+  to.add_option("--distance", distance,
+                "From the sphere's centre to the camera, in radii of the sphere; far away if it is not given")
+      .check(check::range(1.001, 1e6));
 }
 
 }  // namespace
 
-void add_lab_probe(CLI::App& lab) {
-  auto* command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
+void add_lab_probe(command& lab) {
+  auto command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
   const auto options = std::make_shared<probe_command>();
-  command->add_option("environment", options->input, "Light all around, latitude-longitude (.hdr)")->required();
-  add_distance_option(*command, options->distance);
-  command->add_option("--size", options->pixels, "Pixels of the picture each way")
-      ->check(CLI::Range(8, 8192))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Picture to write, filled by the sphere (.hdr)")->required();
-  command->callback([options] { photograph(*options); });
+  command.add_option("environment", options->input, "Light all around, latitude-longitude (.hdr)").required();
+  add_distance_option(command, options->distance);
+  command.add_option("--size", options->pixels, "Pixels of the picture each way")
+      .check(check::range(8, 8192))
+      .capture_default_str();
+  command.add_option("-o,--output", options->output, "Picture to write, filled by the sphere (.hdr)").required();
+  command.callback([options] { photograph(*options); });
 }
 
-void add_lab_unwrap(CLI::App& lab) {
-  auto* command = lab.add_subcommand("unwrap", "Turn a picture of a mirror sphere into the light all around");
+void add_lab_unwrap(command& lab) {
+  auto command = lab.add_subcommand("unwrap", "Turn a picture of a mirror sphere into the light all around");
   const auto options = std::make_shared<probe_command>();
-  command->add_option("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
-      ->required();
-  add_distance_option(*command, options->distance);
-  command->add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
-      ->check(CLI::Range(1, 8192))
-      ->capture_default_str();
-  command->add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror")->capture_default_str();
-  command->add_option("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
-  command->add_option("--image", options->picture, "The picture beside the map, to look at (.png)");
-  add_threads_option(*command, options->threads);
-  command->add_option("-o,--output", options->output, "Map to write, latitude-longitude (.hdr)")->required();
-  command->callback([options] { unwrap(*options); });
+  command.add_option("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
+      .required();
+  add_distance_option(command, options->distance);
+  command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
+      .check(check::range(1, 8192))
+      .capture_default_str();
+  command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
+  command.add_option("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
+  command.add_option("--image", options->picture, "The picture beside the map, to look at (.png)");
+  add_threads_option(command, options->threads);
+  command.add_option("-o,--output", options->output, "Map to write, latitude-longitude (.hdr)").required();
+  command.callback([options] { unwrap(*options); });
 }
 
 }  // namespace cli

@@ -1,10 +1,13 @@
 /// gonio lab scan, gonio lab replay: readings of a machine, or of frames recorded earlier, kept one by one in a
 /// journal.
 
-#include "../lab/recorded_frames.hpp"
+#include "command_line/json.hpp"
+#include "command_line/machine_choice.hpp"
+#include "command_line/progress_bar.hpp"
 #include "lab.hpp"
-#include "progress_bar.hpp"
+#include "lab/recorded_frames.hpp"
 #include <gonio/capture/scan.hpp>
+#include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 
@@ -87,45 +90,45 @@ void run(const replay_command& options) {
 
 }  // namespace
 
-void add_lab_scan(CLI::App& lab) {
-  auto* command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
+void add_lab_scan(command& lab) {
+  auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
   const auto options = std::make_shared<scan_command>();
-  command->add_option("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)")->required();
-  auto* what = command->add_option_group("what", "What lies in the machine (one of)");
-  what->add_option("--material", options->material, "A material's table (.binary or .binary.gz)");
-  what->add_flag("--white", options->white, "The white reference");
-  what->require_option(1);
-  command->add_option("--reflectance", options->reflectance, "Of the white reference")
-      ->check(CLI::Range(0.01, 1.0))
-      ->capture_default_str();
-  add_machine_options(*command, options->machine);
-  command->add_option("--camera", options->camera, "The camera's response")
-      ->check(CLI::IsMember({"linear", "gamma", "s-shaped"}))
-      ->capture_default_str();
-  command->add_flag("--ideal", options->ideal,
-                    "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
-  command->add_option("--noise", options->noise, "Factor of all noise")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--misaligned", options->misalignment, "Degrees by which lamps, camera and sample are off")
-      ->check(CLI::Range(0.0, 10.0))
-      ->capture_default_str();
-  command->add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off")->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)")->required();
-  command->callback([options] { run(*options); });
+  command.add_option("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
+  auto what = command.add_option_group("what", "What lies in the machine (one of)");
+  what.add_option("--material", options->material, "A material's table (.binary or .binary.gz)");
+  what.add_flag("--white", options->white, "The white reference");
+  what.require_option(1);
+  command.add_option("--reflectance", options->reflectance, "Of the white reference")
+      .check(check::range(0.01, 1.0))
+      .capture_default_str();
+  add_machine_options(command, options->machine);
+  command.add_option("--camera", options->camera, "The camera's response")
+      .check(check::one_of({"linear", "gamma", "s-shaped"}))
+      .capture_default_str();
+  command.add_flag("--ideal", options->ideal,
+                   "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
+  command.add_option("--noise", options->noise, "Factor of all noise")
+      .check(check::non_negative_number())
+      .capture_default_str();
+  command.add_option("--misaligned", options->misalignment, "Degrees by which lamps, camera and sample are off")
+      .check(check::range(0.0, 10.0))
+      .capture_default_str();
+  command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
+      .capture_default_str();
+  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.callback([options] { run(*options); });
 }
 
-void add_lab_replay(CLI::App& lab) {
-  auto* command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
+void add_lab_replay(command& lab) {
+  auto command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
   const auto options = std::make_shared<replay_command>();
-  command->add_option("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)")->required();
-  command->add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)")->required();
-  command->callback([options] { run(*options); });
+  command.add_option("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
+  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -1,9 +1,13 @@
 /// gonio learn: principal components of many materials, as a file.
 
-#include "command.hpp"
-#include "inputs.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/materials.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/io/prior.hpp>
 
 #include <iostream>
 #include <memory>
@@ -16,7 +20,7 @@ struct learn_options {
   material_source materials;
   std::filesystem::path output;
   std::size_t components = 60;
-  thinning thin{3, 5};
+  thinning thin{{3, 5}};
   gonio::thread_count threads;
 };
 
@@ -30,17 +34,17 @@ std::string source_of(const material_source& source, std::size_t materials) {
 
 }  // namespace
 
-void add_learn(CLI::App& app) {
-  auto* command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
+void add_learn(command& app) {
+  auto command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
   const auto options = std::make_shared<learn_options>();
-  add_material_options(*command, options->materials)->require_option(1);
-  command->add_option("--components", options->components, "Number of components to keep")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  add_thin_option(*command, options->thin);
-  command->add_option("-o,--output", options->output, "Prior to write")->required();
-  add_threads_option(*command, options->threads);
-  command->callback([options] {
+  add_material_options(command, options->materials).require_option(1);
+  command.add_option("--components", options->components, "Number of components to keep")
+      .check(check::positive_number())
+      .capture_default_str();
+  add_thin_option(command, options->thin);
+  command.add_option("-o,--output", options->output, "Prior to write").required();
+  add_threads_option(command, options->threads);
+  command.callback([options] {
     progress_bar bar;
     auto materials = read_materials(options->materials, options->threads, bar.listener());
     const std::string source_text = source_of(options->materials, materials.names.size());

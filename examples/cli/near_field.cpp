@@ -1,12 +1,15 @@
 /// gonio near-field: pictures of a flat sample, taken from close by, as measurements: of one material, or of each of
 /// several that clusters of colours tell apart.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/near_field_setup.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <charconv>
@@ -172,29 +175,29 @@ void run(const near_field_command& options) {
 
 }  // namespace
 
-void add_near_field(CLI::App& app) {
-  auto* command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
+void add_near_field(command& app) {
+  auto command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   command
-      ->add_option("pictures", options->pictures,
-                   "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
-                   "light and region of interest")
-      ->type_name("PICTURE SETUP")
-      ->required();
-  command->add_option("--clusters", options->clusters,
-                      "Several materials: how many, or auto; told apart by colour in the last picture, which should "
-                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
-  command->add_option("--labels", options->labels, "Picture of which pixels are which material (.png)");
+      .add_option("pictures", options->pictures,
+                  "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
+                  "light and region of interest")
+      .type_name("PICTURE SETUP")
+      .required();
+  command.add_option("--clusters", options->clusters,
+                     "Several materials: how many, or auto; told apart by colour in the last picture, which should "
+                     "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
+  command.add_option("--labels", options->labels, "Picture of which pixels are which material (.png)");
   command
-      ->add_option("--misplaced", options->misplacement,
-                   "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
-                   "the help of --prior")
-      ->capture_default_str();
-  add_prior_option(*command, options->prior);
-  command->add_option("--seed", options->seed, "Seed of the clusters")->capture_default_str();
-  add_threads_option(*command, options->threads);
-  command->add_option("-o,--output", options->output, "Samples to write (.csv)")->required();
-  command->callback([options] { run(*options); });
+      .add_option("--misplaced", options->misplacement,
+                  "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
+                  "the help of --prior")
+      .capture_default_str();
+  add_prior_option(command, options->prior);
+  command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
+  add_threads_option(command, options->threads);
+  command.add_option("-o,--output", options->output, "Samples to write (.csv)").required();
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

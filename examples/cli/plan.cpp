@@ -1,7 +1,8 @@
 /// `gonio plan`: directions as the poses of a goniometer, and a drawing of them.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "commands.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/render/image.hpp>
@@ -133,15 +134,14 @@ void run(const plan_options& options) {
 
 }  // namespace
 
-void add_plan(CLI::App& app) {
-  auto* command = app.add_subcommand("plan", "Print directions as poses of a goniometer, and draw them");
+void add_plan(command& app) {
+  auto command = app.add_subcommand("plan", "Print directions as poses of a goniometer, and draw them");
   const auto options = std::make_shared<plan_options>();
-  command->add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)")
-      ->required();
-  command->add_option("--image", options->picture,
-                      "Drawing of the hemisphere from above: discs are lights, rings are viewers (.png)");
-  command->add_flag("--json", options->print_json, "Print the poses as JSON");
-  command->callback([options] { run(*options); });
+  command.add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)").required();
+  command.add_option("--image", options->picture,
+                     "Drawing of the hemisphere from above: discs are lights, rings are viewers (.png)");
+  command.add_flag("--json", options->print_json, "Print the poses as JSON");
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -1,9 +1,13 @@
 /// gonio reconstruct: samples in, a table over all directions out.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/json.hpp"
+#include "command_line/materials.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/reconstruct_methods.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include "pictures.hpp"
-#include "reconstruct_methods.hpp"
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
@@ -56,18 +60,18 @@ const method& method_named(const std::string& name) {
 }
 
 /// Refuses options that the method would ignore, naming the methods that would not.
-void require_taken(const CLI::App& command, const method& chosen) {
+void require_taken(const command& given, const method& chosen) {
   const auto takes = [](const method& m, std::string_view option) { return std::ranges::count(m.takes, option) > 0; };
   for (const method& other : methods())
     for (const std::string_view option : other.takes) {
-      if (command.count(std::string(option)) == 0 || takes(chosen, option)) continue;
+      if (given.count(std::string(option)) == 0 || takes(chosen, option)) continue;
       std::string names;
       for (const method& m : methods())
         if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
       throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
                          names);
     }
-  if (command.count("--truth") > 0 && command.count("--story") == 0)
+  if (given.count("--truth") > 0 && given.count("--story") == 0)
     throw gonio::error("--truth is only for the picture of --story, which is not asked for");
 }
 
@@ -111,68 +115,64 @@ void reconstruct(const reconstruct_options& options, const method& chosen) {
   print(result, samples.size(), options.print_json);
 }
 
-void add_method_option(CLI::App& command, std::string& name) {
+void add_method_option(command& to, std::string& name) {
   std::string description;
   std::vector<std::string> names;
   for (const method& m : methods()) {
     description += (names.empty() ? "" : "; ") + std::string(m.name) + ": " + m.description;
     names.emplace_back(m.name);
   }
-  command.add_option("--method", name, description)->check(CLI::IsMember(names))->capture_default_str();
+  to.add_option("--method", name, description).check(check::one_of(names)).capture_default_str();
 }
 
-void add_correction_options(CLI::App& command, reconstruct_options& options) {
-  command
-      .add_option("--gamma", options.gamma,
-                  "How correction finds outliers: a number, with which the weight of a sample falls off with its "
-                  "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
-      ->capture_default_str();
-  command.add_option("--iterations", options.iterations, "Rounds of correction at most")
-      ->check(CLI::Range(1, 10'000))
-      ->capture_default_str();
-  command.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
-  command.add_option("--story", options.story,
-                     "Folder for a picture of the first rounds of correction and the last, and their history");
-  command.add_option("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
-  command
-      .add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
-      ->capture_default_str();
+void add_correction_options(command& to, reconstruct_options& options) {
+  to.add_option("--gamma", options.gamma,
+                "How correction finds outliers: a number, with which the weight of a sample falls off with its "
+                "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
+      .capture_default_str();
+  to.add_option("--iterations", options.iterations, "Rounds of correction at most")
+      .check(check::range(1, 10'000))
+      .capture_default_str();
+  to.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
+  to.add_option("--story", options.story,
+                "Folder for a picture of the first rounds of correction and the last, and their history");
+  to.add_option("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
+  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
+      .capture_default_str();
 }
 
 }  // namespace
 
-void add_reconstruct(CLI::App& app) {
-  auto* command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
+void add_reconstruct(command& app) {
+  auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
-  command->add_option("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)")
-      ->required();
-  add_method_option(*command, options->method);
-  add_prior_option(*command, options->materials.prior);
-  add_material_options(*command, options->materials);
+  command.add_option("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
+  add_method_option(command, options->method);
+  add_prior_option(command, options->materials.prior);
+  add_material_options(command, options->materials);
   command
-      ->add_option("--metric", options->metric,
-                   "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
-                   "root, log (ln(1 + x), the default) or log-relative")
-      ->check(CLI::IsMember({"lin", "root", "log", "log-relative"}));
-  command->add_option("--root", options->root, "Which root --metric root takes")->capture_default_str();
-  add_solver_options(*command, options->solver);
-  command->add_option(
+      .add_option("--metric", options->metric,
+                  "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
+                  "root, log (ln(1 + x), the default) or log-relative")
+      .check(check::one_of({"lin", "root", "log", "log-relative"}));
+  command.add_option("--root", options->root, "Which root --metric root takes").capture_default_str();
+  add_solver_options(command, options->solver);
+  command.add_option(
       "--noise", options->noise,
       "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
-  add_correction_options(*command, *options);
+  add_correction_options(command, *options);
   command
-      ->add_option(
-          "--misplaced", options->misplacement,
-          "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
-          "of highlights count less then (for pictures: gonio near-field --misplaced)")
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output, "Table to write (.binary, or .npy)");
-  command->add_option("--image", options->picture, "Picture of a sphere to write (.png)");
-  command->add_flag("--json", options->print_json, "Print the result of the fit as JSON");
-  add_threads_option(*command, options->threads);
-  command->callback([command, options] {
+      .add_option("--misplaced", options->misplacement,
+                  "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
+                  "of highlights count less then (for pictures: gonio near-field --misplaced)")
+      .capture_default_str();
+  command.add_option("-o,--output", options->output, "Table to write (.binary, or .npy)");
+  command.add_option("--image", options->picture, "Picture of a sphere to write (.png)");
+  command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([command, options] {
     const method& chosen = method_named(options->method);
-    require_taken(*command, chosen);
+    require_taken(command, chosen);
     reconstruct(*options, chosen);
   });
 }

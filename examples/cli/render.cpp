@@ -1,9 +1,10 @@
 /// gonio render: pictures of tables, side by side.
 
-#include "command.hpp"
-#include "inputs.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
 #include "pictures.hpp"
-#include "progress_bar.hpp"
+#include <gonio/io/merl_gzip.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>
@@ -43,30 +44,30 @@ void render(const render_options& options) {
 
 }  // namespace
 
-void add_render(CLI::App& app) {
-  auto* command = app.add_subcommand(
+void add_render(command& app) {
+  auto command = app.add_subcommand(
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
-  command->add_option("tables", options->tables, "Tables (.binary or .binary.gz), left to right")->required();
-  command->add_option("-o,--output", options->output, "Picture to write (.png)")->required();
-  auto* slices = command->add_flag("--slices", options->slices,
-                                   "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
-  auto* environment = command->add_option("--environment", options->environment,
-                                          "Light from all around: a latitude-longitude picture (.hdr)");
-  environment->excludes(slices);
+  command.add_option("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
+  command.add_option("-o,--output", options->output, "Picture to write (.png)").required();
+  auto slices = command.add_flag("--slices", options->slices,
+                                 "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
+  auto environment = command.add_option("--environment", options->environment,
+                                        "Light from all around: a latitude-longitude picture (.hdr)");
+  environment.excludes(slices);
   command
-      ->add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
-      ->check(CLI::Range(1, 1'000'000))
-      ->needs(environment)
-      ->capture_default_str();
+      .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
+      .check(check::range(1, 1'000'000))
+      .needs(environment)
+      .capture_default_str();
   command
-      ->add_option("--white", options->white, "Exposure: the mean luminance that a white Lambertian sphere would have")
-      ->check(CLI::PositiveNumber)
-      ->needs(environment)
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the samples")->needs(environment)->capture_default_str();
-  add_threads_option(*command, options->threads);
-  command->callback([options] { render(*options); });
+      .add_option("--white", options->white, "Exposure: the mean luminance that a white Lambertian sphere would have")
+      .check(check::positive_number())
+      .needs(environment)
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the samples").needs(environment).capture_default_str();
+  add_threads_option(command, options->threads);
+  command.callback([options] { render(*options); });
 }
 
 }  // namespace cli

@@ -2,7 +2,8 @@
 
 #include "shape.hpp"
 
-#include "command.hpp"
+#include "command_line/fixed.hpp"
+#include "commands.hpp"
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>
 
@@ -35,13 +36,13 @@ gonio::similarity_transform find_pose(const gonio::shape_model& model, const gon
   return found.transform;
 }
 
-void add_shape(CLI::App& app) {
-  auto* shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/shapes.md)");
-  shape->require_subcommand(1);
-  add_shape_learn(*shape);
-  add_shape_recover(*shape);
-  add_shape_demo(*shape);
-  add_shape_grow(*shape);
+void add_shape(command& app) {
+  auto shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/shapes.md)");
+  shape.require_subcommand();
+  add_shape_learn(shape);
+  add_shape_recover(shape);
+  add_shape_demo(shape);
+  add_shape_grow(shape);
 }
 
 }  // namespace cli

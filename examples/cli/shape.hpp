@@ -1,21 +1,19 @@
 #pragma once
 /// The steps of `gonio shape`, and what they have in common.
 
-#include "inputs.hpp"
+#include "command_line/command.hpp"
 #include <gonio/shape/mesh_picture.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 #include <gonio/shape/shape_model.hpp>
-
-#include <CLI/CLI.hpp>
 
 #include <vector>
 
 namespace cli {
 
-void add_shape_learn(CLI::App& shape);
-void add_shape_recover(CLI::App& shape);
-void add_shape_demo(CLI::App& shape);
-void add_shape_grow(CLI::App& shape);
+void add_shape_learn(command& shape);
+void add_shape_recover(command& shape);
+void add_shape_demo(command& shape);
+void add_shape_grow(command& shape);
 
 /// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
 /// compared with; without distances in grey. `largest` mm are pure blue and red.

@@ -1,8 +1,11 @@
 /// gonio shape demo: ear canals that nobody has, held out from the model, with holes between the bends; how well they
 /// are recovered, beside filling the holes smoothly. After section 4 of "Anatomically correct surface recovery".
 
-#include "../lab/ear_canal_scans.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "lab/ear_canal_scans.hpp"
 #include "shape.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/mesh.hpp>
@@ -223,32 +226,28 @@ void show_shapes(const shape_demo_command& options) {
 
 }  // namespace
 
-void add_shape_demo(CLI::App& shape) {
-  auto* command = shape.add_subcommand("demo", "Recover made-up ear canals, beside filling holes smoothly");
+void add_shape_demo(command& shape) {
+  auto command = shape.add_subcommand("demo", "Recover made-up ear canals, beside filling holes smoothly");
   const auto options = std::make_shared<shape_demo_command>();
-  command->add_option("--shapes", options->shapes, "To learn from")
-      ->check(CLI::Range(3, 100000))
-      ->capture_default_str();
-  command->add_option("--held-out", options->held_out, "To recover")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of all that is random")->capture_default_str();
-  command->add_option("--hole", options->hole, "Between the bends")
-      ->check(CLI::IsMember({"large", "small"}))
-      ->capture_default_str();
-  command->add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
-      ->check(CLI::Range(0.0, 5.0))
-      ->capture_default_str();
+  command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
+  command.add_option("--held-out", options->held_out, "To recover").check(check::range(1, 10000)).capture_default_str();
+  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
+  command.add_option("--hole", options->hole, "Between the bends")
+      .check(check::one_of({"large", "small"}))
+      .capture_default_str();
+  command.add_option("--edge-noise", options->edge_noise, "Within 1.5 mm of the hole, mm")
+      .check(check::range(0.0, 5.0))
+      .capture_default_str();
   command
-      ->add_option("--trials", options->trials,
-                   "Shapes left out for each ear, to see how sure it is and whether that is so; 0 for none, else 10 or "
-                   "more")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
-  add_threads_option(*command, options->threads);
-  command->add_flag("--json", options->as_json, "Print figures as JSON");
-  command->add_option("-o,--output", options->folder, "Folder for a picture, the model, and the files of one ear");
-  command->callback([options] { show_shapes(*options); });
+      .add_option("--trials", options->trials,
+                  "Shapes left out for each ear, to see how sure it is and whether that is so; 0 for none, else 10 or "
+                  "more")
+      .check(check::range(0, 100000))
+      .capture_default_str();
+  add_threads_option(command, options->threads);
+  command.add_flag("--json", options->as_json, "Print figures as JSON");
+  command.add_option("-o,--output", options->folder, "Folder for a picture, the model, and the files of one ear");
+  command.callback([options] { show_shapes(*options); });
 }
 
 }  // namespace cli

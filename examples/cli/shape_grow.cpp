@@ -2,8 +2,11 @@
 /// which are no good; how many it accepts, and how far their vertices are from where they belong. After section 2 of
 /// "Anatomically correct surface recovery".
 
-#include "../lab/ear_canal_scans.hpp"
-#include "progress_bar.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "lab/ear_canal_scans.hpp"
 #include "shape.hpp"
 #include <gonio/shape/bootstrap.hpp>
 
@@ -110,28 +113,28 @@ void grow_shapes(const shape_grow_command& options) {
 
 }  // namespace
 
-void add_shape_grow(CLI::App& shape) {
-  auto* command = shape.add_subcommand("grow", "Grow a model of made-up ear canals by scans, and see what it accepts");
+void add_shape_grow(command& shape) {
+  auto command = shape.add_subcommand("grow", "Grow a model of made-up ear canals by scans, and see what it accepts");
   const auto options = std::make_shared<shape_grow_command>();
-  command->add_option("--annotated", options->annotated, "Shapes to begin with")
-      ->check(CLI::Range(2, 100000))
-      ->capture_default_str();
-  command->add_option("--scans", options->scans, "To grow by")->check(CLI::Range(1, 100000))->capture_default_str();
-  command->add_option("--defects", options->defects, "Share of them that must be refused")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
+  command.add_option("--annotated", options->annotated, "Shapes to begin with")
+      .check(check::range(2, 100000))
+      .capture_default_str();
+  command.add_option("--scans", options->scans, "To grow by").check(check::range(1, 100000)).capture_default_str();
+  command.add_option("--defects", options->defects, "Share of them that must be refused")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
   command
-      ->add_option("--most-missing", options->how.registration.most_missing,
-                   "Share of the vertices that a scan may not show")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command->add_option("--wrong", options->wrong, "Mean distance from the true vertices that is told as too far, mm")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of all that is random")->capture_default_str();
-  add_threads_option(*command, options->threads);
-  command->add_flag("--json", options->as_json, "Print figures as JSON");
-  command->callback([options] { grow_shapes(*options); });
+      .add_option("--most-missing", options->how.registration.most_missing,
+                  "Share of the vertices that a scan may not show")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--wrong", options->wrong, "Mean distance from the true vertices that is told as too far, mm")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Of all that is random").capture_default_str();
+  add_threads_option(command, options->threads);
+  command.add_flag("--json", options->as_json, "Print figures as JSON");
+  command.callback([options] { grow_shapes(*options); });
 }
 
 }  // namespace cli

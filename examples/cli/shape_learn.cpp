@@ -1,6 +1,7 @@
 /// gonio shape learn: an active shape model of corresponded meshes, and of scans that it registers by itself.
 
-#include "progress_bar.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
 #include "shape.hpp"
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>
@@ -64,15 +65,15 @@ void learn_shapes(const shape_learn_command& options) {
 
 }  // namespace
 
-void add_shape_learn(CLI::App& shape) {
-  auto* command = shape.add_subcommand("learn", "Learn a model of shapes in correspondence, and grow it by scans");
+void add_shape_learn(command& shape) {
+  auto command = shape.add_subcommand("learn", "Learn a model of shapes in correspondence, and grow it by scans");
   const auto options = std::make_shared<shape_learn_command>();
-  command->add_option("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
-      ->required();
-  command->add_option("--scans", options->scans, "Scans of any triangulation, to register and learn from");
-  add_threads_option(*command, options->threads);
-  command->add_option("-o,--output", options->output, "Model to write (.shapes)")->required();
-  command->callback([options] { learn_shapes(*options); });
+  command.add_option("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
+      .required();
+  command.add_option("--scans", options->scans, "Scans of any triangulation, to register and learn from");
+  add_threads_option(command, options->threads);
+  command.add_option("-o,--output", options->output, "Model to write (.shapes)").required();
+  command.callback([options] { learn_shapes(*options); });
 }
 
 }  // namespace cli

@@ -1,5 +1,7 @@
 /// gonio shape recover: what a partial scan does not show.
 
+#include "command_line/fixed.hpp"
+#include "command_line/threads_option.hpp"
 #include "shape.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/mesh.hpp>
@@ -91,29 +93,27 @@ void recover_shape(const shape_recover_command& options) {
 
 }  // namespace
 
-void add_shape_recover(CLI::App& shape) {
-  auto* command = shape.add_subcommand("recover", "Recover what a scan does not show");
+void add_shape_recover(command& shape) {
+  auto command = shape.add_subcommand("recover", "Recover what a scan does not show");
   const auto options = std::make_shared<shape_recover_command>();
-  command->add_option("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)")->required();
-  command->add_option("--model", options->model, "From gonio shape learn")->required();
-  command->add_option("--noise", options->noise, "Of the scan, mm")
-      ->check(CLI::Range(1e-4, 10.0))
-      ->capture_default_str();
+  command.add_option("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)").required();
+  command.add_option("--model", options->model, "From gonio shape learn").required();
+  command.add_option("--noise", options->noise, "Of the scan, mm")
+      .check(check::range(1e-4, 10.0))
+      .capture_default_str();
   command
-      ->add_option(
-          "--trials", options->trials,
-          "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
-  command->add_option("--truth", options->truth, "The whole surface, to compare with");
-  command->add_option("--image", options->picture, "The recovered surface from two sides (.png)");
-  add_threads_option(*command, options->threads);
+      .add_option("--trials", options->trials,
+                  "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
+      .check(check::range(0, 100000))
+      .capture_default_str();
+  command.add_option("--truth", options->truth, "The whole surface, to compare with");
+  command.add_option("--image", options->picture, "The recovered surface from two sides (.png)");
+  add_threads_option(command, options->threads);
   command
-      ->add_option(
-          "-o,--output", options->output,
-          "Recovered surface to write (.ply, or without --truth .obj), coloured by its distance from the truth")
-      ->required();
-  command->callback([options] { recover_shape(*options); });
+      .add_option("-o,--output", options->output,
+                  "Recovered surface to write (.ply, or without --truth .obj), coloured by its distance from the truth")
+      .required();
+  command.callback([options] { recover_shape(*options); });
 }
 
 }  // namespace cli

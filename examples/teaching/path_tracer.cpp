@@ -8,7 +8,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/evaluate/few_samples.hpp>
+#include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/render.hpp>

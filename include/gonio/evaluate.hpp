@@ -6,3 +6,4 @@
 #include <gonio/evaluate/perceived_norm.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/test_materials.hpp>

@@ -22,30 +22,8 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 }  // namespace
 
 TEST_CASE("help is no error") {
-  for (const char* command : {"",
-                              "learn ",
-                              "expand ",
-                              "design ",
-                              "plan ",
-                              "sample ",
-                              "near-field ",
-                              "reconstruct ",
-                              "fit ",
-                              "compare ",
-                              "render ",
-                              "info ",
-                              "evaluate ",
-                              "evaluate nielsen-test-materials ",
-                              "evaluate measured-materials ",
-                              "evaluate linear-combination ",
-                              "evaluate noell-table1 ",
-                              "evaluate noell-table2 ",
-                              "evaluate noell-measured ",
-                              "evaluate noell-corrections ",
-                              "evaluate directions ",
-                              "evaluate models ",
-                              "evaluate model-properties ",
-                              "evaluate model-recovery "}) {
+  for (const char* command : {"", "learn ", "expand ", "design ", "plan ", "sample ", "near-field ", "reconstruct ",
+                              "fit ", "compare ", "render ", "info "}) {
     const auto result = gonio_tool(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);
@@ -141,29 +119,6 @@ TEST_CASE("bad requests of the correction method") {
   refuses(correction + "--exclude no-such-stone --story " + story.string(), {"no-such-stone"});
   refuses(correction + "--story " + (path / "below-a-file").string(), {"below-a-file", "cannot be made"});
   CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
-}
-
-TEST_CASE("bad requests of the experiments after Noell et al.") {
-  const std::string table = "evaluate noell-table1 --networks n.npy ", measured = "evaluate noell-measured ";
-  refuses(table + "--methods magic", {"magic"});
-  refuses(table + "--methods gamma--1", {"gamma--1"});
-  refuses(table + "--iterations 3 -1", {"--iterations", "-1"});
-  refuses(table + "--data 0", {"--data"});
-  refuses(table + "--outliers 1.5", {"--outliers"});
-  refuses(table + "--state /no/such/folder/state", {"/no/such/folder/state"});
-  refuses("evaluate noell-table2 --networks /no/such/file.npy", {"/no/such/file.npy"});
-  refuses(measured + "--tables x", {"--networks"});
-  refuses(measured + "--networks n.npy", {"--tables", "--samples"});
-  refuses(measured + "--networks n.npy --data 2 --tables x", {"--data"});
-  refuses(measured + "--networks n.npy --tables /no/such/folder", {"/no/such/folder"});
-  refuses("evaluate noell-corrections --networks /no/such/file.npy", {"/no/such/file.npy"});
-}
-
-TEST_CASE("bad requests of the experiment with a soft and a specular prior") {
-  refuses("evaluate soft-specular", {"--networks"});
-  refuses("evaluate soft-specular --networks n.npy --counts 3", {"--counts", "3"});
-  refuses("evaluate soft-specular --networks n.npy --threshold much", {"--threshold", "much"});
-  refuses("evaluate soft-specular --networks /no/such/file.npy", {"/no/such/file.npy"});
 }
 
 TEST_CASE("bad tables and requests of tables") {

@@ -1,4 +1,4 @@
-/// gonio render in an environment, gonio evaluate importance-sampling, and tables as arrays.
+/// gonio render in an environment, and tables as arrays.
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
@@ -8,7 +8,6 @@
 #include <gonio/render/environment_map.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -41,17 +40,6 @@ TEST_CASE("gonio render --environment: a sphere among its surroundings, the same
   CHECK(one.size() > 50'000u);
 }
 
-TEST_CASE("gonio evaluate importance-sampling: metal gains") {
-  const rendered_folder given;
-  const auto result = gonio_tool("evaluate importance-sampling " + given.table + " --environment " + given.sky +
-                                 " --points 200 --draws 100 --json");
-  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-  const auto ratios = nlohmann::json::parse(result.output)["gold"];
-  for (const char* light : {"white", "formula", "sky"}) CHECK(ratios[light].get<double>() > 4.0);
-  const auto table = gonio_tool("evaluate importance-sampling " + given.table + " --points 20 --draws 20");
-  CHECK(table.output.find("| gold |") != std::string::npos);
-}
-
 TEST_CASE("a table as an array of numpy") {
   const rendered_folder given;
   REQUIRE(gonio_tool("expand --formula gold-metal -o " + given.at("gold.npy")).exit_code == 0);
@@ -75,7 +63,4 @@ TEST_CASE("bad requests of pictures in an environment") {
   refuses("--quality 4", "--environment");
   refuses("--environment " + given.sky + " --slices", "--slices");
   refuses("--environment " + given.table, "gold.binary");
-  const auto none = gonio_tool("evaluate importance-sampling");
-  CHECK(none.exit_code == 2);
-  CHECK(none.output.find("--networks") != std::string::npos);
 }

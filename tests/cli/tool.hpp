@@ -1,26 +1,7 @@
 #pragma once
 /// Runs the built `gonio` tool as a user would.
 
-#include <sys/wait.h>
-
-#include <array>
-#include <cstdio>
-#include <string>
-
-struct tool_result {
-  int exit_code = -1;
-  std::string output;  ///< standard output and error together
-};
+#include "../run_program.hpp"
 
 /// Runs `gonio ARGUMENTS` through the shell.
-inline tool_result gonio_tool(const std::string& arguments) {
-  tool_result result;
-  std::FILE* pipe = ::popen((std::string("'") + GONIO_TOOL + "' " + arguments + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return result;
-  std::array<char, 4096> buffer{};
-  for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    result.output.append(buffer.data(), count);
-  const int status = ::pclose(pipe);
-  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return result;
-}
+inline tool_result gonio_tool(const std::string& arguments) { return run_program(GONIO_TOOL, arguments); }

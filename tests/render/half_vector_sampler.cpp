@@ -1,5 +1,5 @@
 #include "../sampler_checks.hpp"
-#include <gonio/evaluate/few_samples.hpp>
+#include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/half_vector_sampler.hpp>

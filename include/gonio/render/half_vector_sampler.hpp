@@ -83,7 +83,7 @@ class half_vector_bins {
 /// sphere of directions. Some half vectors, one or two in a hundred, reflect the viewer below the horizon: these
 /// directions have weight 0 and are counted by pdf, as renderers expect who test it. Cosine-weighted directions are at
 /// least a tenth, so that a weight is at most 10 pi f. How much less its estimates vary than those of cosine-weighted
-/// directions: `gonio evaluate importance-sampling`.
+/// directions: `gonio-papers importance-sampling`.
 template <class Brdf, std::floating_point Real = double>
 requires requires(const Brdf& f, const Eigen::Matrix<Real, 3, 1>& w) {
   { f(w, w) }

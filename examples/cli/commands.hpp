@@ -1,0 +1,22 @@
+#pragma once
+/// The subcommands of the `gonio` tool. Each file of this folder holds one and registers it here.
+
+#include "command_line/command.hpp"
+
+namespace cli {
+
+void add_learn(command& app);
+void add_expand(command& app);
+void add_design(command& app);
+void add_plan(command& app);
+void add_sample(command& app);
+void add_near_field(command& app);
+void add_reconstruct(command& app);
+void add_fit(command& app);
+void add_compare(command& app);
+void add_render(command& app);
+void add_info(command& app);
+void add_lab(command& app);
+void add_shape(command& app);
+
+}  // namespace cli

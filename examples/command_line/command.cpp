@@ -1,0 +1,193 @@
+#include "command.hpp"
+
+#include <gonio/core/error.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <map>
+#include <new>
+
+namespace cli {
+
+namespace {
+
+constexpr int bad_input = 2;
+constexpr int failure = 1;
+
+/// The number of a word. CLI11 knows an enumeration's values by their numbers and does not print them.
+enum class word_number : int {};
+
+}  // namespace
+
+// ---- checks --------------------------------------------------------------------------------------------------------
+
+check::check(const CLI::Validator& known) : known_(std::make_shared<const CLI::Validator>(known)) {}
+
+check check::positive_number() { return check(CLI::PositiveNumber); }
+check check::non_negative_number() { return check(CLI::NonNegativeNumber); }
+check check::range(double lowest, double highest) { return check(CLI::Range(lowest, highest)); }
+check check::range(int lowest, int highest) { return check(CLI::Range(lowest, highest)); }
+check check::range(unsigned lowest, unsigned highest) { return check(CLI::Range(lowest, highest)); }
+check check::one_of(std::vector<std::string> words) { return check(CLI::IsMember(std::move(words))); }
+check check::one_of(std::initializer_list<int> numbers) { return check(CLI::IsMember(numbers)); }
+
+check check::without(std::function<std::string(const std::string&)> complaint, const std::string& type) {
+  return check(CLI::Validator([complaint = std::move(complaint)](std::string& text) { return complaint(text); }, type));
+}
+
+check operator&(const check& first, const check& second) { return check(*first.known_ & *second.known_); }
+
+// ---- options -------------------------------------------------------------------------------------------------------
+
+option option::required() { return option(*known_->required()); }
+option option::check(const cli::check& wanted) { return option(*known_->check(*wanted.known_)); }
+option option::capture_default_str() { return option(*known_->capture_default_str()); }
+option option::default_str(const std::string& text) { return option(*known_->default_str(text)); }
+option option::type_name(const std::string& name) { return option(*known_->type_name(name)); }
+option option::repeatable() { return option(*known_->expected(1)->take_all()); }
+option option::needs(option other) { return option(*known_->needs(other.known_)); }
+option option::excludes(option other) { return option(*known_->excludes(other.known_)); }
+
+// ---- commands ------------------------------------------------------------------------------------------------------
+
+command command::add_subcommand(const std::string& name, const std::string& description) {
+  return command(*known_->add_subcommand(name, description));
+}
+
+option_group command::add_option_group(const std::string& name, const std::string& description) {
+  return option_group(*known_->add_option_group(name, description));
+}
+
+void command::require_subcommand() { known_->require_subcommand(1); }
+
+option command::add_option(const std::string& names, std::string& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, std::filesystem::path& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, int& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, unsigned& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, unsigned long& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, unsigned long long& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, double& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, std::optional<double>& value, const std::string& description) {
+  return option(*known_->add_option(names, value, description));
+}
+
+option command::add_option(const std::string& names, std::vector<std::string>& values, const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<std::filesystem::path>& values,
+                           const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<int>& values, const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<unsigned long>& values,
+                           const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<unsigned long long>& values,
+                           const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<double>& values, const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::pair<int, int>& values, const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_option(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
+                           const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
+option command::add_choice(const std::string& names, std::function<void(int)> choose,
+                           std::initializer_list<std::pair<const char*, int>> words, const std::string& description) {
+  std::map<std::string, word_number> numbers;
+  std::string all;
+  for (const auto& [word, number] : words) {
+    numbers.emplace(word, word_number{number});
+    all += (all.empty() ? "" : ",") + std::string(word);
+  }
+  auto* added = known_->add_option_function<word_number>(
+      names, [choose = std::move(choose)](const word_number& number) { choose(static_cast<int>(number)); },
+      description);
+  added->transform(CLI::CheckedTransformer(numbers, CLI::ignore_case).description('{' + all + '}'));
+  return option(*added);
+}
+
+option command::add_flag(const std::string& names, bool& value, const std::string& description) {
+  return option(*known_->add_flag(names, value, description));
+}
+
+void command::callback(std::function<void()> work) { known_->callback(std::move(work)); }
+
+std::size_t command::count(const std::string& name) const { return known_->count(name); }
+
+void option_group::require_option(std::size_t number) { known().require_option(static_cast<int>(number)); }
+void option_group::require_option(std::size_t least, std::size_t most) { known().require_option(least, most); }
+
+// ---- the program ---------------------------------------------------------------------------------------------------
+
+program::program(const std::string& name, const std::string& description, const std::string& version)
+    : program(name, std::make_unique<CLI::App>(description, name)) {
+  all_->set_version_flag("--version", version);
+  require_subcommand();
+}
+
+program::program(std::string name, std::unique_ptr<CLI::App> all)
+    : command(*all), name_(std::move(name)), all_(std::move(all)) {}
+
+program::~program() = default;
+
+int program::run(int argc, char** argv) {
+  const auto complain = [&](const std::string& what, int code) {
+    std::cerr << name_ << ": " << what << '\n';
+    return code;
+  };
+  try {
+    all_->parse(argc, argv);
+    return 0;
+  } catch (const CLI::Success& request) {  // --help and --version
+    return all_->exit(request);
+  } catch (const CLI::ParseError& error) {
+    return complain(std::string(error.what()) + " (" + name_ + " --help shows the usage)", bad_input);
+  } catch (const gonio::error& error) {
+    return complain(error.what(), bad_input);
+  } catch (const std::bad_alloc&) {
+    return complain("there is not enough memory", failure);
+  } catch (const std::exception& error) {
+    return complain(error.what(), failure);
+  }
+}
+
+}  // namespace cli

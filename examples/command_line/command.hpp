@@ -1,0 +1,141 @@
+#pragma once
+/// The command line's commands, options and checks, and a program that runs them. They stand before CLI11, which takes
+/// seconds to parse: only command.cpp includes it. Everything here but `program` is a handle, cheap to copy, of what
+/// the program owns.
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
+
+namespace cli {
+
+/// What the values of an option must fulfil. Both of two: `first & second`.
+class check {
+ public:
+  [[nodiscard]] static check positive_number();
+  [[nodiscard]] static check non_negative_number();
+  /// Bounds included; what is written must be a number of the bounds' type.
+  [[nodiscard]] static check range(double lowest, double highest);
+  [[nodiscard]] static check range(int lowest, int highest);
+  [[nodiscard]] static check range(unsigned lowest, unsigned highest);
+  [[nodiscard]] static check one_of(std::vector<std::string> words);
+  [[nodiscard]] static check one_of(std::initializer_list<int> numbers);
+  /// `complaint` says what is wrong with a value, nothing if all is well; `type` is what help calls it.
+  [[nodiscard]] static check without(std::function<std::string(const std::string&)> complaint, const std::string& type);
+
+  friend check operator&(const check& first, const check& second);
+
+ private:
+  friend class option;
+  explicit check(const CLI::Validator& known);
+
+  std::shared_ptr<const CLI::Validator> known_;
+};
+
+/// All return the option, for the next.
+class option {
+ public:
+  option required();
+  option check(const cli::check& wanted);
+  /// Shows the value that the variable has now as the default.
+  option capture_default_str();
+  option default_str(const std::string& text);
+  option type_name(const std::string& name);
+  /// One value each time, of which all are kept.
+  option repeatable();
+  option needs(option other);
+  option excludes(option other);
+
+ private:
+  friend class command;
+  explicit option(CLI::Option& known) : known_(&known) {}
+
+  CLI::Option* known_;
+};
+
+class option_group;
+
+/// A subcommand. The variables of its options must live until the program has run.
+class command {
+ public:
+  command add_subcommand(const std::string& name, const std::string& description);
+  option_group add_option_group(const std::string& name, const std::string& description);
+  void require_subcommand();
+
+  option add_option(const std::string& names, std::string& value, const std::string& description);
+  option add_option(const std::string& names, std::filesystem::path& value, const std::string& description);
+  option add_option(const std::string& names, int& value, const std::string& description);
+  option add_option(const std::string& names, unsigned& value, const std::string& description);
+  option add_option(const std::string& names, unsigned long& value, const std::string& description);
+  option add_option(const std::string& names, unsigned long long& value, const std::string& description);
+  option add_option(const std::string& names, double& value, const std::string& description);
+  option add_option(const std::string& names, std::optional<double>& value, const std::string& description);
+  option add_option(const std::string& names, std::vector<std::string>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<std::filesystem::path>& values,
+                    const std::string& description);
+  option add_option(const std::string& names, std::vector<int>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<unsigned long>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<unsigned long long>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<double>& values, const std::string& description);
+  option add_option(const std::string& names, std::pair<int, int>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
+                    const std::string& description);
+  /// One of some words, in small letters or capitals; `choose` is given the number of the word.
+  option add_choice(const std::string& names, std::function<void(int)> choose,
+                    std::initializer_list<std::pair<const char*, int>> words, const std::string& description);
+  option add_flag(const std::string& names, bool& value, const std::string& description);
+
+  /// What is done when the command line has been read.
+  void callback(std::function<void()> work);
+  /// How often an option was given.
+  [[nodiscard]] std::size_t count(const std::string& name) const;
+
+ protected:
+  explicit command(CLI::App& known) : known_(&known) {}
+  [[nodiscard]] CLI::App& known() const noexcept { return *known_; }
+
+ private:
+  CLI::App* known_;
+};
+
+/// Options of which some number must be given.
+class option_group : public command {
+ public:
+  void require_option(std::size_t number);
+  void require_option(std::size_t least, std::size_t most);
+
+ private:
+  friend class command;
+  using command::command;
+};
+
+/// The whole command line. Bad input is reported in one line that begins with the program's name.
+class program : public command {
+ public:
+  program(const std::string& name, const std::string& description, const std::string& version);
+  program(const program&) = delete;
+  program& operator=(const program&) = delete;
+  ~program();
+
+  /// Reads the command line and does what it says. The exit code: 2 for bad input, 1 for any other failure.
+  [[nodiscard]] int run(int argc, char** argv);
+
+ private:
+  program(std::string name, std::unique_ptr<CLI::App> all);
+
+  std::string name_;
+  std::unique_ptr<CLI::App> all_;
+};
+
+}  // namespace cli

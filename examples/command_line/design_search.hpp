@@ -1,0 +1,46 @@
+#pragma once
+/// What `gonio design` and the experiments on directions search with.
+
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/progress.hpp>
+#include <gonio/design/near_field_geometry.hpp>
+#include <gonio/io/prior.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+struct design_options {
+  std::size_t count = 20;
+  std::string geometry = "point", criterion = "expected-error", search = "exchange";
+  double eta = 40.0, noise = 0.0;
+  double misplacement = 0.0;                 ///< radians by which light and viewer may be off: of points
+  gonio::near_field_options near_field;      ///< its constraint holds for points, too
+  std::vector<gonio::direction_pair> start;  ///< above the horizon
+  std::uint64_t seed = 0;
+  gonio::thread_count threads;
+};
+
+/// What to measure.
+struct designed {
+  std::vector<gonio::direction_pair> poses;     ///< light and viewer of each measurement; of a picture, its centre
+  std::vector<gonio::half_difference> samples;  ///< of all measurements, one for each pixel
+  double value = 0.0;                           ///< of the criterion
+};
+
+/// Throws gonio::error where there is not as much to choose from.
+[[nodiscard]] designed design(const gonio::log_relative_pca& prior, const design_options& options,
+                              const gonio::progress& listener = {});
+
+/// The expected error of measurements: root mean square over the cells, in the mapped domain; and as a share of what it
+/// is with nothing measured.
+struct design_quality {
+  double expected_error = 0.0, unknown_share = 0.0;
+};
+[[nodiscard]] design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options,
+                                        const designed& found);
+
+}  // namespace cli

@@ -1,0 +1,17 @@
+#include "fixed.hpp"
+
+#include "json.hpp"
+
+#include <cstdio>
+
+namespace cli {
+
+std::string fixed(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string fixed(const json& value, int digits) { return fixed(value.number(), digits); }
+
+}  // namespace cli

@@ -1,0 +1,14 @@
+#pragma once
+/// Numbers as people read them.
+
+#include <string>
+
+namespace cli {
+
+class json;
+
+/// A number in a table for people.
+[[nodiscard]] std::string fixed(double value, int digits);
+[[nodiscard]] std::string fixed(const json& value, int digits);
+
+}  // namespace cli

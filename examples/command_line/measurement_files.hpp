@@ -1,0 +1,17 @@
+#pragma once
+/// Files whose format is told from their name.
+
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <filesystem>
+
+namespace cli {
+
+/// Measurements: samples as CSV, or if the name ends in .brdf, Cornell's text format.
+[[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path);
+
+/// Writes a table in the format that the name asks for: an array if it ends in .npy, otherwise MERL's.
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table);
+
+}  // namespace cli

@@ -1,0 +1,32 @@
+#pragma once
+/// Analytic models as options name them, and how they are printed.
+
+#include "command.hpp"
+#include "json.hpp"
+#include "measures_as_json.hpp"
+#include <gonio/model/fit_model.hpp>
+
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
+[[nodiscard]] std::vector<const gonio::lobe_kind*> lobes_named(const std::string& model);
+
+/// A kind with Fresnel's factor: phong becomes phong-fresnel. Throws gonio::error for a kind that has none.
+[[nodiscard]] const gonio::lobe_kind& with_fresnel_factor(const gonio::lobe_kind& kind);
+
+/// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
+void add_fit_options(command& to, gonio::model_fit_options& options);
+
+/// Fits by one of the metrics lin, log and cubic.
+[[nodiscard]] gonio::model_fit fit_by_metric(const std::string& metric,
+                                             const std::vector<const gonio::lobe_kind*>& kinds,
+                                             std::span<const gonio::fit_observation> observations,
+                                             const gonio::model_fit_options& options);
+
+/// The lobes with their colours and parameters.
+[[nodiscard]] json to_json(const gonio::analytic_brdf& model);
+
+}  // namespace cli

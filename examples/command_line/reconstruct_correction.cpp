@@ -1,0 +1,122 @@
+/// gonio reconstruct --method correction.
+
+#include "fixed.hpp"
+#include "materials.hpp"
+#include "progress_bar.hpp"
+#include "reconstruct_methods.hpp"
+#include "story.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/io/merl_gzip.hpp>
+
+#include <charconv>
+#include <cmath>
+
+namespace cli {
+
+namespace {
+
+/// Nothing for auto, else the number that --gamma gives.
+std::optional<double> gamma_of(const reconstruct_options& options) {
+  const std::string& text = options.gamma;
+  if (text == "auto") return std::nullopt;
+  double gamma = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), gamma);
+  if (status != std::errc() || end != text.data() + text.size() || !(gamma >= 0.0 && std::isfinite(gamma)))
+    throw gonio::error("--gamma is a number that is not negative, or auto, not '" + text + "'");
+  return gamma;
+}
+
+/// Made before the work, of which nothing would be left.
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw gonio::error(folder.string() + ": the folder cannot be made: " + failed.message());
+}
+
+template <class Run>
+void describe(const Run& run, bool converged, bool automatic, reconstruction& result) {
+  const gonio::correction_round& last = run.history().back();
+  const std::size_t rounds = run.history().size();
+  result.history = run.history();
+  result.details = {{"rounds", rounds},
+                    {"converged", converged},
+                    {"error", last.error},
+                    {"change", last.change},
+                    {"down_weighted", last.down_weighted}};
+  result.sentence = std::to_string(rounds) + (rounds == 1 ? " round" : " rounds") +
+                    ", relative error before the last " + fixed(last.error, 3) + ", " +
+                    fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
+  if (!automatic) return;
+  const double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).good_share;
+  result.details["outliers"] = outliers;
+  result.sentence += ", about " + fixed(100.0 * outliers, 1) + " % outliers";
+}
+
+/// Steps until the run ends, for a story to watch if there is one.
+template <class Run>
+reconstruction iterate(Run run, const reconstruct_options& options, bool automatic, story* watcher, progress_bar& bar) {
+  if (watcher) watcher->look(run);
+  while (!run.converged()) {
+    bar.draw("correcting", static_cast<double>(run.history().size()) / options.iterations);
+    run.step();
+    if (watcher) watcher->look(run);
+  }
+  reconstruction result{run.result().tabulate(gonio::valid_cells(), options.threads)};
+  describe(run, run.history().back().change < gonio::correction_limits{}.smallest_change, automatic, result);
+  return result;
+}
+
+/// The method chosen by --gamma, from materials under a metric.
+template <gonio::error_metric Metric>
+reconstruction correct(const gonio::measured<Metric>& materials, const reconstruct_options& options,
+                       const gonio::sample_set& samples, std::optional<gonio::brdf_table> truth, progress_bar& bar) {
+  const auto gamma = gamma_of(options);
+  const gonio::thread_count threads = options.threads;
+  const gonio::correction_limits limits{.rounds = options.iterations};
+  if (!options.story.empty()) make_folder(options.story);
+  bar.draw("making correction functions", 0.0);
+  const gonio::correction corrections{materials, {}, gonio::nnls{}, threads};
+  std::optional<story> watched;
+  if (!options.story.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
+  story* watcher = watched ? &*watched : nullptr;
+
+  const auto as_published = [&](const auto& weighting) {
+    const gonio::decomposition initial{materials, gonio::nnls{}, threads};
+    const gonio::correction_iteration method{initial, corrections, weighting, gonio::nnls{}, limits, threads};
+    return iterate(method.start(samples), options, false, watcher, bar);
+  };
+  const auto chosen = [&] {
+    if (gamma && *gamma == 0.0) return as_published(gonio::trust_all{});
+    if (gamma) return as_published(gonio::relative_deviation_weights{*gamma});
+    const gonio::robust_start start{.seed = options.seed};
+    const gonio::robust_reconstruction robust{materials, corrections, limits, start, threads};
+    return iterate(robust.start(samples), options, true, watcher, bar);
+  };
+  reconstruction result = chosen();
+  if (!watched) return result;
+
+  bar.draw("drawing", 1.0);
+  auto [picture, differences] = watched->draw();
+  result.story = std::move(picture);
+  for (const auto& [round, difference] : differences)
+    result.details["delta_e_env"].push_back({{"round", round}, {"mean", difference}});
+  if (!differences.empty())
+    result.sentence += ", Delta E " + fixed(differences.front().second, 2) + " at first and " +
+                       fixed(differences.back().second, 2) + " at last";
+  return result;
+}
+
+}  // namespace
+
+reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
+  static_cast<void>(gamma_of(options));  // refused before the work
+  std::optional<gonio::brdf_table> truth;
+  if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
+  progress_bar bar;
+  auto materials = read_materials(options.materials, options.threads, bar.listener());
+  return with_materials(options, std::move(materials),
+                        [&](const auto& basis) { return correct(basis, options, samples, std::move(truth), bar); });
+}
+
+}  // namespace cli

@@ -1,0 +1,119 @@
+/// The methods of gonio reconstruct that are a single fit.
+
+#include "reconstruct_methods.hpp"
+
+#include "fixed.hpp"
+#include "materials.hpp"
+#include "measures_as_json.hpp"
+#include "progress_bar.hpp"
+#include "solver_choice.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/estimate/misplaced_decomposition.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <cmath>
+
+namespace cli {
+
+namespace {
+
+/// What the solver said.
+void describe(const gonio::solution& found, std::size_t samples, reconstruction& result) {
+  const gonio::rgb residual = found.residual.array() / std::sqrt(static_cast<double>(samples));
+  gonio::rgb used;
+  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((found.weights.col(c).array() != 0.0).count());
+  result.details = {{"mapped_residual_rms", per_channel(residual)},
+                    {"certificate", per_channel(found.certificate.array())},
+                    {"non_zero_weights", per_channel(used)},
+                    {"iterations", found.iterations}};
+  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
+                    ' ' + fixed(residual.z(), 3) + ", weights that are not zero " + fixed(used.x(), 0) + ' ' +
+                    fixed(used.y(), 0) + ' ' + fixed(used.z(), 0);
+}
+
+template <class Fit>
+reconstruction described(const Fit& fitted, std::size_t samples, gonio::thread_count threads) {
+  reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
+  describe(fitted.found(), samples, result);
+  return result;
+}
+
+template <class Basis, class Solver>
+reconstruction fit(const Basis& basis, const Solver& solver, const gonio::sample_set& samples,
+                   gonio::thread_count threads) {
+  return described(gonio::decomposition{basis, solver, threads}.fit(samples), samples.size(), threads);
+}
+
+/// Samples whose light and viewer may be off their directions. Noise that is not stated is taken for none:
+/// cross-validation would take what is misplaced for noise.
+reconstruction reconstruct_misplaced(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                     const gonio::sample_set& samples) {
+  const std::string& stated = options.solver.eta;
+  if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
+    throw gonio::error("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
+  const double eta = stated.empty() ? gonio::eta_of_noise(prior, samples, options.noise.value_or(0.0), options.threads)
+                                    : number_of_eta(stated);
+  const gonio::misplaced_decomposition estimator{prior, eta, gonio::radians(options.misplacement), options.threads};
+  reconstruction result = described(estimator.fit(samples), samples.size(), options.threads);
+  result.details["eta"] = eta;
+  return result;
+}
+
+}  // namespace
+
+reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
+  if (options.noise && !options.solver.eta.empty())
+    throw gonio::error("--noise and --eta both say what the penalty is: give one of them");
+  if (options.noise && !penalised)
+    throw gonio::error("--noise chooses the penalty of tikhonov: it means nothing to --solver " + options.solver.name);
+  const auto solver = make_solver(options.solver, {"tikhonov", "gcv"});
+  if (solver.non_negative())
+    throw gonio::error("--solver " + options.solver.name +
+                       " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
+                       "use tikhonov, lasso, tsvd or ls, or --method linear");
+  if (!options.metric.empty() && options.metric != "log-relative")
+    throw gonio::error("a prior is learned under the log-relative metric: --metric " + options.metric +
+                       " needs --method linear");
+  if (!options.materials.is_prior() || !options.materials.exclude.empty())
+    throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
+  const auto prior = gonio::io::read_prior(options.materials.prior);
+  if (options.misplacement != 0.0) return reconstruct_misplaced(options, prior, samples);
+  if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);
+  const double eta = options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
+                                   : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);
+  reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options.threads);
+  result.details["eta"] = eta;
+  result.sentence += ", eta " + fixed(eta, 3);
+  return result;
+}
+
+reconstruction reconstruct_by_materials(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const auto solver = make_solver(options.solver, {"nnls", "gcv"});
+  progress_bar bar;
+  auto materials = read_materials(options.materials, options.threads, bar.listener());
+  bar.wipe();
+  return with_materials(options, std::move(materials),
+                        [&](const auto& basis) { return fit(basis, solver, samples, options.threads); });
+}
+
+reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const gonio::valid_cells cells;
+  const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
+  return under_metric(
+      options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); },
+      [&](const auto& metric) {
+        return fit(gonio::rbf{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options.threads);
+      });
+}
+
+reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {
+  return {gonio::pull_push{gonio::valid_cells(), options.threads}.fit(samples).table()};
+}
+
+}  // namespace cli

@@ -1,0 +1,84 @@
+#pragma once
+/// The methods of `gonio reconstruct`, one function each, and what they have in common.
+
+#include "json.hpp"
+#include "materials.hpp"
+#include "solver_choice.hpp"
+#include <gonio/basis/measured.hpp>
+#include <gonio/estimate/corrected_brdf.hpp>
+#include <gonio/metric/lin.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/metric/log_relative.hpp>
+#include <gonio/metric/root.hpp>
+#include <gonio/render/image.hpp>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace cli {
+
+struct reconstruct_options {
+  std::filesystem::path samples, output, picture, history, story, truth;
+  std::string method = "pca", metric, gamma = "auto";
+  double root = 2.0, misplacement = 0.0;
+  std::optional<double> noise;
+  int iterations = 10;
+  std::uint64_t seed = 0;
+  material_source materials;
+  solver_choice solver;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// A fit on its way to the user.
+struct reconstruction {
+  gonio::brdf_table table;
+  json details = json::object();  ///< what --json prints beside the number of samples
+  std::string sentence{};         ///< the same for people
+  std::vector<gonio::correction_round> history{};
+  std::optional<gonio::image> story{};
+};
+
+/// Principal components under the metric that they were learned with.
+[[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
+                                                       const gonio::sample_set& samples);
+
+/// The materials themselves under any metric (Noell et al. 2014, section 2.2).
+[[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,
+                                                      const gonio::sample_set& samples);
+
+/// A combination of the materials, corrected until it agrees with the samples that are no outliers (Noell et al. 2014,
+/// section 2.4).
+[[nodiscard]] reconstruction reconstruct_by_corrections(const reconstruct_options& options,
+                                                        const gonio::sample_set& samples);
+
+/// Radial basis functions under any metric (Noell et al. 2014, section 3.1).
+[[nodiscard]] reconstruction reconstruct_by_radial_functions(const reconstruct_options& options,
+                                                             const gonio::sample_set& samples);
+
+/// Scattered-data interpolation (Gortler et al. 1996).
+[[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
+                                                      const gonio::sample_set& samples);
+
+/// Calls `use(metric)` with the metric chosen, log if none is; `relative()` makes the one that needs a reference.
+template <class Relative, class Use>
+reconstruction under_metric(const reconstruct_options& options, Relative&& relative, Use&& use) {
+  if (options.metric == "lin") return use(gonio::lin{});
+  if (options.metric == "root") return use(gonio::root{options.root});
+  if (options.metric == "log-relative") return use(relative());
+  return use(gonio::log{});
+}
+
+/// Calls `use(basis)` with the materials chosen under the metric chosen, without those that are excluded.
+template <class Use>
+reconstruction with_materials(const reconstruct_options& options, gonio::material_set materials, Use&& use) {
+  const auto left_out = options.materials.is_prior() ? options.materials.exclude : std::vector<std::string>{};
+  return under_metric(
+      options, [&] { return gonio::log_relative::to_median_of(materials, options.threads); },
+      [&](const auto& metric) {
+        return use(gonio::measured{std::move(materials), metric, options.threads}.without(left_out));
+      });
+}
+
+}  // namespace cli

@@ -1,0 +1,23 @@
+#pragma once
+/// Fewer cells than a grid has, as options ask for them.
+
+#include "command.hpp"
+#include <gonio/table/valid_cells.hpp>
+
+#include <utility>
+
+namespace cli {
+
+/// Which cells of a grid are kept: every n-th theta_d and every m-th phi_d.
+struct thinning {
+  std::pair<int, int> steps{1, 1};  ///< n and m
+
+  /// Throws gonio::error if the numbers do not divide those of the grid. An odd step of cell centres is a grid of cell
+  /// centres again.
+  [[nodiscard]] gonio::valid_cells of(const gonio::valid_cells& cells) const;
+};
+
+/// Adds `--thin N M`.
+void add_thin_option(command& to, thinning& thin);
+
+}  // namespace cli

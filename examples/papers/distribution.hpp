@@ -1,0 +1,24 @@
+#pragma once
+/// Figures of many reconstructions in short.
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace papers {
+
+/// What a row of a table says of one figure of many reconstructions, of which there is at least one.
+struct distribution {
+  double mean = 0.0, median = 0.0, worst = 0.0;
+
+  explicit distribution(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::ranges::sort(sorted);
+    mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    median = (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2.0;
+    worst = sorted.back();
+  }
+};
+
+}  // namespace papers

@@ -1,0 +1,27 @@
+#pragma once
+/// The experiments of `gonio-papers`, one file each.
+
+#include "command_line/command.hpp"
+
+namespace papers {
+
+using namespace cli;  // what command lines are made of
+
+void add_nielsen_test_materials(command& app);
+void add_measured_materials(command& app);
+void add_linear_combination(command& app);
+void add_noell_tables(command& app);
+void add_noell_measured(command& app);
+void add_noell_corrections(command& app);
+void add_directions(command& app);
+void add_directions_measured(command& app);
+void add_figures(command& app);
+void add_soft_specular(command& app);
+void add_eta(command& app);
+void add_models(command& app);
+void add_model_properties(command& app);
+void add_model_recovery(command& app);
+void add_laboratory(command& app);
+void add_importance_sampling(command& app);
+
+}  // namespace papers

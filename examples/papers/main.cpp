@@ -1,0 +1,24 @@
+/// `gonio-papers`: the published experiments, and ours on real measurements.
+
+#include "papers/experiments.hpp"
+
+int main(int argc, char** argv) {
+  cli::program app("gonio-papers", "Run an experiment and print its table", GONIO_VERSION);
+  papers::add_nielsen_test_materials(app);
+  papers::add_measured_materials(app);
+  papers::add_linear_combination(app);
+  papers::add_noell_tables(app);
+  papers::add_noell_measured(app);
+  papers::add_noell_corrections(app);
+  papers::add_directions(app);
+  papers::add_directions_measured(app);
+  papers::add_figures(app);
+  papers::add_soft_specular(app);
+  papers::add_eta(app);
+  papers::add_models(app);
+  papers::add_model_properties(app);
+  papers::add_model_recovery(app);
+  papers::add_laboratory(app);
+  papers::add_importance_sampling(app);
+  return app.run(argc, argv);
+}

@@ -1,0 +1,18 @@
+#pragma once
+/// How materials came out, as JSON.
+
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+
+#include <span>
+
+namespace papers {
+
+/// The means over materials of all measures, with the keys of `gonio compare --json`.
+[[nodiscard]] json mean_errors(std::span<const material_result> results);
+
+/// The errors of each material by its name.
+[[nodiscard]] json errors_by_name(std::span<const material_result> results);
+
+}  // namespace papers

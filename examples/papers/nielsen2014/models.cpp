@@ -1,0 +1,160 @@
+/// gonio-papers models: Nielsen, Frisvad, Conradsen and Aanaes 2014, "Addressing Grazing Angle Reflections in Phong
+/// Models", on surrogates of the materials that they fit.
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/model_choice.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/io/networks.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+
+namespace papers {
+
+namespace {
+
+struct models_options {
+  std::filesystem::path networks, state;
+  std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
+      only;
+  std::string metric = "lin";
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// Every third theta_d and fifth phi_d: a lobe is smooth there, and the fit takes a fifteenth of the time.
+gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
+
+json fit_one(const models_options& given, const std::string& model, const std::string& loss,
+             std::span<const gonio::fit_observation> observations, const gonio::brdf_table& truth,
+             const gonio::appearance_judge& judge) {
+  const gonio::model_fit fit =
+      fit_by_metric(given.metric, lobes_named(model), observations,
+                    {.norm = loss == "l1" ? gonio::fit_norm::l1 : gonio::fit_norm::l2, .threads = given.threads});
+  const auto seen = judge.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
+  return {{"converged", fit.converged},    {"evaluations", fit.evaluations}, {"loss", fit.loss},
+          {"promised", fit.promised_gain}, {"delta_e_lights", seen.lights},  {"delta_e_env", seen.environment},
+          {"lobes", to_json(fit.model)}};
+}
+
+/// Everything that was fitted, in the order of the materials.
+json fit_all(const models_options& given, progress_bar& bar) {
+  const auto all = gonio::io::read_networks(given.networks);
+  const auto networks = given.only.empty() ? all : networks_in(all, given.only);
+  const gonio::valid_cells cells = cells_of_fit();
+  const gonio::material_set materials = gonio::tabulate_networks(networks, cells, given.threads);
+  const gonio::appearance_judge judge(cells, 36, given.threads);
+  resumable_results results(given.state);
+  json rows = json::array();
+  for (std::size_t m = 0; m < materials.names.size(); ++m) {
+    gonio::report(bar.listener(), materials.names[m],
+                  static_cast<double>(m) / static_cast<double>(materials.names.size()));
+    const gonio::brdf_table truth = materials.table(m);
+    const auto observations = gonio::fit_observations(truth, given.threads);
+    for (const std::string& model : given.models)
+      for (const std::string& loss : given.losses) {
+        const json key{materials.names[m], model, loss, given.metric};
+        if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, judge));
+        rows.push_back(
+            {{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", *results.find(key)}});
+      }
+  }
+  return rows;
+}
+
+std::vector<json> of(const std::vector<json>& rows, const std::string& key, const std::string& value) {
+  std::vector<json> some;
+  for (const json& row : rows)
+    if (row[key] == value) some.push_back(row);
+  return some;
+}
+
+void print_means(const models_options& given, const json& rows) {
+  std::cout
+      << "| model | loss | fits | converged | evaluations, mean | Delta E lights: mean | median | worst | Delta E "
+         "env: mean | median | worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& model : given.models)
+    for (const std::string& loss : given.losses) {
+      std::vector<double> lights, environment, evaluations;
+      std::size_t converged = 0;
+      for (const json& row : of(of(rows.elements(), "model", model), "loss", loss)) {
+        const json& fit = row["fit"];
+        lights.push_back(fit["delta_e_lights"].number());
+        environment.push_back(fit["delta_e_env"].number());
+        evaluations.push_back(fit["evaluations"].number());
+        if (fit["converged"].truth()) ++converged;
+      }
+      const distribution l(lights), e(environment);
+      std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
+                << fixed(distribution(evaluations).mean, 0);
+      for (const double value : {l.mean, l.median, l.worst, e.mean, e.median, e.worst})
+        std::cout << " | " << fixed(value, 2);
+      std::cout << " |\n";
+    }
+}
+
+/// alpha of the variant, and what is seen of each model, by material.
+void print_materials(const models_options& given, const json& rows) {
+  std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
+  for (const std::string& model : given.models) std::cout << ' ' << model << " |";
+  std::cout << "\n|---|---|---|---|";
+  for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|";
+  std::cout << '\n';
+  std::map<std::pair<std::string, std::string>, std::map<std::string, json>> by_material;
+  for (const json& row : rows.elements())
+    by_material[{row["material"].text(), row["loss"].text()}][row["model"].text()] = row["fit"];
+  for (const auto& [key, fits] : by_material) {
+    std::cout << "| " << key.first << " | " << key.second;
+    for (const char* variant : {"phong-blinn", "phong-blinn-fresnel"}) {
+      std::cout << " | ";
+      if (fits.contains(variant))
+        std::cout << fixed(fits.at(variant)["lobes"].elements().back()["parameters"]["alpha"].number(), 2);
+    }
+    for (const std::string& model : given.models)
+      std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].number(), 2);
+    std::cout << " |\n";
+  }
+}
+
+void run(const models_options& given) {
+  progress_bar bar;
+  const json rows = fit_all(given, bar);
+  bar.wipe();
+  if (given.print_json) {
+    std::cout << rows.dump(2) << '\n';
+    return;
+  }
+  print_means(given, rows);
+  print_materials(given, rows);
+}
+
+}  // namespace
+
+void add_models(command& app) {
+  auto command = app.add_subcommand(
+      "models", "Analytic models fitted to 100 materials: which are like Phong, which like Blinn-Phong (Nielsen 2014)");
+  const auto options = std::make_shared<models_options>();
+  add_networks_option(command, options->networks);
+  command.add_option("--models", options->models, "As `gonio fit --model` has them").capture_default_str();
+  command.add_option("--losses", options->losses, "l1 and l2").check(check::one_of({"l1", "l2"})).capture_default_str();
+  command.add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
+      .check(check::one_of({"lin", "log", "cubic"}))
+      .capture_default_str();
+  command.add_option("--materials", options->only, "Only these materials");
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_flag("--json", options->print_json, "Print every fit as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

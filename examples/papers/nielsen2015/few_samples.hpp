@@ -1,0 +1,86 @@
+#pragma once
+/// The experiment of Nielsen et al. 2015, section 6: reconstruct materials that the prior has not seen from a
+/// few directions, and compare with their full tables.
+
+#include "papers/material_result.hpp"
+#include <gonio/basis/project.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace papers {
+
+/// Reconstructs each truth by an estimator from `measure(truth, its number)`, and compares over the truth's cells in
+/// the domain of `metric`.
+template <gonio::estimator Estimator, gonio::error_metric Metric, class Measure>
+requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_table&, std::size_t>
+[[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
+                                                            const gonio::material_set& truths, const Metric& metric,
+                                                            const gonio::appearance_judge& judge,
+                                                            gonio::thread_count threads = {}) {
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const gonio::brdf_table truth = truths.table(m);
+    const gonio::brdf_table estimate =
+        estimator.fit(gonio::sample_set(measure(truth, m))).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], gonio::compare(estimate, truth, metric, judge, threads)});
+  }
+  return results;
+}
+
+/// The same from the cells of its table. A material's defects come from `seed` plus its number.
+template <gonio::estimator Estimator, gonio::error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_cells(
+    const Estimator& estimator, std::span<const std::size_t> cells, const gonio::material_set& truths,
+    const Metric& metric, const gonio::appearance_judge& judge, gonio::thread_count threads = {},
+    const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  return reconstruct_each(
+      estimator,
+      [&](const gonio::brdf_table& truth, std::size_t number) {
+        return gonio::measure(truth, cells, defects, seed + number);
+      },
+      truths, metric, judge, threads);
+}
+
+/// The same by a prior with Tikhonov's penalty eta (Eq. 12).
+template <gonio::basis Basis, gonio::error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_cells(
+    const Basis& prior, double eta, std::span<const std::size_t> cells, const gonio::material_set& truths,
+    const Metric& metric, const gonio::appearance_judge& judge, gonio::thread_count threads = {},
+    const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
+  return reconstruct_from_cells(gonio::decomposition{prior, gonio::tikhonov{eta}}, cells, truths, metric, judge,
+                                threads, defects, seed);
+}
+
+/// The same without defects, at the cells nearest to `directions`.
+template <gonio::basis Basis, gonio::error_metric Metric>
+[[nodiscard]] std::vector<material_result> reconstruct_from_directions(
+    const Basis& prior, double eta, std::span<const gonio::half_difference> directions,
+    const gonio::material_set& truths, const Metric& metric, const gonio::appearance_judge& judge,
+    gonio::thread_count threads = {}) {
+  return reconstruct_from_cells(prior, eta, gonio::cells_at(truths.cells, directions), truths, metric, judge, threads);
+}
+
+/// The lower bound: each truth projected on the prior's components. Prior and truths must share their cells.
+template <gonio::error_metric Metric>
+[[nodiscard]] std::vector<material_result> project_on(const gonio::pca<Metric>& prior,
+                                                      const gonio::material_set& truths,
+                                                      const gonio::appearance_judge& judge,
+                                                      gonio::thread_count threads = {}) {
+  std::vector<material_result> results;
+  for (std::size_t m = 0; m < truths.names.size(); ++m) {
+    const gonio::brdf_table truth = truths.table(m);
+    gonio::solution projected;
+    projected.weights = gonio::project(prior, truth, threads);
+    const gonio::brdf_table estimate = gonio::fitted_brdf(prior, std::move(projected)).tabulate(truths.cells, threads);
+    results.push_back({truths.names[m], gonio::compare(estimate, truth, prior.metric(), judge, threads)});
+  }
+  return results;
+}
+
+}  // namespace papers

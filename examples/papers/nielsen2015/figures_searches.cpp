@@ -1,0 +1,147 @@
+/// Nielsen et al. 2015, Fig. 5: their search, and those of Xu et al. 2016 and ours, against random swaps in the same
+/// time.
+
+#include "papers/experiments.hpp"
+#include "papers/xu2016/figures.hpp"
+#include <gonio/design/cell_candidates.hpp>
+#include <gonio/design/criterion_of_plan.hpp>
+
+#include <algorithm>
+#include <chrono>
+
+namespace papers::figures {
+
+namespace {
+
+/// More points than that are not exchanged over all cells: it would take minutes.
+constexpr std::size_t most_exchanged_points = 10;
+
+struct timed_plan {
+  gonio::capture_plan plan;
+  double seconds = 0.0;
+};
+
+template <class Search>
+timed_plan timed(Search&& search) {
+  const auto start = std::chrono::steady_clock::now();
+  gonio::capture_plan plan = search();
+  return {std::move(plan), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
+}
+
+/// Random swaps for about as long as is said: as many as some take, and then as that run says.
+template <class Objective>
+timed_plan swaps_within(double seconds, const Objective& objective, std::size_t n, std::uint64_t seed) {
+  std::size_t count = 300;
+  timed_plan run;
+  for (int round = 0; round < 3; ++round) {
+    run = timed([&] { return gonio::swap_at_random(objective.geometry(), objective, n, count, seed); });
+    const double share = seconds / std::max(run.seconds, 1e-6);
+    count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(share * static_cast<double>(count))));
+  }
+  return run;
+}
+
+/// What a search found, seed after seed.
+struct record {
+  std::string search;
+  std::vector<timed_plan> found = {};
+};
+
+/// The best of them, their mean, and what that took.
+template <class Objective>
+void add_row(table& shown, std::size_t n, const record& searched, const Objective& objective, const laboratory& lab,
+             double scale) {
+  double sum = 0.0, seconds = 0.0;
+  const auto times = static_cast<double>(searched.found.size());
+  for (const timed_plan& run : searched.found) {
+    sum += run.plan.value / times;
+    seconds += run.seconds / times;
+  }
+  const auto best = std::ranges::min_element(searched.found, {}, [](const auto& run) { return run.plan.value; });
+  shown.rows.push_back({n, searched.search, searched.found.size(), seconds, sum / scale, best->plan.value / scale,
+                        lab.error(samples_of(objective.geometry(), best->plan.candidates))});
+}
+
+/// A search from some seeds, then random swaps in its time, and in five times its time.
+template <class Objective, class Search>
+std::vector<record> race(const std::string& name, const Objective& objective, std::size_t n, const options& given,
+                         Search&& search) {
+  std::vector<record> records{{name}, {"random swaps, the same time"}, {"random swaps, five times the time"}};
+  for (std::size_t r = 0; r < given.repetitions; ++r) {
+    const std::uint64_t seed = given.seed + r;
+    records[0].found.push_back(timed([&] { return search(seed); }));
+    const double seconds = records[0].found.back().seconds;
+    records[1].found.push_back(swaps_within(seconds, objective, n, seed));
+    records[2].found.push_back(swaps_within(5.0 * seconds, objective, n, seed));
+  }
+  return records;
+}
+
+std::vector<std::size_t> race_counts(const options& given) {
+  std::vector<std::size_t> counts{2, 5, 10, 15, 20};
+  std::erase_if(counts, [&](std::size_t n) { return n > given.up_to(20); });
+  if (counts.empty()) throw gonio::error("the searches are compared from two measurements on: expected --most 2");
+  return counts;
+}
+
+table race_by_condition(const laboratory& lab, const options& given, const gonio::progress& listener) {
+  table shown{"By condition number (the figure's): reached from several seeds",
+              {{"n", 0},
+               {"search"},
+               {"seeds", 0},
+               {"seconds", 2},
+               {"condition, mean", 2},
+               {"condition, best", 2},
+               {"mapped error of the best"}}};
+  const gonio::point_geometry points(lab.prior().cells());
+  const gonio::criterion_of_plan condition{lab.prior(), points, gonio::condition_number{}};
+  for (const std::size_t n : race_counts(given)) {
+    gonio::report(listener, "searches of " + std::to_string(n), 0.0);
+    auto records = race("descent (Nielsen et al.)", condition, n, given,
+                        [&](std::uint64_t seed) { return gonio::grow_and_descend(points, condition, n, 1, seed); });
+    record& guessed = records.emplace_back(record{"descent from the best of 500"});
+    for (std::size_t r = 0; r < given.repetitions; ++r)
+      guessed.found.push_back(
+          timed([&] { return gonio::grow_and_descend(points, condition, n, 500, given.seed + r); }));
+    for (const record& searched : records) add_row(shown, n, searched, condition, lab, 1.0);
+  }
+  return shown;
+}
+
+table race_by_expected_error(const laboratory& lab, const options& given, const gonio::progress& listener) {
+  table shown{"By expected error",
+              {{"n", 0},
+               {"search"},
+               {"seeds", 0},
+               {"seconds", 2},
+               {"E, mean", 4},
+               {"E, best", 4},
+               {"mapped error of the best"}}};
+  const gonio::cell_candidates candidates(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}), {},
+                                          given.threads);
+  const double scale = std::sqrt(static_cast<double>(lab.prior().cells().size()));
+  for (const std::size_t n : race_counts(given)) {
+    gonio::report(listener, "searches of " + std::to_string(n), 0.5);
+    auto records = race("descent from the best of 500 (Xu et al.)", candidates, n, given, [&](std::uint64_t seed) {
+      return gonio::grow_and_descend(candidates.geometry(), candidates, n, 500, seed);
+    });
+    records.push_back({"greedy over all cells", {timed([&] { return gonio::grow_greedily(candidates, n); })}});
+    const auto [greedy, seconds] = records.back().found.front();
+    if (n <= most_exchanged_points) {
+      timed_plan exchanged = timed([&] { return gonio::exchange(candidates, greedy); });
+      exchanged.seconds += seconds;
+      records.push_back({"greedy and exchange over all cells", {std::move(exchanged)}});
+    }
+    for (const record& searched : records) add_row(shown, n, searched, candidates, lab, scale);
+  }
+  return shown;
+}
+
+}  // namespace
+
+tables nielsen_5(const options& given, const gonio::progress& listener) {
+  const laboratory lab = open_laboratory(given, listener);
+  return {race_by_condition(lab, given, listener), race_by_expected_error(lab, given, listener)};
+}
+
+}  // namespace papers::figures

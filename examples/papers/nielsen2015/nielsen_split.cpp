@@ -1,0 +1,52 @@
+#include "papers/nielsen2015/nielsen_split.hpp"
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/prior_option.hpp"
+#include "papers/networks_option.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <utility>
+
+namespace papers {
+
+gonio::log_relative_pca learn_all_components(const gonio::named_networks& networks, const gonio::valid_cells& cells,
+                                             gonio::thread_count threads, const gonio::progress& listener) {
+  constexpr std::size_t every_component = 300;
+  auto materials = gonio::tabulate_networks(networks, cells, threads, listener);
+  const auto metric = gonio::log_relative::to_median_of(materials, threads);
+  return gonio::learn_pca(std::move(materials), metric, every_component, threads, listener);
+}
+
+nielsen_split nielsen_split::learn(const studied_networks& networks, gonio::thread_count threads,
+                                   const gonio::progress& listener) {
+  const auto all = networks.read();
+  const auto& tested = gonio::nielsen_test_materials();
+  const auto cells = networks.cells();
+  return {learn_all_components(networks_except(all, tested), cells, threads, listener),
+          gonio::tabulate_networks(networks_in(all, tested), cells, threads)};
+}
+
+std::filesystem::path shipped_directions() { return shipped_prior().parent_path() / "directions"; }
+
+std::string points_file(const std::string& set, std::size_t count) {
+  return "point-" + std::to_string(count) + '-' + set + ".csv";
+}
+
+std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
+                                                                  const std::string& set, std::size_t count) {
+  if (set == "published") {
+    if (!gonio::has_nielsen_directions(count)) return {};
+    return gonio::nielsen_directions(count);
+  }
+  const auto file = folder / points_file(set, count);
+  if (!std::filesystem::exists(file)) return {};
+  std::vector<gonio::half_difference> directions;
+  for (const auto& [wi, wo] : gonio::io::read_direction_pairs(file))
+    directions.push_back(gonio::to_half_difference(wi, wo));
+  return directions;
+}
+
+}  // namespace papers

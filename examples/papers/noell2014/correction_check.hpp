@@ -1,0 +1,50 @@
+#pragma once
+/// How expressive correction functions are: Noell, Koehler and Stricker 2014, section 2, describe each by the others.
+
+#include <gonio/basis/correction.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/solve/solver.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace papers {
+
+/// For each material that takes part, the mean over all cells and channels of |C - its combination of the others|, by a
+/// solver of normal equations. The constant function, if there is one, is among the others. O(cells functions^2).
+template <gonio::normal_solver Solver>
+[[nodiscard]] std::vector<double> deviations_from_others(const gonio::correction& functions, const Solver& solver,
+                                                         gonio::thread_count threads = {}) {
+  const auto materials = static_cast<Eigen::Index>(functions.names().size());
+  const auto size = static_cast<Eigen::Index>(functions.size());
+  std::vector<Eigen::Index> targets = gonio::columns_of(functions);
+  std::erase_if(targets, [&](Eigen::Index column) { return column >= materials; });
+  Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::ssize(targets));
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = functions.channel(c);
+    Eigen::MatrixXf residual(size, std::ssize(targets));  // of which the products with the functions are the deviations
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      std::vector<Eigen::Index> others = gonio::columns_of(functions);
+      std::erase(others, targets[i]);
+      const gonio::solution found = solver.solve(gonio::leave_one_out(channel.products(threads), targets[i], others));
+      residual.col(static_cast<Eigen::Index>(i)) = -gonio::spread(found, others, size).weights.template cast<float>();
+      residual(targets[i], static_cast<Eigen::Index>(i)) = 1.0f;
+    }
+    const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(std::ssize(targets));
+    sums += gonio::sum_over_blocks(
+        functions.cells().size(), 1024, zero,
+        [&](Eigen::ArrayXd& sum, gonio::block range) {
+          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const Eigen::MatrixXf deviations = channel.values().middleRows(begin, count) * residual;
+          sum += deviations.cwiseAbs().colwise().sum().transpose().template cast<double>().array();
+        },
+        threads);
+  }
+  sums /= 3.0 * static_cast<double>(functions.cells().size());
+  return {sums.begin(), sums.end()};
+}
+
+}  // namespace papers

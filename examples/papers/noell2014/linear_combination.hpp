@@ -1,0 +1,27 @@
+#pragma once
+/// The linear-combination (LC) estimate of Noell, Koehler and Stricker 2014, section 3.1, from full data: each test
+/// material as a combination of all materials but itself.
+
+#include "papers/material_result.hpp"
+#include <gonio/estimate/leave_one_out.hpp>
+#include <gonio/evaluate/appearance.hpp>
+
+namespace papers {
+
+/// Reconstructs the materials of these names from the others and compares with their tables in `truths`, which has the
+/// materials of the basis in the same order over the same cells.
+template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
+[[nodiscard]] std::vector<material_result> combine_others(
+    const gonio::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,
+    const gonio::material_set& truths, const Judged& metric, const gonio::appearance_judge& judge,
+    gonio::thread_count threads = {}) {
+  std::vector<material_result> results;
+  for (const std::string& name : names) {
+    const std::size_t material = truths.find(name);
+    const gonio::brdf_table estimate = others.fit(material).tabulate(truths.cells, threads);
+    results.push_back({name, gonio::compare(estimate, truths.table(material), metric, judge, threads)});
+  }
+  return results;
+}
+
+}  // namespace papers

@@ -1,0 +1,272 @@
+/// gonio-papers noell-table1, noell-table2: the benchmark of Noell, Koehler and Stricker 2014, section 3.1.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/noell2014/noell_experiment.hpp"
+#include "papers/noell2014/noell_judges.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/evaluate/test_materials.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <span>
+
+namespace papers {
+
+namespace {
+
+struct noell_options {
+  std::filesystem::path networks, environment, state;
+  std::string materials = "test";
+  std::vector<std::string> methods;
+  std::vector<double> data_ratios, outlier_ratios;
+  std::vector<std::uint64_t> seeds{1};
+  std::vector<int> iterations;  // if any, otherwise as many as a method takes
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+[[nodiscard]] std::vector<std::string> chosen_materials(const std::string& choice,
+                                                        const std::vector<std::string>& names) {
+  if (choice == "test") return gonio::nielsen_test_materials();
+  if (choice == "all") return names;
+  if (std::ranges::find(names, choice) == names.end())
+    throw gonio::error("--materials is test, all or the name of one, not '" + choice + "'");
+  return {choice};
+}
+
+/// Which results a row of the table sums up.
+struct noell_setting {
+  std::string method;
+  std::optional<int> iterations;
+  double data_ratio = 1.0, outlier_ratio = 0.0;
+
+  [[nodiscard]] std::string name() const {
+    if (!iterations) return method;
+    return method + ", " + std::to_string(*iterations) + (*iterations == 1 ? " iteration" : " iterations");
+  }
+};
+
+/// Mean (and its range over seeds, if there are several), median, worst and range of the peak ratio, as a row's cells.
+/// Results are those of the first seed, of the second, and so on.
+[[nodiscard]] std::string summary(const std::vector<json>& results, const std::string& measure, std::size_t seeds) {
+  std::vector<double> values, peaks, means;
+  for (const json& result : results) {
+    values.push_back(result[measure].number());
+    peaks.push_back(result["peak_ratio"].number());
+  }
+  const std::size_t materials = values.size() / seeds;
+  for (std::size_t seed = 0; seed < seeds; ++seed)
+    means.push_back(distribution(std::span(values).subspan(seed * materials, materials)).mean);
+  const auto [least, most] = std::ranges::minmax(means);
+  const std::string spread = seeds > 1 ? " (" + fixed(least, 2) + " - " + fixed(most, 2) + ")" : "";
+  const distribution all(values);
+  const auto [lowest, highest] = std::ranges::minmax(peaks);
+  return fixed(all.mean, 2) + spread + " | " + fixed(all.median, 2) + " | " + fixed(all.worst, 2) + " | " +
+         fixed(lowest, 2) + " - " + fixed(highest, 2);
+}
+
+[[nodiscard]] std::string printed(const std::optional<double>& figure) { return figure ? fixed(*figure, 2) : ""; }
+
+/// One experiment: every method on every material in every setting.
+class noell_sweep {
+ public:
+  noell_sweep(const noell_options& options, const gonio::progress& listener)
+      : options_(options),
+        results_(options.state),
+        experiment_(options.networks, options.environment, options.threads, listener),
+        listener_(listener) {
+    materials_ = chosen_materials(options.materials, experiment_.names());
+  }
+
+  void run() {
+    const std::vector<noell_setting> all = settings();
+    const std::size_t total = all.size() * materials_.size() * options_.seeds.size();
+    std::size_t done = 0;
+    // Materials outermost: each has corrections of its own.
+    for (const std::string& material : materials_)
+      for (const noell_setting& setting : all)
+        for (const std::uint64_t seed : options_.seeds) {
+          gonio::report(listener_, setting.method + ' ' + material,
+                        static_cast<double>(done++) / static_cast<double>(total));
+          const noell_case which = case_of(setting, material, seed);
+          const json key = key_of(setting.method, which);
+          if (!results_.find(key)) results_.add(key, experiment_.run(setting.method, which));
+        }
+  }
+
+  /// One for each row of the table. Numbers of iterations stand next to each other.
+  [[nodiscard]] std::vector<noell_setting> settings() const {
+    std::vector<noell_setting> all;
+    for (const std::string& method : options_.methods)
+      for (const double data_ratio : options_.data_ratios)
+        for (const double outlier_ratio : options_.outlier_ratios)
+          if (options_.iterations.empty() || !noell_experiment::iterates(method))
+            all.push_back({method, std::nullopt, data_ratio, outlier_ratio});
+          else
+            for (const int iterations : options_.iterations)
+              all.push_back({method, iterations, data_ratio, outlier_ratio});
+    return all;
+  }
+
+  /// Of all materials with the first seed, then the second, and so on.
+  [[nodiscard]] std::vector<json> results(const noell_setting& setting) const {
+    std::vector<json> found;
+    for (const std::uint64_t seed : options_.seeds)
+      for (const std::string& material : materials_)
+        found.push_back(*results_.find(key_of(setting.method, case_of(setting, material, seed))));
+    return found;
+  }
+
+  [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
+
+ private:
+  [[nodiscard]] static noell_case case_of(const noell_setting& setting, const std::string& material,
+                                          std::uint64_t seed) {
+    return {material, setting.data_ratio, setting.outlier_ratio, seed, setting.iterations};
+  }
+
+  [[nodiscard]] json key_of(const std::string& method, const noell_case& which) const {
+    json key{method,           which.material,
+             which.data_ratio, which.outlier_ratio,
+             which.seed,       options_.environment.filename().string()};
+    if (which.iterations) key.push_back(*which.iterations);
+    return key;
+  }
+
+  noell_options options_;
+  resumable_results results_;
+  noell_experiment experiment_;
+  gonio::progress listener_;
+  std::vector<std::string> materials_;
+};
+
+void print_json(const noell_options& options, const noell_sweep& sweep) {
+  json all = json::array();
+  for (const noell_setting& setting : sweep.settings()) {
+    json row{{"method", setting.method}};
+    if (setting.iterations) row["iterations"] = *setting.iterations;
+    row["data_ratio"] = setting.data_ratio;
+    row["outlier_ratio"] = setting.outlier_ratio;
+    json results = json::array();
+    for (const std::uint64_t seed : options.seeds)
+      for (const std::string& material : sweep.materials()) results.push_back({{"material", material}, {"seed", seed}});
+    const std::vector<json> measured = sweep.results(setting);
+    for (std::size_t i = 0; i < measured.size(); ++i) results[i].update(measured[i]);
+    row["results"] = std::move(results);
+    all.push_back(std::move(row));
+  }
+  std::cout << all.dump(1) << '\n';
+}
+
+/// What the last number of iterations did to each reconstruction: its error over the least that any of them left.
+void print_harm(const noell_options& options, const noell_sweep& sweep) {
+  for (const noell_setting& last : sweep.settings()) {
+    if (last.iterations != options.iterations.back()) continue;
+    std::vector<double> harm(sweep.results(last).size(), 1.0);
+    for (const int iterations : options.iterations) {
+      noell_setting other = last;
+      other.iterations = iterations;
+      const std::vector<json> before = sweep.results(other), after = sweep.results(last);
+      for (std::size_t i = 0; i < harm.size(); ++i)
+        harm[i] = std::max(harm[i], after[i]["delta_e_env"].number() / before[i]["delta_e_env"].number());
+    }
+    const auto worst = std::ranges::max_element(harm);
+    const auto material = static_cast<std::size_t>(worst - harm.begin()) % sweep.materials().size();
+    std::cout << last.name() << ", data " << last.data_ratio << ", outliers " << last.outlier_ratio << ": at most "
+              << fixed(*worst, 3) << " times the best (" << sweep.materials()[material] << "); more than 1.05 times in "
+              << std::ranges::count_if(harm, [](double ratio) { return ratio > 1.05; }) << " of " << harm.size()
+              << " cases\n";
+  }
+}
+
+void print_table(const noell_options& options, const noell_sweep& sweep) {
+  const bool natural = !options.environment.empty();
+  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << sweep.materials().size() << " materials x "
+            << options.seeds.size() << " outlier seeds, and the range of the peak ratio (green).\n\n"
+            << "| method | data | outliers | paper | formula light: mean | median | worst | peak ratio |"
+            << (natural ? " natural light: mean | median | worst | peak ratio |\n" : "\n")
+            << "|---|---|---|---|---|---|---|---|" << (natural ? "---|---|---|---|\n" : "\n");
+  for (const noell_setting& setting : sweep.settings()) {
+    const auto& [method, iterations, data_ratio, outlier_ratio] = setting;
+    const auto results = sweep.results(setting);
+    std::cout << "| " << setting.name() << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
+              << fixed(outlier_ratio, 1) << " | "
+              << printed(noell_experiment::published(method, data_ratio, outlier_ratio)) << " | "
+              << summary(results, "delta_e_env", options.seeds.size()) << " |";
+    if (natural) std::cout << ' ' << summary(results, "delta_e_natural", options.seeds.size()) << " |";
+    std::cout << '\n';
+  }
+  if (options.iterations.size() < 2) return;
+  std::cout << '\n';
+  print_harm(options, sweep);
+}
+
+void run_noell(const noell_options& options) {
+  progress_bar bar;
+  noell_sweep sweep(options, bar.listener());
+  sweep.run();
+  bar.wipe();
+  if (options.print_json)
+    print_json(options, sweep);
+  else
+    print_table(options, sweep);
+}
+
+void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults) {
+  auto command = app.add_subcommand(name, description);
+  const auto options = std::make_shared<noell_options>(defaults);
+  add_networks_option(command, options->networks);
+  add_environment_option(command, options->environment);
+  command.add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
+      .capture_default_str();
+  command
+      .add_option(
+          "--methods", options->methods,
+          "Any of: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's weights), "
+          "lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for another metric than log")
+      .check(check::without([](const std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
+      .capture_default_str();
+  command
+      .add_option("--data", options->data_ratios,
+                  "Shares of the table that are measured, or, above 1, numbers of samples")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--seeds", options->seeds, "Seeds of cells and outliers").capture_default_str();
+  command
+      .add_option("--iterations", options->iterations,
+                  "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
+                  "after at most 10")
+      .check(check::non_negative_number());
+  command.add_option("--state", options->state, "File in which results are kept, so that a run can be resumed");
+  command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_noell(*options); });
+}
+
+}  // namespace
+
+void add_noell_tables(command& app) {
+  noell_options first;
+  first.methods = {"our", "lc"};
+  first.data_ratios.assign(noell_data_ratios.begin(), noell_data_ratios.end());
+  first.outlier_ratios.assign(noell_outlier_ratios.begin(), noell_outlier_ratios.end());
+  add_noell(app, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
+
+  noell_options second;
+  second.methods = {"our-lin", "our-root", "our", "lc-lin", "lc-root", "lc"};
+  second.data_ratios = {1.0};
+  second.outlier_ratios = {0.0};
+  add_noell(app, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);
+}
+
+}  // namespace papers

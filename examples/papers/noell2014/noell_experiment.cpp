@@ -1,0 +1,208 @@
+#include "papers/noell2014/noell_experiment.hpp"
+
+#include "command_line/json.hpp"
+#include "papers/noell2014/noell_judges.hpp"
+#include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/planned_decomposition.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/metric/lin.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/metric/root.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <charconv>
+#include <chrono>
+#include <map>
+#include <tuple>
+
+namespace papers {
+
+namespace {
+
+/// "our-lin" is the method "our" under the metric "lin"; "gamma-3" has a number in its place.
+struct method_name {
+  std::string method, metric = "log";
+  double gamma = 0.0;
+};
+
+[[nodiscard]] std::optional<method_name> parse(const std::string& text) {
+  const auto dash = text.rfind('-');
+  const auto has_metric = [](const std::string& name) {
+    return name == "our" || name == "printed" || name == "lc" || name == "rbf";
+  };
+  if (text == "pull-push" || has_metric(text)) return method_name{text};
+  const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
+  if (head == "gamma") {
+    double gamma = 0.0;
+    const auto [end, status] = std::from_chars(tail.data(), tail.data() + tail.size(), gamma);
+    if (status == std::errc() && end == tail.data() + tail.size() && gamma >= 0.0)
+      return method_name{head, "log", gamma};
+  }
+  if (has_metric(head) && (tail == "lin" || tail == "root" || tail == "log")) return method_name{head, tail};
+  return std::nullopt;
+}
+
+/// A value made when it is first asked for.
+template <class Value>
+class made_on_demand {
+ public:
+  template <class Make>
+  const Value& get(Make&& make) {
+    if (!value_) value_.emplace(make());
+    return *value_;
+  }
+
+ private:
+  std::optional<Value> value_;
+};
+
+/// Materials under a metric, and combinations of them at the cells of each share of the data and seed, which all
+/// materials are measured at.
+template <class Metric>
+struct combinations_under {
+  made_on_demand<gonio::measured<Metric>> materials;
+  std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
+};
+
+}  // namespace
+
+struct noell_experiment::parts {
+  gonio::thread_count threads;
+  gonio::material_set truths;
+  noell_judges judges;
+  std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
+      combinations;
+  /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
+  struct correction_cache {
+    made_on_demand<gonio::correction> all, fewer;
+    std::string left_out;
+  };
+  correction_cache corrections, printed_corrections;
+
+  template <class Metric>
+  const gonio::measured<Metric>& materials(const Metric& metric) {
+    return std::get<combinations_under<Metric>>(combinations).materials.get([&] {
+      return gonio::measured{truths, metric, threads};
+    });
+  }
+
+  /// The non-negative combination of all other materials.
+  template <class Metric>
+  [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
+    const auto located = gonio::locate_samples(truths.cells, samples, threads);
+    auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
+    const auto plan =
+        plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.at, gonio::nnls{}, threads);
+    return plan.first->second.without({which.material}).fit(located.channels());
+  }
+
+  const gonio::correction& corrections_without(const std::string& material, bool printed) {
+    correction_cache& cache = printed ? printed_corrections : corrections;
+    if (material != cache.left_out) cache.fewer = {};
+    cache.left_out = material;
+    const auto rule = printed ? gonio::correction_rule::as_printed() : gonio::correction_rule{};
+    const auto& all = cache.all.get([&] {
+      return gonio::correction{materials(gonio::log{}), rule, gonio::nnls{}, threads};
+    });
+    return cache.fewer.get([&] { return all.without({material}); });
+  }
+
+  /// The estimate of a material by a method, from all other materials.
+  template <class Metric>
+  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const Metric& metric, const noell_case& which,
+                                           const gonio::sample_set& samples) {
+    const auto tabulated = [&](const auto& estimator) {
+      return estimator.fit(samples).tabulate(truths.cells, threads);
+    };
+    if (method.method == "rbf")
+      return tabulated(gonio::decomposition{gonio::rbf{truths.cells, metric}, gonio::tikhonov{1e-6}, threads});
+    if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
+
+    const auto others = materials(metric).without({which.material});
+    if (method.method == "lc") return combination(metric, which, samples).tabulate(truths.cells, threads);
+    gonio::correction_limits limits;
+    limits.rounds = which.iterations.value_or(limits.rounds);
+    if (which.iterations) limits.smallest_change = 0.0;
+    if (method.method == "our")
+      return tabulated(
+          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads});
+    limits.smallest_change = 0.0;
+    const bool printed = method.method == "printed";
+    const double gamma = printed ? noell_gamma(which.outlier_ratio) : method.gamma;
+    const auto& functions = corrections_without(which.material, printed);
+    if (printed) limits.inertia = 0.0;
+    const gonio::decomposition initial{others, gonio::nnls{}, threads};
+    if (gamma == 0.0)
+      return tabulated(
+          gonio::correction_iteration{initial, functions, gonio::trust_all{}, gonio::nnls{}, limits, threads});
+    return tabulated(gonio::correction_iteration{initial, functions, gonio::relative_deviation_weights{gamma},
+                                                 gonio::nnls{}, limits, threads});
+  }
+
+  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const noell_case& which,
+                                           const gonio::sample_set& samples) {
+    if (method.metric == "lin") return estimate(method, gonio::lin{}, which, samples);
+    if (method.metric == "root") return estimate(method, gonio::root{}, which, samples);
+    return estimate(method, gonio::log{}, which, samples);
+  }
+};
+
+noell_experiment::noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
+                                   gonio::thread_count threads, const gonio::progress& listener) {
+  auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
+  const gonio::valid_cells cells = truths.cells;
+  parts_.reset(new parts{threads, std::move(truths), noell_judges(cells, environment, threads), {}, {}, {}});
+}
+
+noell_experiment::~noell_experiment() = default;
+
+const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
+
+std::size_t noell_experiment::samples_of(double data, std::size_t cells) noexcept {
+  return data <= 1.0 ? gonio::share_of(cells, data) : std::min(static_cast<std::size_t>(std::llround(data)), cells);
+}
+
+json noell_experiment::run(const std::string& method, const noell_case& which) {
+  const std::size_t material = parts_->truths.find(which.material);
+  const gonio::brdf_table truth = parts_->truths.table(material);
+  const std::size_t count = samples_of(which.data_ratio, truth.cells().size());
+  const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, which.seed),
+                                      {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
+
+  const auto start = std::chrono::steady_clock::now();
+  const gonio::brdf_table estimate = parts_->estimate(*parse(method), which, samples);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+
+  json result = parts_->judges.judge(estimate, truth);
+  result["seconds"] = elapsed.count();
+  return result;
+}
+
+bool noell_experiment::iterates(const std::string& method) {
+  const std::string name = parse(method)->method;
+  return name == "our" || name == "printed" || name == "gamma";
+}
+
+std::string noell_experiment::complaint(const std::string& method) {
+  return parse(method) ? "" : "there is no method '" + method + "'";
+}
+
+std::optional<double> noell_experiment::published(const std::string& method, double data_ratio, double outlier_ratio) {
+  const auto name = parse(method);
+  const bool table_2 = data_ratio == 1.0 && outlier_ratio == 0.0 && name->metric != "log";
+  const std::size_t column = name->metric == "lin" ? 0 : 1;
+  if (name->method == "our" || name->method == "printed")
+    return table_2 ? noell_table_2[0][column] : noell_table_1(noell_method::ours, data_ratio, outlier_ratio);
+  if (name->method == "lc")
+    return table_2 ? noell_table_2[1][column] : noell_table_1(noell_method::combination, data_ratio, outlier_ratio);
+  if (name->method == "rbf")
+    return table_2 ? noell_table_2[2][column] : noell_table_1(noell_method::radial, data_ratio, outlier_ratio);
+  if (name->method == "pull-push") return noell_table_1(noell_method::pull_push, data_ratio, outlier_ratio);
+  return std::nullopt;
+}
+
+}  // namespace papers

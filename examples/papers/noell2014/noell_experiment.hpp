@@ -1,0 +1,58 @@
+#pragma once
+/// One reconstruction of the benchmark of Noell et al. 2014: a material, its simulated measurement, a method.
+
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/noell2014/noell_tables.hpp"
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/progress.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace papers {
+
+struct noell_case {
+  std::string material;
+  double data_ratio = 1.0;  ///< share of the cells; above 1, their number
+  double outlier_ratio = 0.0;
+  std::uint64_t seed = 1;
+  std::optional<int> iterations = {};  ///< exactly as many; or else the method stops by itself
+};
+
+/// Holds the materials, the bases that methods need (each made when first asked for), and the judges.
+class noell_experiment {
+ public:
+  noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
+                   gonio::thread_count threads, const gonio::progress& listener);
+  ~noell_experiment();
+
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept;
+
+  /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_judges::judge`);
+  /// seconds are those of the fit.
+  [[nodiscard]] json run(const std::string& method, const noell_case& which);
+
+  /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
+  [[nodiscard]] static std::size_t samples_of(double data, std::size_t cells) noexcept;
+
+  /// Does a method correct its estimate again and again?
+  [[nodiscard]] static bool iterates(const std::string& method);
+
+  /// What is wrong with the name of a method; empty if nothing is.
+  [[nodiscard]] static std::string complaint(const std::string& method);
+
+  /// What the paper prints for a method in a setting, if anything.
+  [[nodiscard]] static std::optional<double> published(const std::string& method, double data_ratio,
+                                                       double outlier_ratio);
+
+ private:
+  struct parts;
+  std::unique_ptr<parts> parts_;
+};
+
+}  // namespace papers

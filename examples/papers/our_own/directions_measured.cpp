@@ -1,0 +1,349 @@
+/// gonio-papers directions-measured: real measurements, reconstructed from few directions that were chosen for them.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/scattered_errors.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace papers {
+
+namespace {
+
+struct directions_options {
+  std::filesystem::path networks, tables, folder = shipped_directions(), state;
+  std::vector<std::filesystem::path> samples;
+  std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
+  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  double eta = 40.0;
+  std::uint64_t seed = 0;
+  std::size_t repetitions = 5;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The prior on some cells, and the judge there.
+struct workshop {
+  gonio::log_relative_pca prior;
+  gonio::appearance_judge judge;
+};
+
+workshop open_workshop(const directions_options& given, const gonio::valid_cells& cells,
+                       const gonio::progress& listener) {
+  return {learn_all_components(gonio::io::read_networks(given.networks), cells, given.threads, listener),
+          gonio::appearance_judge(cells, 36, given.threads)};
+}
+
+// ---- tables: judged as a whole -------------------------------------------------------------------------------------
+
+/// The cells to measure, as many times as a set is drawn.
+std::vector<std::vector<std::size_t>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
+                                               const std::string& set, std::size_t count) {
+  std::vector<std::vector<std::size_t>> drawn;
+  if (set == "random") {
+    for (std::size_t r = 0; r < given.repetitions; ++r)
+      drawn.push_back(gonio::random_cells(cells, count, given.seed + r));
+  } else if (const auto directions = written_points(given.folder, set, count)) {
+    drawn.push_back(gonio::cells_at(cells, *directions));
+  }
+  return drawn;
+}
+
+/// Means over the repetitions.
+json judge_table(const directions_options& given, const workshop& shop, const std::string& name,
+                 const gonio::brdf_table& truth, const std::vector<std::vector<std::size_t>>& drawn) {
+  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
+  std::vector<material_result> results;
+  for (const auto& cells : drawn) {
+    const auto estimate = estimator.fit(gonio::measure(truth, cells)).tabulate(truth.cells(), given.threads);
+    results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.judge, given.threads)});
+  }
+  return mean_errors(results);
+}
+
+// ---- scattered measurements: judged on those that were not used ----------------------------------------------------
+
+/// How far one pair of directions is from another: the larger of the angles by which light and viewer are off, after
+/// the turn about the normal that brings both closest, which an isotropic material does not see.
+double angle_between(const gonio::direction_pair& from, const gonio::direction_pair& to) {
+  // The turn maximises the sum of the cosines, A cos phi + B sin phi + C.
+  const auto along = [](const gonio::direction& a, const gonio::direction& b) { return a.x() * b.x() + a.y() * b.y(); };
+  const auto across = [](const gonio::direction& a, const gonio::direction& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  };
+  const double phi =
+      std::atan2(across(from.wi, to.wi) + across(from.wo, to.wo), along(from.wi, to.wi) + along(from.wo, to.wo));
+  const auto off = [&](const gonio::direction& a, const gonio::direction& b) {
+    const gonio::direction turned = gonio::turned_about_normal(a, phi);
+    return std::atan2(turned.cross(b).norm(), turned.dot(b));
+  };
+  return std::max(off(from.wi, to.wi), off(from.wo, to.wo));
+}
+
+/// Which measurement stands for which direction, and how far away it is, in radians.
+struct stand_ins {
+  std::vector<std::size_t> samples;
+  std::vector<double> distances;
+};
+
+/// The nearest measurement to each direction, light and viewer in either place, none of them twice.
+stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::half_difference> directions) {
+  stand_ins found;
+  for (const gonio::half_difference& angles : directions) {
+    const gonio::direction_pair wanted = gonio::to_directions(angles);
+    std::size_t nearest = 0;
+    double distance = std::numeric_limits<double>::infinity();
+    for (std::size_t s = 0; s < all.size(); ++s) {
+      if (std::ranges::find(found.samples, s) != found.samples.end()) continue;
+      const auto [wi, wo] = gonio::to_directions(all[s].angles);
+      const double here = std::min(angle_between(wanted, {wi, wo}), angle_between(wanted, {wo, wi}));
+      if (here < distance) {
+        nearest = s;
+        distance = here;
+      }
+    }
+    found.samples.push_back(nearest);
+    found.distances.push_back(distance);
+  }
+  return found;
+}
+
+/// The measurements to use, as many times as a set is drawn; random ones are where they are.
+std::vector<stand_ins> samples_of(const directions_options& given, const gonio::sample_set& all, const std::string& set,
+                                  std::size_t count) {
+  std::vector<stand_ins> drawn;
+  if (set == "random") {
+    for (std::size_t r = 0; r < given.repetitions; ++r)
+      drawn.push_back({gonio::random_choice(all.size(), count, given.seed + r), std::vector<double>(count, 0.0)});
+  } else if (const auto directions = written_points(given.folder, set, count)) {
+    drawn.push_back(nearest_measured(all, *directions));
+  }
+  return drawn;
+}
+
+/// Means over the repetitions.
+json judge_samples(const directions_options& given, const workshop& shop, const gonio::sample_set& all,
+                   const std::vector<stand_ins>& drawn) {
+  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
+  const auto times = static_cast<double>(drawn.size());
+  double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0;
+  for (const stand_ins& used : drawn) {
+    gonio::sample_set some, others;
+    for (std::size_t s = 0; s < all.size(); ++s)
+      (std::ranges::find(used.samples, s) != used.samples.end() ? some : others).push_back(all[s]);
+    const auto fit = estimator.fit(some);
+    logarithmic_error log_error;
+    cosine_weighted_error cosine_error;
+    for (const gonio::sample& other : others) {
+      const gonio::direction_pair pair = gonio::to_directions(other.angles);
+      const gonio::rgb estimate = fit(pair.wi, pair.wo);
+      log_error.add(estimate, other.value);
+      cosine_error.add(estimate, other.value, pair);
+    }
+    in_logarithms += log_error.value() / times;
+    weighted += cosine_error.value() / times;
+    distance += distribution(used.distances).mean / times;
+    farthest = std::max(farthest, distribution(used.distances).worst);
+  }
+  return {{"log_error", in_logarithms},
+          {"cosine_error", weighted},
+          {"degrees_mean", gonio::degrees(distance)},
+          {"degrees_worst", gonio::degrees(farthest)},
+          {"judged_by", all.size() - drawn.front().samples.size()}};
+}
+
+// ---- the experiment ------------------------------------------------------------------------------------------------
+
+/// Does what is not done yet, opening the workshop when it must.
+class experiment {
+ public:
+  experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
+
+  [[nodiscard]] json tables() {
+    json rows = json::array();
+    if (given_.tables.empty()) return rows;
+    const auto files = gonio::io::list_merl_directory(given_.tables);
+    if (files.empty()) throw gonio::error(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    for (const auto& [name, path] : files) {
+      std::optional<gonio::brdf_table> truth;
+      each_set(name, rows, [&](const std::string& set, std::size_t count) -> json {
+        if (!truth) truth.emplace(gonio::io::read_merl_any(path));
+        const auto drawn = cells_of(given_, truth->cells(), set, count);
+        if (drawn.empty()) return {};
+        return judge_table(given_, shop_for(truth->cells()), name, *truth, drawn);
+      });
+    }
+    return rows;
+  }
+
+  [[nodiscard]] json scattered() {
+    json rows = json::array();
+    for (const std::filesystem::path& file : given_.samples) {
+      const gonio::sample_set all = read_measurements(file);
+      each_set(file.stem().string(), rows, [&](const std::string& set, std::size_t count) -> json {
+        if (count >= all.size())
+          throw gonio::error(file.string() + ": no sample is left to judge by after " + std::to_string(count));
+        const auto drawn = samples_of(given_, all, set, count);
+        if (drawn.empty()) return {};
+        return judge_samples(given_, shop_for(gonio::valid_cells()), all, drawn);
+      });
+    }
+    return rows;
+  }
+
+ private:
+  /// A row for each number and set that exists; `judge` returns nothing where it does not.
+  template <class Judge>
+  void each_set(const std::string& name, json& rows, Judge&& judge) {
+    for (const std::size_t count : given_.counts)
+      for (const std::string& set : given_.sets) {
+        const json key{name, count, set, given_.eta, given_.seed, given_.repetitions};
+        if (!results_.find(key)) {
+          bar_.draw(name, 0.0);
+          const json found = judge(set, count);
+          if (found.is_null()) continue;
+          results_.add(key, found);
+        }
+        rows.push_back({{"material", name}, {"count", count}, {"set", set}, {"result", *results_.find(key)}});
+      }
+  }
+
+  const workshop& shop_for(const gonio::valid_cells& cells) {
+    if (!shop_ || !(shop_->prior.cells() == cells)) {
+      shop_.reset();  // two would take twice the memory
+      shop_.emplace(open_workshop(given_, cells, bar_.listener()));
+    }
+    return *shop_;
+  }
+
+  const directions_options& given_;
+  progress_bar& bar_;
+  resumable_results results_;
+  std::optional<workshop> shop_;  // of the last table's cells, most often those of the next, too
+};
+
+/// The means over materials of each number and set, in the order of the rows.
+json means_of(const json& rows) {
+  std::vector<json> means;
+  for (const json& row : rows.elements()) {
+    auto found = std::ranges::find_if(
+        means, [&](const json& mean) { return mean["count"] == row["count"] && mean["set"] == row["set"]; });
+    if (found == means.end()) {
+      means.push_back({{"count", row["count"]}, {"set", row["set"]}, {"materials", 0}, {"result", json::object()}});
+      found = means.end() - 1;
+    }
+    (*found)["materials"] = (*found)["materials"].number() + 1.0;
+    for (const auto& [key, value] : row["result"].items()) {
+      json& sum = (*found)["result"][key];
+      sum = (sum.is_null() ? 0.0 : sum.number()) + value.number();
+    }
+  }
+  for (json& mean : means)
+    for (auto& [key, value] : mean["result"].items()) value = value.number() / mean["materials"].number();
+  return means;
+}
+
+struct column {
+  const char *key, *title;
+  int digits;
+};
+
+void print_rows(const json& rows, std::span<const column> columns) {
+  const json means = means_of(rows);
+  std::cout << "| material | n | chosen by |";
+  for (const column& c : columns) std::cout << ' ' << c.title << " |";
+  std::cout << "\n|---|---|---|" << [&] {
+    std::string line;
+    for (std::size_t i = 0; i < columns.size(); ++i) line += "---|";
+    return line;
+  }() << '\n';
+  const auto print_row = [&](const std::string& name, const json& row) {
+    std::cout << "| " << name << " | " << row["count"] << " | " << row["set"].text() << " |";
+    for (const column& c : columns) std::cout << ' ' << fixed(row["result"][c.key].number(), c.digits) << " |";
+    std::cout << '\n';
+  };
+  for (const json& row : means.elements()) print_row("mean of " + fixed(row["materials"], 0), row);
+  for (const json& row : rows.elements()) print_row(row["material"].text(), row);
+}
+
+void print(const directions_options& given, const json& tables, const json& scattered) {
+  std::cout << "eta = " << given.eta << ", random: means of " << given.repetitions << " sets.\n";
+  if (!tables.empty()) {
+    static constexpr std::array columns{column{"mapped_rms", "mapped rms", 3}, column{"delta_e_env", "Delta E env", 2},
+                                        column{"delta_e_lights", "Delta E lights", 2}, column{"peak_ratio", "peak", 2}};
+    std::cout << "\nTables, judged as a whole:\n\n";
+    print_rows(tables, columns);
+  }
+  if (!scattered.empty()) {
+    static constexpr std::array columns{
+        column{"log_error", "rms of ln(f + 0.001)", 3}, column{"cosine_error", "cosine-weighted relative error", 3},
+        column{"degrees_mean", "degrees off, mean", 1}, column{"degrees_worst", "degrees off, worst", 1}};
+    std::cout << "\nScattered measurements, from the nearest ones to the directions, judged on all others:\n\n";
+    print_rows(scattered, columns);
+  }
+}
+
+void run(const directions_options& given) {
+  if (given.tables.empty() && given.samples.empty())
+    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+  progress_bar bar;
+  experiment work(given, bar);
+  const json tables = work.tables(), scattered = work.scattered();
+  bar.wipe();
+  if (given.print_json)
+    std::cout << json{{"tables", tables}, {"scattered", scattered}}.dump(2) << '\n';
+  else
+    print(given, tables, scattered);
+}
+
+}  // namespace
+
+void add_directions_measured(command& app) {
+  auto command = app.add_subcommand(
+      "directions-measured", "Reconstruct real measurements from the directions that are the best for a database");
+  const auto options = std::make_shared<directions_options>();
+  add_networks_option(command, options->networks);
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_option("--samples", options->samples,
+                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_option("--directions", options->folder,
+                     "Folder of sets, as `gonio-papers directions --write` writes them");
+  command.add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
+      .check(
+          check::one_of({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
+      .capture_default_str();
+  add_counts_option(command, options->counts);
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the first random set").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

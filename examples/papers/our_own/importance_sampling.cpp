@@ -1,0 +1,182 @@
+/// gonio-papers importance-sampling: how much less light estimates vary with directions drawn by importance of the
+/// BRDF than with cosine-weighted ones.
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/render/environment_sampler.hpp>
+#include <gonio/render/half_vector_sampler.hpp>
+#include <gonio/render/lookup_table.hpp>
+
+#include <iostream>
+#include <memory>
+#include <random>
+
+namespace papers {
+
+namespace {
+
+struct sampling_options {
+  studied_networks networks;
+  std::vector<std::filesystem::path> environments, tables;
+  std::size_t points = 10'000, draws = 200;
+  std::uint64_t seed = 1;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+struct named_light {
+  std::string name;
+  gonio::environment_sampler light;
+};
+
+using sampled_material = gonio::half_vector_sampler<gonio::lookup_table<>>;
+
+std::vector<named_light> lights_of(const sampling_options& options) {
+  std::vector<named_light> lights;
+  lights.push_back({"white", gonio::environment_sampler(gonio::environment_map::of(
+                                 [](const gonio::direction&) { return gonio::rgb(gonio::rgb::Ones()); }, 64))});
+  lights.push_back({"formula", gonio::environment_sampler(gonio::environment_map::of(gonio::formula_environment{}))});
+  for (const auto& path : options.environments)
+    lights.push_back(
+        {path.stem().string(), gonio::environment_sampler(gonio::environment_map(gonio::io::read_hdr(path)))});
+  return lights;
+}
+
+/// Variances of one sample's estimate of the luminance towards the camera.
+struct variances {
+  double by_cosine = 0.0, by_importance = 0.0;
+};
+
+/// At a point of the sphere. The variance of f L cos / pdf is the integral of its square times pdf, less the square of
+/// its mean. Both integrals are estimated with draws by the environment and by the material, in equal shares, the same
+/// for both kinds: drawn by either kind alone, a small lamp would be missed and the table be one of chance.
+variances variances_at(const gonio::surface_frame& surface, const sampled_material& f,
+                       const gonio::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
+  const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const gonio::direction wo = surface.to_local(gonio::direction::UnitZ());
+  variances squares;
+  double mean = 0.0;
+  for (std::size_t i = 0; i < draws; ++i) {
+    const double u1 = number(), u2 = number();
+    const gonio::direction wi = i % 2 == 0 ? surface.to_local(light.sample(u1, u2).towards) : f.sample(wo, u1, u2).wi;
+    if (!(wi.z() > 0.0)) continue;
+    const gonio::direction towards = surface.to_world(wi);
+    const double importance = f.pdf(wi, wo), drawn = 0.5 * (light.pdf(towards) + importance);
+    const double value = gonio::luminance(f.brdf()(wi, wo) * light.map()(towards)) * wi.z();
+    const double share = 1.0 / (drawn * static_cast<double>(draws));
+    mean += value * share;
+    squares.by_cosine += value * value / gonio::cosine_weighted_pdf(wi) * share;
+    squares.by_importance += value * value / importance * share;
+  }
+  return {squares.by_cosine - mean * mean, squares.by_importance - mean * mean};
+}
+
+/// The ratio of the mean variances over the points of a sphere that the camera sees.
+double ratio_of_variances(const sampled_material& f, const gonio::environment_sampler& light,
+                          const sampling_options& options) {
+  std::mt19937_64 generator(options.seed);
+  const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  variances sum;
+  for (std::size_t point = 0; point < options.points; ++point) {
+    const double within = number(), turn = 2.0 * std::numbers::pi * number();
+    const double squared = (static_cast<double>(point) + within) / static_cast<double>(options.points);
+    const double radius = std::sqrt(squared);
+    const gonio::surface_frame surface({radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0 - squared)});
+    const variances at = variances_at(surface, f, light, options.draws, generator);
+    sum.by_cosine += at.by_cosine;
+    sum.by_importance += at.by_importance;
+  }
+  return sum.by_cosine / sum.by_importance;
+}
+
+struct named_table {
+  std::string name;
+  gonio::brdf_table table;
+};
+
+std::vector<named_table> tables_of(const sampling_options& options) {
+  std::vector<named_table> tables;
+  if (!options.networks.file.empty()) {
+    const auto networks = networks_in(options.networks.read(), gonio::nielsen_test_materials());
+    const auto cells = options.networks.cells();
+    for (std::size_t i = 0; i < networks.names.size(); ++i)
+      tables.push_back({networks.names[i], gonio::tabulate(networks.networks[i], cells, options.threads)});
+  }
+  for (const auto& path : options.tables) tables.push_back({path.stem().string(), gonio::io::read_merl_any(path)});
+  if (tables.empty()) throw gonio::error("no materials: give --networks or tables");
+  return tables;
+}
+
+void run_sampling(const sampling_options& options) {
+  progress_bar bar;
+  const auto lights = lights_of(options);
+  const auto tables = tables_of(options);
+  std::vector<std::vector<double>> ratios(tables.size(), std::vector<double>(lights.size()));
+  std::mutex reporting;
+  std::size_t done = 0;
+  gonio::for_each_block(
+      tables.size(), 1,
+      [&](gonio::block range) {
+        const sampled_material sampler(gonio::lookup_table<>::of(tables[range.begin].table));
+        for (std::size_t i = 0; i < lights.size(); ++i)
+          ratios[range.begin][i] = ratio_of_variances(sampler, lights[i].light, options);
+        const std::scoped_lock lock(reporting);
+        gonio::report(bar.listener(), "materials", static_cast<double>(++done) / static_cast<double>(tables.size()));
+      },
+      options.threads);
+  bar.wipe();
+
+  if (options.print_json) {
+    json all;
+    for (std::size_t i = 0; i < tables.size(); ++i)
+      for (std::size_t k = 0; k < lights.size(); ++k) all[tables[i].name][lights[k].name] = ratios[i][k];
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::cout << "Variance with cosine-weighted directions over that by importance of the BRDF, means over a sphere.\n\n"
+            << "| material |";
+  for (const auto& [name, light] : lights) std::cout << ' ' << name << " |";
+  std::cout << "\n|---|";
+  for (std::size_t k = 0; k < lights.size(); ++k) std::cout << "---|";
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    std::cout << "\n| " << tables[i].name << " |";
+    for (const double ratio : ratios[i])
+      std::cout << ' ' << fixed(ratio, ratio < 10.0 ? 2 : ratio < 100.0 ? 1 : 0) << " |";
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+void add_importance_sampling(command& app) {
+  auto command = app.add_subcommand(
+      "importance-sampling", "How much less estimates of light vary with directions drawn by importance of the BRDF");
+  const auto options = std::make_shared<sampling_options>();
+  command.add_option("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
+  command.add_option("--networks", options->networks.file,
+                     "File of networks of the 100 materials (.npy): the ten test materials");
+  add_thin_option(command, options->networks.thin);
+  command.add_option("--environment", options->environments,
+                     "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
+  command.add_option("--points", options->points, "Points of the sphere")
+      .check(check::range(1, 1'000'000))
+      .capture_default_str();
+  command.add_option("--draws", options->draws, "Directions for each point")
+      .check(check::range(2, 100'000'000))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of points and directions").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print the ratios as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run_sampling(*options); });
+}
+
+}  // namespace papers

@@ -1,0 +1,139 @@
+/// gonio-papers measured-materials: tables of another database, reconstructed from random samples.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/render/sphere.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace papers {
+
+namespace {
+
+struct measured_options {
+  std::filesystem::path tables, prior, picture;
+  std::vector<std::size_t> counts{20, 500};
+  double eta = 40.0;
+  std::uint64_t seed = 1;
+  std::size_t repetitions = 5;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The lower bound that the prior allows: a fit to a random tenth of the cells.
+constexpr std::size_t many_samples = 100'000;
+
+gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
+                              const gonio::brdf_table& truth, std::size_t count, std::uint64_t seed) {
+  const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, seed));
+  return gonio::decomposition{prior, gonio::tikhonov{options.eta}}.fit(samples).tabulate(truth.cells(),
+                                                                                         options.threads);
+}
+
+/// One table: its errors for each number of samples (all repetitions), and the row of spheres.
+struct table_report {
+  std::vector<std::vector<material_result>> errors;
+  std::vector<gonio::image> spheres;
+};
+
+table_report judge_table(const measured_options& options, const gonio::log_relative_pca& prior, const std::string& name,
+                         const gonio::brdf_table& truth, const gonio::appearance_judge& judge) {
+  table_report result;
+  const auto draw = [&](const gonio::brdf_table& table) {
+    if (!options.picture.empty())
+      result.spheres.push_back(
+          gonio::render_sphere(table, gonio::two_lights(), {.size = 128, .supersampling = 2}, options.threads));
+  };
+  for (const std::size_t count : options.counts) {
+    auto& repetitions = result.errors.emplace_back();
+    const std::size_t times = count >= many_samples ? 1 : options.repetitions;
+    for (std::size_t r = 0; r < times; ++r) {
+      const auto estimate = reconstruct(options, prior, truth, count, options.seed + r);
+      repetitions.push_back({name, gonio::compare(estimate, truth, prior.metric(), judge, options.threads)});
+      if (r == 0) draw(estimate);
+    }
+  }
+  draw(truth);
+  return result;
+}
+
+void run(const measured_options& options) {
+  progress_bar bar;
+  const auto prior = gonio::io::read_prior(options.prior);
+  const auto files = gonio::io::list_merl_directory(options.tables);
+  if (files.empty()) throw gonio::error(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+  std::vector<gonio::image> rows;
+  std::vector<gonio::appearance_judge> judges;  // of the last table's cells, most often those of the next, too
+  json result = json::object();
+  for (std::size_t f = 0; f < files.size(); ++f) {
+    bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
+    const auto truth = gonio::io::read_merl_any(files[f].path);
+    if (judges.empty() || !(judges.back().cells() == truth.cells()))
+      judges.assign(1, gonio::appearance_judge(truth.cells(), 36, options.threads));
+    const auto [errors, spheres] = judge_table(options, prior, files[f].name, truth, judges.back());
+    for (std::size_t i = 0; i < options.counts.size(); ++i) {
+      json means = mean_errors(errors[i]);
+      means["peak_ratio"] = mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
+      result[files[f].name][std::to_string(options.counts[i])] = means;
+    }
+    if (!options.picture.empty()) rows.push_back(gonio::side_by_side(spheres, 4));
+  }
+  bar.wipe();
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, gonio::stacked(rows));
+
+  if (options.print_json) {
+    std::cout << result.dump(2) << '\n';
+    return;
+  }
+  std::cout << "Means over " << options.repetitions << " sets of random samples, eta = " << options.eta << ".\n\n"
+            << "| material | samples | mapped rms | cosine rms | Delta E env | Delta E lights | peak ratio "
+               "|\n|---|---|---|---|---|---|---|\n";
+  for (const auto& [name, counts] : result.items())
+    for (const auto& [count, means] : counts.items())
+      std::cout << "| " << name << " | " << count << " | " << fixed(means["mapped_rms"], 3) << " | "
+                << fixed(means["cosine_rms"], 3) << " | " << fixed(means["delta_e_env"], 2) << " | "
+                << fixed(means["delta_e_lights"], 2) << " | " << fixed(means["peak_ratio"], 2) << " |\n";
+}
+
+}  // namespace
+
+void add_measured_materials(command& app) {
+  auto command =
+      app.add_subcommand("measured-materials", "Reconstruct each table of a folder from random samples of it");
+  const auto options = std::make_shared<measured_options>();
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)").required();
+  add_prior_option(command, options->prior);
+  command.add_option("--counts", options->counts, "Numbers of samples")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of the first set of samples").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--spheres", options->picture,
+                     "Picture to write (.png): a row for each table, the truth at the right");
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

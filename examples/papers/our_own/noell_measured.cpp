@@ -1,0 +1,187 @@
+/// gonio-papers noell-measured: real measurements, of which the materials of a database know nothing, reconstructed
+/// by robust estimation (after Noell, Koehler and Stricker 2014) from some of their samples.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/noell2014/noell_judges.hpp"
+#include "papers/noell2014/noell_tables.hpp"
+#include "papers/our_own/scattered_errors.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/merl_directory.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/metric/log.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace papers {
+
+namespace {
+
+struct measured_options {
+  std::filesystem::path networks, environment, tables;
+  std::vector<std::filesystem::path> samples;
+  double data_ratio = 0.1;
+  std::vector<double> outlier_ratios{0.0, 0.2};
+  std::uint64_t seed = 1;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The materials on some cells, their corrections, and the judges there.
+struct workshop {
+  workshop(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
+      : threads(given.threads),
+        materials(gonio::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
+                  gonio::log{}, threads),
+        corrections(materials, {}, gonio::nnls{}, threads),
+        printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
+        judges(cells, given.environment, threads) {}
+
+  /// Calls `use(name, fit)` for ours, the paper's method as printed, and the combination of materials.
+  template <class Use>
+  void reconstruct(const gonio::sample_set& samples, double outlier_ratio, Use&& use) const {
+    const gonio::decomposition combination{materials, gonio::nnls{}, threads};
+    const gonio::relative_deviation_weights weights{noell_gamma(outlier_ratio)};
+    const gonio::correction_limits ten_rounds{.smallest_change = 0.0, .inertia = 0.0};
+    use("our", gonio::robust_reconstruction{materials, corrections, {}, {}, threads}.fit(samples));
+    use("printed",
+        gonio::correction_iteration{combination, printed_corrections, weights, gonio::nnls{}, ten_rounds, threads}.fit(
+            samples));
+    use("lc", combination.fit(samples));
+  }
+
+  gonio::thread_count threads;
+  gonio::measured<gonio::log> materials;
+  gonio::correction corrections, printed_corrections;
+  noell_judges judges;
+};
+
+/// One for each method and share of outliers.
+json row(const std::string& name, const std::string& method, std::size_t samples, double outlier_ratio) {
+  return {{"name", name}, {"method", method}, {"samples", samples}, {"outlier_ratio", outlier_ratio}};
+}
+
+/// Judged on the whole table.
+void judge_table(const measured_options& given, const workshop& shop, const std::string& name,
+                 const gonio::brdf_table& truth, json& rows) {
+  const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
+  const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
+  for (const double outlier_ratio : given.outlier_ratios)
+    shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
+                     [&](const std::string& method, const auto& fit) {
+                       const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
+                       logarithmic_error error;
+                       for (std::size_t cell = 0; cell < truth.cells().size(); ++cell)
+                         error.add(estimate.at(cell), truth.at(cell));
+                       json result = row(name, method, count, outlier_ratio);
+                       result["log_error"] = error.value();
+                       result.update(shop.judges.judge(estimate, truth));
+                       rows.push_back(std::move(result));
+                     });
+}
+
+/// Judged on the measurements that the estimate was not made from.
+void judge_samples(const measured_options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
+  const gonio::sample_set all = read_measurements(path);
+  const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
+  const auto [some, others] = gonio::part(all, count, given.seed);
+  if (others.empty()) throw gonio::error(path.string() + ": no sample is left to judge by, expected --data below 1");
+  std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
+  for (const double outlier_ratio : given.outlier_ratios) {
+    const auto samples = gonio::spoil(some, {.outlier_ratio = outlier_ratio}, given.seed,
+                                      [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
+    shop.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
+      logarithmic_error error;
+      for (const gonio::sample& other : others) {
+        const auto [wi, wo] = to_directions(other.angles);
+        error.add(fit(wi, wo), other.value);
+      }
+      json result = row(path.stem().string(), method, count, outlier_ratio);
+      result["log_error"] = error.value();
+      rows.push_back(std::move(result));
+    });
+  }
+}
+
+void print(const measured_options& given, const json& rows) {
+  if (given.print_json) {
+    std::cout << rows.dump(1) << '\n';
+    return;
+  }
+  std::cout
+      << "Error: root mean square of ln(f + 0.001) over a table's cells, or over the measurements that were not "
+         "used.\n\n"
+      << "| material | samples | outliers | method | error | Delta E formula light | natural light | peak ratio |\n"
+      << "|---|---|---|---|---|---|---|---|\n";
+  const auto figure = [](const json& result, const char* key) {
+    return result.contains(key) ? fixed(result[key], 2) : std::string();
+  };
+  for (const json& result : rows.elements())
+    std::cout << "| " << result["name"].text() << " | " << result["samples"] << " | "
+              << fixed(result["outlier_ratio"], 1) << " | " << result["method"].text() << " | "
+              << fixed(result["log_error"], 3) << " | " << figure(result, "delta_e_env") << " | "
+              << figure(result, "delta_e_natural") << " | " << figure(result, "peak_ratio") << " |\n";
+}
+
+void run(const measured_options& given) {
+  if (given.tables.empty() && given.samples.empty())
+    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+  progress_bar bar;
+  json rows = json::array();
+  std::unique_ptr<workshop> shop;  // of the last table's cells, most often those of the next, too
+  const auto shop_for = [&](const gonio::valid_cells& cells) -> const workshop& {
+    if (!shop || !(shop->materials.cells() == cells)) {
+      shop.reset();  // two would take twice the memory
+      shop = std::make_unique<workshop>(given, cells, bar.listener());
+    }
+    return *shop;
+  };
+  if (!given.tables.empty()) {
+    const auto files = gonio::io::list_merl_directory(given.tables);
+    if (files.empty()) throw gonio::error(given.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    for (std::size_t f = 0; f < files.size(); ++f) {
+      const auto truth = gonio::io::read_merl_any(files[f].path);
+      const workshop& here = shop_for(truth.cells());
+      bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
+      judge_table(given, here, files[f].name, truth, rows);
+    }
+  }
+  for (const std::filesystem::path& file : given.samples)
+    judge_samples(given, shop_for(shop ? shop->materials.cells() : gonio::valid_cells()), file, rows);
+  bar.wipe();
+  print(given, rows);
+}
+
+}  // namespace
+
+void add_noell_measured(command& app) {
+  auto command = app.add_subcommand(
+      "noell-measured", "Reconstruct real measurements, some of which are outliers, from the materials of a database");
+  const auto options = std::make_shared<measured_options>();
+  add_networks_option(command, options->networks);
+  add_environment_option(command, options->environment);
+  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_option("--samples", options->samples,
+                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_option("--data", options->data_ratio, "Share of the data that is measured")
+      .check(check::positive_number() & check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--outliers", options->outlier_ratios, "Shares of the measurements that are outliers")
+      .check(check::range(0.0, 1.0))
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
+  command.add_flag("--json", options->print_json, "Print as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

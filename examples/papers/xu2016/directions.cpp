@@ -1,0 +1,339 @@
+/// gonio-papers directions: where to measure; published sets and ours on materials that neither has seen.
+
+#include "command_line/design_search.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/solver_choice.hpp"
+#include "command_line/threads_option.hpp"
+#include "lab/near_field_lab.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/mean_errors.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/design/compressed_rows.hpp>
+#include <gonio/design/design_criterion.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/estimate/misplaced_decomposition.hpp>
+#include <gonio/estimate/pose_refinement.hpp>
+#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace papers {
+
+namespace {
+
+struct directions_options {
+  studied_networks networks;
+  std::filesystem::path state, folder;
+  std::vector<std::string> sets{"published", "industry",  "random",         "condition",
+                                "a-optimal", "d-optimal", "expected-error", "perceived"};
+  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::vector<std::filesystem::path> files;  ///< of directions, judged beside the sets
+  std::string geometry = "point";
+  std::string reconstruction_eta;
+  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0, expected = 0.0;
+  std::uint64_t seed = 0;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// What all sets are judged with.
+struct laboratory : nielsen_split {
+  gonio::appearance_judge judge;
+};
+
+laboratory open_laboratory(const directions_options& options, const gonio::progress& listener) {
+  auto split = nielsen_split::learn(options.networks, options.threads, listener);
+  const gonio::valid_cells cells = split.truths.cells;
+  return {std::move(split), gonio::appearance_judge(cells, 36, options.threads)};
+}
+
+design_options search_for(const directions_options& options, const std::string& criterion, std::size_t count) {
+  design_options search;
+  search.count = count;
+  search.geometry = options.geometry;
+  search.criterion = criterion;
+  search.eta = options.eta;
+  search.noise = options.noise;
+  search.near_field.field_of_view = gonio::radians(options.field_of_view);
+  search.near_field.step = gonio::radians(options.step);
+  if (options.geometry == "point" && (criterion == "expected-error" || criterion == "perceived"))
+    search.misplacement = gonio::radians(options.expected);
+  search.seed = options.seed;
+  search.threads = options.threads;
+  return search;
+}
+
+/// A set of point samples that is not searched for.
+designed point_samples(const std::vector<gonio::half_difference>& directions) {
+  designed set{{}, directions, 0.0};
+  for (const gonio::half_difference& angles : directions) set.poses.push_back(gonio::to_directions(angles));
+  return set;
+}
+
+/// A set of directions and how many there are: by its name, or in a file.
+struct judged_set {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<gonio::direction_pair> directions = {};  ///< those of the file
+};
+
+/// Sets that are not searched for are of points, and of the numbers that somebody published.
+bool exists(const directions_options& options, const std::string& set, std::size_t count) {
+  const bool points = options.geometry == "point";
+  if (set == "published") return points && gonio::has_nielsen_directions(count);
+  if (set == "industry") return points && count == gonio::westlund_meyer_directions().size();
+  return set != "random" || points;
+}
+
+/// All sets that exist, and the files.
+std::vector<judged_set> sets_to_judge(const directions_options& options) {
+  if (!options.files.empty() && options.geometry != "point")
+    throw gonio::error("--files are directions of points, not of " + options.geometry);
+  std::vector<judged_set> all;
+  for (const std::filesystem::path& file : options.files) {
+    auto directions = gonio::io::read_direction_pairs(file);
+    const std::size_t count = directions.size();
+    all.push_back({file.filename().string(), count, std::move(directions)});
+  }
+  for (const std::size_t count : options.counts)
+    for (const std::string& set : options.sets)
+      if (exists(options, set, count)) all.push_back({set, count});
+  return all;
+}
+
+/// A set that exists.
+designed find_set(const laboratory& lab, const directions_options& options, const judged_set& wanted,
+                  const gonio::progress& listener) {
+  const auto& [set, count, directions] = wanted;
+  if (!directions.empty()) {
+    designed found{directions, {}, 0.0};
+    for (const auto& [wi, wo] : directions) found.samples.push_back(gonio::to_half_difference(wi, wo));
+    return found;
+  }
+  if (set == "published") return point_samples(gonio::nielsen_directions(count));
+  if (set == "industry") return point_samples(gonio::westlund_meyer_directions());
+  if (set == "random") {
+    std::vector<gonio::half_difference> angles;
+    for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
+      angles.push_back(lab.truths.cells.angles(cell));
+    return point_samples(angles);
+  }
+  return design(lab.prior, search_for(options, set, count), listener);
+}
+
+bool takes_pictures(const directions_options& options) {
+  return options.geometry != "point" && options.geometry != "sphere";
+}
+
+/// All pictures of a material, each by the simulated laboratory with defects of its own.
+std::vector<gonio::picture_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
+                                                 const designed& found, std::uint64_t seed) {
+  const gonio::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
+  const gonio::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
+  std::vector<gonio::picture_samples> pictures;
+  for (const auto& [wi, wo] : found.poses) {
+    const gonio::near_field_setup setup{
+        .camera = gonio::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels), .light = {wi}, .disc = disc};
+    const gonio::image picture = lab::photograph(
+        material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.misplacement)}, ++seed);
+    pictures.push_back(gonio::near_field_pairs(picture, setup));
+  }
+  return pictures;
+}
+
+gonio::sample_set sampled(const gonio::brdf_table& material, const directions_options& options, const designed& found,
+                          std::uint64_t seed) {
+  const gonio::measurement_defects defects{.noise = options.noise};
+  if (options.misplacement > 0.0)
+    return gonio::spoil(gonio::measure_misplaced(material, found.poses, gonio::radians(options.misplacement), seed),
+                        defects, seed, [](auto&) { return gonio::rgb(gonio::rgb::Zero()); });
+  return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
+}
+
+/// By who trusts the directions.
+gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, const directions_options& options,
+                                                     const gonio::sample_set& samples) {
+  // As `gonio reconstruct` does when nobody says how noisy the measurements are.
+  if (options.reconstruction_eta == "auto")
+    return gonio::decomposition{lab.prior, gonio::tikhonov{gonio::eta_of_unknown_noise(lab.prior, samples)}}.fit(
+        samples);
+  return gonio::decomposition{
+      lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", std::to_string(options.eta)})}
+      .fit(samples);
+}
+
+/// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
+gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab, const gonio::brdf_table& material,
+                                                          const directions_options& options, const designed& found,
+                                                          std::uint64_t seed) {
+  const double expected = gonio::radians(options.expected);
+  if (!takes_pictures(options)) {
+    const gonio::sample_set samples = sampled(material, options, found, seed);
+    if (!(expected > 0.0)) return trusting(lab, options, samples);
+    return gonio::misplaced_decomposition{lab.prior, options.eta, expected, options.threads}.fit(samples);
+  }
+  const auto pictures = photographed(material, options, found, seed);
+  if (expected > 0.0) {
+    gonio::pose_refinement refinement(lab.prior, pictures,
+                                      {.eta = options.eta, .deviation = expected, .threads = options.threads});
+    refinement.solve();
+    return refinement.fit();
+  }
+  gonio::sample_set all;
+  for (const gonio::picture_samples& picture : pictures) {
+    const gonio::sample_set samples = gonio::as_sample_set(picture);
+    all.insert(all.end(), samples.begin(), samples.end());
+  }
+  return trusting(lab, options, all);
+}
+
+json judged(const laboratory& lab, const directions_options& options, const designed& found) {
+  const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
+  std::vector<material_result> results;
+  for (std::size_t number = 0; number < lab.truths.names.size(); ++number) {
+    const gonio::brdf_table truth = lab.truths.table(number);
+    const auto estimate = reconstructed(lab, truth, options, found, options.seed + 1000 * number);
+    results.push_back(
+        {lab.truths.names[number], gonio::compare(estimate.tabulate(lab.truths.cells, options.threads), truth,
+                                                  lab.prior.metric(), lab.judge, options.threads)});
+  }
+  json poses = json::array();
+  for (const auto& [wi, wo] : found.poses)
+    poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
+  const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
+  return {{"expected_error", quality.expected_error},
+          {"condition", condition},
+          {"samples", found.samples.size()},
+          {"errors", mean_errors(results)},
+          {"poses", poses}};
+}
+
+/// JSON has no infinity: it comes back as null.
+std::string printed(const json& value, int digits) {
+  if (!value.is_number() || !std::isfinite(value.number())) return "infinite";
+  return fixed(value, digits);
+}
+
+void print_row(const json& row) {
+  const json& result = row["result"];
+  const json& errors = result["errors"];
+  std::cout << "| " << row["count"] << " | " << row["set"].text() << " | " << printed(result["expected_error"], 4)
+            << " | " << printed(result["condition"], 2) << " | " << printed(errors["mapped_rms"], 3) << " | "
+            << printed(errors["delta_e_env"], 2) << " | " << printed(errors["delta_e_lights"], 2) << " | "
+            << printed(errors["peak_ratio"], 2) << " |\n";
+}
+
+/// A set as a file of directions that is named after what it is for.
+void write_set(const directions_options& options, const json& row) {
+  const auto vector = [](const json& w) { return gonio::direction(w[0].number(), w[1].number(), w[2].number()); };
+  std::vector<gonio::direction_pair> poses;
+  for (const json& pose : row["result"]["poses"].elements()) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
+  std::string name = options.geometry;
+  if (takes_pictures(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
+  name += '-' + row["count"].dump() + '-' + row["set"].text() + ".csv";
+  std::filesystem::create_directories(options.folder);
+  gonio::io::write_direction_pairs(options.folder / name, poses);
+}
+
+void run(const directions_options& options) {
+  if (options.geometry == "sphere" && options.misplacement > 0.0)
+    throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
+  if (options.expected > 0.0 && (options.geometry == "sphere" || !options.reconstruction_eta.empty()))
+    throw gonio::error("--expected-misplacement is of points and near-field pictures, and of --eta alone");
+  progress_bar bar;
+  const auto listener = bar.listener();
+  resumable_results results(options.state);
+  std::optional<laboratory> lab;  // opened when there is something to do
+  json all = json::array();
+  for (const judged_set& set : sets_to_judge(options)) {
+    const json key{options.geometry,
+                   options.geometry == "point" || options.geometry == "sphere" ? 0.0 : options.field_of_view,
+                   set.count,
+                   set.name,
+                   options.eta,
+                   options.noise,
+                   options.misplacement,
+                   options.reconstruction_eta,
+                   options.step,
+                   options.seed,
+                   options.expected,
+                   options.networks.thin.steps.first,
+                   options.networks.thin.steps.second};
+    const json* result = results.find(key);
+    if (!result) {
+      if (!lab) lab.emplace(open_laboratory(options, listener));
+      const designed found = find_set(*lab, options, set, listener);
+      gonio::report(listener, "judging " + std::to_string(set.count) + " of " + set.name, 0.0);
+      results.add(key, judged(*lab, options, found));
+      result = results.find(key);
+    }
+    all.push_back({{"set", set.name}, {"count", set.count}, {"result", *result}});
+  }
+  bar.wipe();
+
+  if (!options.folder.empty())
+    for (const json& row : all.elements()) write_set(options, row);
+  if (options.print_json) {
+    std::cout << all.dump(2) << '\n';
+    return;
+  }
+  std::cout << "| n | chosen by | E | condition | test: rms | Delta E env | Delta E lights | peak |\n"
+            << "|---|---|---|---|---|---|---|---|\n";
+  for (const json& row : all.elements()) print_row(row);
+}
+
+}  // namespace
+
+void add_directions(command& app) {
+  auto command = app.add_subcommand(
+      "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
+  const auto options = std::make_shared<directions_options>();
+  add_networks_option(command, options->networks);
+  command.add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
+      .check(check::one_of(
+          {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
+      .capture_default_str();
+  command.add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
+  add_counts_option(command, options->counts);
+  command.add_option("--geometry", options->geometry, "As `gonio design` has them")
+      .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
+      .capture_default_str();
+  command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--reconstruction-eta", options->reconstruction_eta,
+                     "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
+                     "auto, as `gonio reconstruct` chooses it");
+  command.add_option("--noise", options->noise, "Relative deviation of every measurement").capture_default_str();
+  command
+      .add_option("--misplaced", options->misplacement,
+                  "Degrees by which light and viewer are off their places, towards random sides")
+      .capture_default_str();
+  command
+      .add_option("--expected-misplacement", options->expected,
+                  "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
+                  "of pictures, by a reconstruction that finds where they were")
+      .capture_default_str();
+  command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
+  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_option("--write", options->folder, "Folder to write each set to, as directions (.csv)");
+  command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

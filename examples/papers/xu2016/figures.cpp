@@ -1,0 +1,140 @@
+/// gonio-papers figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 that can be simulated.
+
+#include "papers/xu2016/figures.hpp"
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
+
+#include <iostream>
+#include <memory>
+
+namespace papers {
+
+namespace figures {
+
+laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
+                           const gonio::progress& listener) {
+  const auto cells = given.networks.cells();
+  const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials());
+  return {mapped_errors(learn_all_components(learned, cells, given.threads, listener),
+                        gonio::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
+}
+
+laboratory open_laboratory(const options& given, const gonio::progress& listener) {
+  const auto all = given.networks.read();
+  return open_laboratory(given, networks_except(all, gonio::nielsen_test_materials()), listener);
+}
+
+namespace {
+
+struct figure {
+  const char* name;
+  tables (*draw)(const options&, const gonio::progress&);
+};
+
+constexpr std::array all_figures{figure{"2015-5", nielsen_5}, figure{"2015-8", nielsen_8}, figure{"2015-9", nielsen_9},
+                                 figure{"2016-5", xu_5},      figure{"2016-6", xu_6},      figure{"2016-7", xu_7},
+                                 figure{"2016-13", xu_13},    figure{"2016-19", xu_19}};
+
+std::vector<std::string> names_of_figures() {
+  std::vector<std::string> names;
+  for (const figure& f : all_figures) names.emplace_back(f.name);
+  return names;
+}
+
+std::string printed_cell(const json& cell, int digits) {
+  if (cell.is_null()) return "";
+  if (cell.is_string()) return cell.text();
+  if (cell.is_number_integer()) return cell.dump();
+  const auto value = cell.number();
+  return std::isfinite(value) ? fixed(value, digits) : "infinite";
+}
+
+void print(const table& shown) {
+  std::cout << '\n' << shown.title << "\n\n|";
+  for (const table::column& column : shown.columns) std::cout << ' ' << column.title << " |";
+  std::cout << "\n|";
+  for (std::size_t i = 0; i < shown.columns.size(); ++i) std::cout << "---|";
+  std::cout << '\n';
+  for (const auto& row : shown.rows) {
+    std::cout << '|';
+    for (std::size_t i = 0; i < row.size(); ++i)
+      std::cout << ' ' << printed_cell(row[i], shown.columns[i].digits) << " |";
+    std::cout << '\n';
+  }
+}
+
+json to_json(const tables& shown) {
+  json all = json::array();
+  for (const table& one : shown) {
+    json rows = json::array();
+    for (const auto& cells : one.rows) {
+      json row = json::object();
+      for (std::size_t i = 0; i < cells.size(); ++i) row[one.columns[i].title] = cells[i];
+      rows.push_back(std::move(row));
+    }
+    all.push_back({{"title", one.title}, {"rows", std::move(rows)}});
+  }
+  return all;
+}
+
+void run_figure(const options& given, const std::string& name, bool print_json) {
+  progress_bar bar;
+  const auto chosen = std::ranges::find(all_figures, name, [](const figure& f) { return std::string(f.name); });
+  const tables shown = chosen->draw(given, bar.listener());
+  bar.wipe();
+  if (print_json) {
+    std::cout << json{{"figure", name}, {"tables", to_json(shown)}}.dump(2) << '\n';
+    return;
+  }
+  std::cout << "Figure " << name << ", eta = " << given.eta << ", seed " << given.seed << '\n';
+  for (const table& one : shown) print(one);
+}
+
+}  // namespace
+
+}  // namespace figures
+
+void add_figures(command& app) {
+  struct choice {
+    figures::options given;
+    std::string name;
+    bool print_json = false;
+  };
+  auto command = app.add_subcommand("figures", "A figure of Nielsen et al. 2015 or Xu et al. 2016 as a table");
+  const auto chosen = std::make_shared<choice>();
+  figures::options& given = chosen->given;
+  add_networks_option(command, given.networks);
+  command.add_option("--figure", chosen->name, "Year and number of the figure")
+      .required()
+      .check(check::one_of(figures::names_of_figures()));
+  command.add_option("--most", given.most, "The largest number of measurements (default: the figure's)")
+      .check(check::positive_number());
+  command.add_option("--repetitions", given.repetitions, "Seeds of the searches that are random")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--random-sets", given.random_sets, "Random sets of which the mean is shown")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--fov", given.fields_of_view, "Near field: angles in degrees that the sample spans from above")
+      .capture_default_str();
+  command.add_option("--step", given.step, "Near field: degrees between candidates")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();
+  command.add_option("--seed", given.seed, "Seed of what is random").capture_default_str();
+  command.add_flag("--json", chosen->print_json, "Print as JSON");
+  add_threads_option(command, given.threads);
+  command.callback([chosen] { figures::run_figure(chosen->given, chosen->name, chosen->print_json); });
+}
+
+}  // namespace papers

@@ -1,0 +1,104 @@
+#pragma once
+/// gonio-papers figures: the figures of Nielsen et al. 2015 and Xu et al. 2016 as tables, one function each.
+
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/networks_option.hpp"
+#include "papers/xu2016/mapped_errors.hpp"
+#include <gonio/basis/pca.hpp>
+#include <gonio/design/exhaustive_search.hpp>
+#include <gonio/io/networks.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace papers::figures {
+
+struct options {
+  studied_networks networks;
+  std::size_t most = 0;  ///< measurements; 0: as many as the figure has
+  std::size_t repetitions = 5, random_sets = 20;
+  double eta = 40.0, step = 10.0;
+  std::vector<double> fields_of_view{15.0, 25.0, 35.0, 45.0};
+  std::uint64_t seed = 0;
+  gonio::thread_count threads;
+
+  [[nodiscard]] std::size_t up_to(std::size_t most_of_figure) const noexcept {
+    return most > 0 ? most : most_of_figure;
+  }
+};
+
+/// What is printed: cells are words or numbers, of which null is none.
+struct table {
+  struct column {
+    std::string title;
+    int digits = 3;
+  };
+  std::string title;
+  std::vector<column> columns;
+  std::vector<std::vector<json>> rows = {};
+};
+using tables = std::vector<table>;
+
+/// What all are judged with: materials learned, others tested. All components are kept.
+struct laboratory {
+  mapped_errors tested;
+
+  [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return tested.prior(); }
+
+  /// The mean over the tested materials and channels of the error from measurements.
+  [[nodiscard]] double error(std::span<const gonio::half_difference> directions) const {
+    return tested.from(directions).mean();
+  }
+
+  /// Of Xu et al. 2016, Eq. 15, root mean square over the cells.
+  [[nodiscard]] double expected(double value) const {
+    return value / std::sqrt(static_cast<double>(prior().cells().size()));
+  }
+};
+
+/// The 90 materials that Nielsen et al. 2015 learn from, or some of them, and the ten others.
+[[nodiscard]] laboratory open_laboratory(const options& given, const gonio::progress& listener);
+[[nodiscard]] laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
+                                         const gonio::progress& listener);
+
+/// All samples of a plan.
+template <gonio::capture_geometry Geometry>
+[[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
+                                                             const std::vector<std::size_t>& candidates) {
+  std::vector<gonio::half_difference> samples;
+  for (const std::size_t candidate : candidates) {
+    const auto more = geometry.directions(candidate);
+    samples.insert(samples.end(), more.begin(), more.end());
+  }
+  return samples;
+}
+
+/// The best plans of 1 to `most` measurements: each grown from the one before by the best of all additions, exchanged
+/// while it has not more than `exchanged` measurements, and slid along the grid.
+template <gonio::sweeping_objective Objective>
+[[nodiscard]] std::vector<gonio::capture_plan> best_plans(const Objective& objective, std::size_t most,
+                                                          std::size_t exchanged, std::uint64_t seed,
+                                                          const gonio::progress& listener) {
+  std::vector<gonio::capture_plan> plans;
+  gonio::capture_plan grown;
+  for (std::size_t n = 1; n <= most; ++n) {
+    grown = gonio::grow_greedily(objective, n, std::move(grown), listener);
+    const gonio::capture_plan start = n <= exchanged ? gonio::exchange(objective, grown, listener) : grown;
+    plans.push_back(gonio::descend(objective.geometry(), objective, start, seed));
+  }
+  return plans;
+}
+
+[[nodiscard]] tables nielsen_5(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_8(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_9(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_5(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_6(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_7(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_13(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_19(const options& given, const gonio::progress& listener);
+
+}  // namespace papers::figures

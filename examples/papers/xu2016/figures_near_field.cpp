@@ -1,0 +1,296 @@
+/// Xu et al. 2016, Fig. 5, 6, 7 and 13: pictures of a flat sample from close by.
+
+#include "command_line/chosen_networks.hpp"
+#include "command_line/json.hpp"
+#include "papers/experiments.hpp"
+#include "papers/material_result.hpp"
+#include "papers/xu2016/figures.hpp"
+#include <gonio/design/cell_candidates.hpp>
+#include <gonio/design/criterion_of_plan.hpp>
+#include <gonio/design/image_candidates.hpp>
+#include <gonio/design/near_field_geometry.hpp>
+#include <gonio/design/published_directions.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace papers::figures {
+
+namespace {
+
+using pictures = gonio::image_candidates<gonio::log_relative, gonio::near_field_geometry>;
+
+/// More pictures than that are not exchanged: it would take minutes.
+constexpr std::size_t most_exchanged = 2;
+constexpr double figures_field_of_view = 25.0;
+
+gonio::near_field_geometry geometry_of(double field_of_view, double step) {
+  return gonio::near_field_geometry({.field_of_view = gonio::radians(field_of_view), .step = gonio::radians(step)});
+}
+
+pictures read_pictures(const laboratory& lab, const options& given, double field_of_view,
+                       const gonio::progress& listener) {
+  return pictures(gonio::image_objective(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}),
+                                         geometry_of(field_of_view, given.step)),
+                  given.threads, listener);
+}
+
+/// The best plans of 1 to `most` pictures on the grid of candidates, slid on from there on one of degrees.
+std::vector<gonio::capture_plan> refined_plans(const laboratory& lab, const options& given, const pictures& coarse,
+                                               std::size_t most, const gonio::progress& listener) {
+  const gonio::image_objective fine(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}),
+                                    geometry_of(gonio::degrees(coarse.geometry().options().field_of_view), 1.0));
+  auto plans = best_plans(coarse, most, most_exchanged, given.seed, listener);
+  for (gonio::capture_plan& plan : plans) {
+    gonio::report(listener, "sliding", static_cast<double>(plan.candidates.size()) / static_cast<double>(most));
+    for (std::size_t& candidate : plan.candidates)
+      candidate = fine.geometry().nearest(coarse.geometry().centre(candidate));
+    plan = gonio::descend(fine.geometry(), fine, std::move(plan), given.seed);
+  }
+  return plans;
+}
+
+/// The error after each of some plans.
+std::vector<json> errors_of(const laboratory& lab, const gonio::near_field_geometry& geometry,
+                            const std::vector<gonio::capture_plan>& plans) {
+  std::vector<json> errors;
+  for (const auto& plan : plans) errors.emplace_back(lab.error(samples_of(geometry, plan.candidates)));
+  return errors;
+}
+
+/// Points as a basis of comparison: published, and by expected error.
+struct point_errors {
+  std::vector<json> published, expected;
+};
+
+point_errors errors_of_points(const laboratory& lab, const options& given, std::size_t most,
+                              const gonio::progress& listener) {
+  const gonio::cell_candidates candidates(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}), {},
+                                          given.threads);
+  point_errors errors;
+  for (const auto& plan : best_plans(candidates, most, 0, given.seed, listener)) {
+    const std::size_t n = plan.candidates.size();
+    errors.published.push_back(gonio::has_nielsen_directions(n) ? json(lab.error(gonio::nielsen_directions(n)))
+                                                                : json());
+    errors.expected.emplace_back(lab.error(samples_of(candidates.geometry(), plan.candidates)));
+  }
+  return errors;
+}
+
+/// Columns by their titles side by side, one row a number of measurements; short columns end in nothing.
+table side_by_side(const std::string& title, const std::vector<std::pair<std::string, std::vector<json>>>& columns) {
+  table shown{title, {{"n", 0}}};
+  std::size_t longest = 0;
+  for (const auto& [name, values] : columns) {
+    shown.columns.push_back({name});
+    longest = std::max(longest, values.size());
+  }
+  for (std::size_t i = 0; i < longest; ++i) {
+    auto& row = shown.rows.emplace_back();
+    row.emplace_back(i + 1);
+    for (const auto& [name, values] : columns) row.push_back(i < values.size() ? values[i] : json());
+  }
+  return shown;
+}
+
+std::string degrees_of(double field_of_view) { return std::to_string(std::lround(field_of_view)) + " degrees"; }
+
+/// How many points there have to be for the error of some pictures.
+table points_for_pictures(const std::vector<std::pair<std::string, std::vector<json>>>& series,
+                          const point_errors& points) {
+  table shown{
+      "The fewest points that reach the error of pictures; of the published ones there are 1, 2, 5, 10, 20",
+      {{"field of view"}, {"pictures", 0}, {"error"}, {"published points", 0}, {"points by expected error", 0}}};
+  const auto fewest = [](const std::vector<json>& errors, double wanted) -> json {
+    for (std::size_t i = 0; i < errors.size(); ++i)
+      if (!errors[i].is_null() && errors[i].number() <= wanted) return i + 1;
+    return "more than " + std::to_string(errors.size());
+  };
+  for (const auto& [name, errors] : series)
+    for (std::size_t i = 0; i < std::min<std::size_t>(errors.size(), 2); ++i)
+      shown.rows.push_back({name, i + 1, errors[i], fewest(points.published, errors[i].number()),
+                            fewest(points.expected, errors[i].number())});
+  return shown;
+}
+
+/// Half and difference angles of the pictures of a plan in degrees, as the paper tabulates them.
+std::vector<std::vector<json>> printed_angles(const std::string& name, const gonio::near_field_geometry& geometry,
+                                              const std::vector<std::size_t>& candidates) {
+  std::vector<std::vector<json>> rows;
+  for (const std::size_t candidate : candidates) {
+    const auto [wi, wo] = geometry.centre(candidate);
+    const gonio::half_difference at = gonio::to_half_difference(wi, wo);
+    rows.push_back({name, candidates.size(), gonio::degrees(at.theta_h), gonio::degrees(at.theta_d),
+                    gonio::degrees(at.phi_d), gonio::degrees(gonio::polar_angle(wi)),
+                    gonio::degrees(gonio::polar_angle(wo))});
+  }
+  return rows;
+}
+
+table table_of_angles() {
+  return {"Where light and camera are, in degrees",
+          {{"set"},
+           {"pictures", 0},
+           {"theta_h", 0},
+           {"theta_d", 0},
+           {"phi_d", 0},
+           {"light's polar angle", 0},
+           {"camera's polar angle", 0}}};
+}
+
+/// Pictures of which the light, or the camera, stays where it is.
+class with_one_in_place {
+ public:
+  with_one_in_place(const pictures& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
+      : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
+
+  [[nodiscard]] const gonio::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
+  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+    return std::ranges::all_of(candidates, [&](std::size_t c) { return in_place(c); })
+               ? all_(candidates)
+               : std::numeric_limits<double>::infinity();
+  }
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
+    std::vector<float> errors(geometry().size(), std::numeric_limits<float>::infinity());
+    const auto with = all_.beside(candidates);
+    for (std::size_t candidate = 0; candidate < errors.size(); ++candidate)
+      if (geometry().allows(candidate) && in_place(candidate)) errors[candidate] = static_cast<float>(with(candidate));
+    return errors;
+  }
+
+ private:
+  [[nodiscard]] bool in_place(std::size_t candidate) const {
+    return std::abs(gonio::polar_angle(geometry().centre(candidate).*fixed_) - polar_angle_) < 1e-6;
+  }
+
+  const pictures& all_;
+  gonio::direction gonio::direction_pair::*fixed_;
+  double polar_angle_;
+};
+
+/// For each number of pictures the best of all places to stand in.
+std::vector<gonio::capture_plan> plans_in_place(const pictures& all, const options& given, std::size_t most,
+                                                gonio::direction gonio::direction_pair::*fixed,
+                                                const gonio::progress& listener) {
+  std::vector<gonio::capture_plan> best(most);
+  const double step = gonio::radians(given.step), largest = all.geometry().options().largest_polar_angle;
+  for (double place = 0.0; place <= largest + 1e-9; place += step) {
+    gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(place))), place / largest);
+    const with_one_in_place objective(all, fixed, place);
+    auto plans = best_plans(objective, most, most_exchanged, given.seed, {});
+    for (std::size_t i = 0; i < most; ++i)
+      if (plans[i].value < best[i].value) best[i] = std::move(plans[i]);
+  }
+  return best;
+}
+
+/// What the paper prints for two pictures by a camera that stays (Fig. 14 a), on a grid of degrees.
+double error_of_printed_fixed_camera(const laboratory& lab) {
+  const gonio::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
+  const auto at = [&](double theta_h, double theta_d, double phi_d) {
+    return fine.nearest(
+        gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)}));
+  };
+  return lab.error(samples_of(fine, {at(4, 63, 90), at(39, 34, 124)}));
+}
+
+}  // namespace
+
+tables xu_5(const options& given, const gonio::progress& listener) {
+  const laboratory lab = open_laboratory(given, listener);
+  const std::size_t most = given.up_to(5);
+  std::vector<std::pair<std::string, std::vector<json>>> errors, conditions;
+  for (const double field_of_view : given.fields_of_view) {
+    const std::string name = degrees_of(field_of_view);
+    const pictures all = read_pictures(lab, given, field_of_view, listener);
+    const gonio::near_field_geometry fine = geometry_of(field_of_view, 1.0);
+    errors.emplace_back(name + ", expected error",
+                        errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
+    const gonio::criterion_of_plan condition{lab.prior(), fine, gonio::condition_number{}};
+    std::vector<gonio::capture_plan> theirs;
+    std::vector<json> reached;
+    for (std::size_t n = 1; n <= most; ++n) {
+      gonio::report(listener, "condition, " + name, static_cast<double>(n) / static_cast<double>(most));
+      theirs.push_back(gonio::grow_and_descend(fine, condition, n, 1, given.seed));
+      reached.emplace_back(theirs.back().value);
+    }
+    errors.emplace_back(name + ", condition", errors_of(lab, fine, theirs));
+    conditions.emplace_back(name, std::move(reached));
+  }
+  return {side_by_side("Mean mapped error of the ten materials by number of pictures n", errors),
+          side_by_side("The condition number that its search reached", conditions)};
+}
+
+tables xu_6(const options& given, const gonio::progress& listener) {
+  const laboratory lab = open_laboratory(given, listener);
+  const point_errors points = errors_of_points(lab, given, given.up_to(20), listener);
+  std::vector<std::pair<std::string, std::vector<json>>> series;
+  table angles = table_of_angles();
+  for (const double field_of_view : given.fields_of_view) {
+    const pictures all = read_pictures(lab, given, field_of_view, listener);
+    const gonio::near_field_geometry fine = geometry_of(field_of_view, 1.0);
+    const auto plans = refined_plans(lab, given, all, std::min<std::size_t>(given.up_to(5), 5), listener);
+    series.emplace_back(degrees_of(field_of_view), errors_of(lab, fine, plans));
+    for (std::size_t i = 0; i < std::min<std::size_t>(plans.size(), 2); ++i) {
+      const auto rows = printed_angles(degrees_of(field_of_view), fine, plans[i].candidates);
+      angles.rows.insert(angles.rows.end(), rows.begin(), rows.end());
+    }
+  }
+  table reached = points_for_pictures(series, points);
+  series.emplace_back("points, published", points.published);
+  series.emplace_back("points, expected error", points.expected);
+  return {side_by_side("Mean mapped error of the ten materials by number n of pictures, or of points", series),
+          std::move(reached), std::move(angles)};
+}
+
+tables xu_7(const options& given, const gonio::progress& listener) {
+  auto learned = networks_except(given.networks.read(), gonio::nielsen_test_materials());
+  // In random order: the first ones of it are learned.
+  std::vector<std::string> order = learned.names;
+  std::mt19937_64 generator(given.seed);
+  std::ranges::shuffle(order, generator);
+  table shown{"Two pictures at 25 degrees by number of materials learned",
+              {{"materials", 0}, {"components", 0}, {"mapped error"}, {"projection: mapped error"}}};
+  const std::size_t largest = given.most > 0 ? std::min(given.most, order.size()) : order.size();
+  const std::size_t step = std::min<std::size_t>(largest, 10);
+  for (std::size_t count = step; count <= largest; count += step) {
+    const std::vector<std::string> names(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+    const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
+    const pictures all = read_pictures(lab, given, figures_field_of_view, listener);
+    const auto plans = refined_plans(lab, given, all, 2, listener);
+    const gonio::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
+    shown.rows.push_back({count, lab.prior().size(), lab.error(samples_of(fine, plans.back().candidates)),
+                          lab.tested.from_all().mean()});
+  }
+  return {std::move(shown)};
+}
+
+tables xu_13(const options& given, const gonio::progress& listener) {
+  const laboratory lab = open_laboratory(given, listener);
+  const std::size_t most = given.up_to(5);
+  const pictures all = read_pictures(lab, given, figures_field_of_view, listener);
+  const auto free = best_plans(all, most, most_exchanged, given.seed, listener);
+  const auto camera = plans_in_place(all, given, most, &gonio::direction_pair::wo, listener);
+  const auto light = plans_in_place(all, given, most, &gonio::direction_pair::wi, listener);
+  const point_errors points = errors_of_points(lab, given, most, listener);
+
+  table angles = table_of_angles();
+  for (const auto& [name, plans] : {std::pair{"free", &free}, {"fixed camera", &camera}, {"fixed light", &light}}) {
+    const auto rows = printed_angles(name, all.geometry(), (*plans)[std::min<std::size_t>(most, 2) - 1].candidates);
+    angles.rows.insert(angles.rows.end(), rows.begin(), rows.end());
+  }
+  table printed{"Two pictures by a fixed camera as printed (Fig. 14 a: theta_h, theta_d, phi_d 4 63 90 and 39 34 124)",
+                {{"set"}, {"mapped error"}},
+                {{"printed", error_of_printed_fixed_camera(lab)}}};
+  return {side_by_side("Mean mapped error of the ten materials by number n of pictures at 25 degrees, or of points",
+                       {{"free", errors_of(lab, all.geometry(), free)},
+                        {"fixed camera", errors_of(lab, all.geometry(), camera)},
+                        {"fixed light", errors_of(lab, all.geometry(), light)},
+                        {"points, published", points.published},
+                        {"points, expected error", points.expected}}),
+          std::move(angles), std::move(printed)};
+}
+
+}  // namespace papers::figures

@@ -1,0 +1,17 @@
+#pragma once
+/// The materials that published figures are means over. Whoever leaves them out of a prior, as the literature does, can
+/// compare with these figures.
+
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The ten materials that Nielsen et al. 2015 leave out of the prior (their Figure 2).
+[[nodiscard]] const std::vector<std::string>& nielsen_test_materials();
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/evaluate/impl/test_materials.ipp>
+#endif

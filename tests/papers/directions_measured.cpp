@@ -1,0 +1,78 @@
+/// gonio-papers directions-measured on made-up materials.
+
+#include "made_up_networks.hpp"
+#include "papers_tool.hpp"
+#include <gonio/io/merl.hpp>
+#include <gonio/io/networks.hpp>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace {
+
+/// Networks a to g; a table of a material that they do not have; a paint that was measured at 60 places.
+class made_up_measurements {
+ public:
+  made_up_measurements() {
+    write_made_up_networks(folder_, {"a", "b", "c", "d", "e", "f", "g"});
+    std::filesystem::create_directories(folder_ / "tables");
+    const auto networks = gonio::io::read_networks(folder_ / "n.npy");
+    gonio::io::write_merl(folder_ / "tables" / "g.binary",
+                          gonio::tabulate_networks(networks, gonio::valid_cells()).table(6));
+    std::string text = "3\n450 550 650\n";
+    for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 0.6 2 .1 .2 .3\n";
+    scratch::put(folder_ / "paint.brdf", text);
+  }
+
+  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
+    return gonio_papers("directions-measured --networks " + at("n.npy") + " " + arguments);
+  }
+
+ private:
+  scratch::folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("real measurements are reconstructed from published, optimal and random directions") {
+  const made_up_measurements made_up;
+  const std::string arguments = "--tables " + made_up.at("tables") + " --samples " + made_up.at("paint.brdf") +
+                                " -n 5 20 --sets published expected-error random --repetitions 2 --state " +
+                                made_up.at("state");
+  const auto table = made_up.evaluate(arguments);
+  REQUIRE_MESSAGE(table.exit_code == 0, table.output);
+  CHECK(table.output.find("| mean of 1 | 20 | expected-error |") != std::string::npos);
+
+  // What is done is not done again: another folder of sets changes nothing.
+  const auto printed = made_up.evaluate(arguments + " --json --directions " + made_up.at("tables"));
+  REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
+  const auto all = nlohmann::json::parse(printed.output);
+  REQUIRE(all["tables"].size() == 6);
+  REQUIRE(all["scattered"].size() == 6);
+  const auto figure = [](const nlohmann::json& rows, int count, const std::string& set, const char* key) {
+    const auto row = std::ranges::find_if(rows, [&](const auto& r) { return r["count"] == count && r["set"] == set; });
+    REQUIRE(row != rows.end());
+    return (*row)["result"][key].get<double>();
+  };
+  // The network is among those that are learned, so that 20 measurements tell more of it than five.
+  CHECK(figure(all["tables"], 20, "expected-error", "mapped_rms") <
+        figure(all["tables"], 5, "expected-error", "mapped_rms"));
+  CHECK(figure(all["scattered"], 5, "published", "degrees_worst") > 5.0);
+  CHECK(figure(all["scattered"], 5, "random", "degrees_worst") == 0.0);
+  CHECK(figure(all["scattered"], 20, "random", "judged_by") == 40);
+}
+
+TEST_CASE("directions-measured: nothing to reconstruct, and nothing left to judge by") {
+  const made_up_measurements made_up;
+  const auto nothing = made_up.evaluate("");
+  CHECK(nothing.exit_code == 2);
+  CHECK(nothing.output.find("give --tables or --samples") != std::string::npos);
+  const auto all = made_up.evaluate("-n 60 --samples " + made_up.at("paint.brdf"));
+  CHECK(all.exit_code == 2);
+  CHECK(all.output.find("no sample is left to judge by") != std::string::npos);
+}

@@ -1,0 +1,99 @@
+/// The experiments after Noell et al. 2014 on a few made-up materials.
+
+#include "made_up_networks.hpp"
+#include "papers_tool.hpp"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+namespace {
+
+/// A folder with five networks of random weights, named a to e.
+class made_up_database {
+ public:
+  made_up_database() { write_made_up_networks(folder_, {"a", "b", "c", "d", "e"}); }
+
+  [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
+
+  /// What the tool prints.
+  [[nodiscard]] std::string evaluate(const std::string& arguments) const {
+    const auto result = gonio_papers("" + arguments + " --networks " + at("n.npy"));
+    REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
+    return result.output;
+  }
+
+ private:
+  scratch::folder folder_;
+};
+
+std::vector<std::string> lines_with(const std::string& text, const std::string& word) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find(word) != std::string::npos) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("noell-table1: a row for each setting, and what is done is not done again") {
+  const made_up_database database;
+  const std::string state = database.at("state");
+  const std::string arguments =
+      "noell-table1 --materials b --methods our lc --data 40 --outliers 0 0.2 --seeds 1 2 --iterations 0 2 --state " +
+      state;
+  const std::string table = database.evaluate(arguments);
+  CHECK(lines_with(table, "| our, 0 iterations | 40 |").size() == 2);
+  CHECK(lines_with(table, "| our, 2 iterations | 40 |").size() == 2);
+  CHECK(lines_with(table, "| lc | 40 | 0.2 |").size() == 1);
+  CHECK(lines_with(table, "our, 2 iterations, data 40, outliers 0.2: at most ").size() == 1);
+  // Two shares of outliers, two seeds, and 0 iterations, 2 iterations and lc.
+  CHECK(lines_with(scratch::get(state), "result").size() == 12);
+
+  // As if it had been killed while it wrote the last one.
+  const std::string kept = scratch::get(state);
+  scratch::put(state, kept.substr(0, kept.size() - 20));
+  const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
+  CHECK(lines_with(scratch::get(state), "\"result\"").size() == 13);
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[1]["method"] == "our");
+  CHECK(rows[1]["iterations"] == 2);
+  CHECK(rows[4]["method"] == "lc");
+  CHECK_FALSE(rows[4].contains("iterations"));
+  REQUIRE(rows[4]["results"].size() == 2);
+  CHECK(rows[4]["results"][1]["material"] == "b");
+  CHECK(rows[4]["results"][1]["seed"] == 2);
+  CHECK(rows[4]["results"][0]["delta_e_env"] != rows[4]["results"][1]["delta_e_env"]);
+}
+
+TEST_CASE("noell-measured: a spectral measurement is judged where it was not used") {
+  const made_up_database database;
+  std::string text = "3\n450 550 650\n";
+  for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 " + std::to_string(0.6) + " 2 .1 .2 .3\n";
+  scratch::put(database.at("paint.brdf"), text);
+  const std::string arguments = "noell-measured --data 0.5 --samples " + database.at("paint.brdf");
+  const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
+  REQUIRE(rows.size() == 6);
+  CHECK(rows[0]["name"] == "paint");
+  CHECK(rows[0]["method"] == "our");
+  CHECK(rows[0]["samples"] == 30);
+  CHECK(rows[3]["outlier_ratio"] == 0.2);
+  CHECK(rows[4]["method"] == "printed");
+  CHECK(rows[5]["method"] == "lc");
+  for (const auto& row : rows) CHECK(row["log_error"].get<double>() < 2.0);
+
+  const auto everything = gonio_papers("noell-measured --data 1 --networks " + database.at("n.npy") + " --samples " +
+                                       database.at("paint.brdf"));
+  CHECK(everything.exit_code == 2);
+  CHECK(everything.output.find("--data below 1") != std::string::npos);
+}
+
+TEST_CASE("noell-corrections: as printed and ours, by two solvers") {
+  const std::string table = made_up_database().evaluate("noell-corrections");
+  CHECK(lines_with(table, "| as printed | NNLS |").size() == 1);
+  CHECK(lines_with(table, "| gonio's default | least squares |").size() == 1);
+}
