@@ -130,9 +130,8 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
     const auto t = both.col(i).head(m), once = both.col(i).tail(m);
     const Scalar d = eta_ + own_eta[i] + y.row(i).dot(t), r = t.dot(once);
     const Scalar grown = own_growth(known, i, own_eta[i], d, r);
-    column squared = t.array() / d;
-    squared = squared_errors_ + (grown + squared * (r * squared - Scalar(2) * twice.col(i).array()));
-    found[i] = squared.max(Scalar(0)).sqrt().mean();
+    const auto change = t.array() * (r / (d * d) * t.array() - Scalar(2) / d * twice.col(i).array());
+    found[i] = (squared_errors_ + (grown + change)).max(Scalar(0)).sqrt().mean();
     if (!(noise_ > Scalar(0))) continue;
     // (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
     const Scalar growth = (Scalar(1) - y.row(i).dot(noise_response_)) / d, along = once.dot(noise_response_);
