@@ -6,5 +6,6 @@
 #include <gonio/estimate/impl/nearest_material.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
 #include <gonio/estimate/impl/outlier_weights.ipp>
+#include <gonio/estimate/impl/pose_refinement.ipp>
 #include <gonio/estimate/impl/pull_push.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
