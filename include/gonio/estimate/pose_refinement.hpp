@@ -41,7 +41,7 @@ class pose_iteration {
   struct equations {
     Eigen::MatrixXd columns, right;
 
-    equations(Eigen::Index unknowns, Eigen::Index samples) : columns(unknowns, samples), right(samples, 3) {}
+    equations(Eigen::Index components, Eigen::Index samples) : columns(components, samples), right(samples, 3) {}
   };
 
   /// Writes the row of Q and the three values y of a sample, given its angles and reflectance; from several threads at
