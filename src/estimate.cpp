@@ -1,5 +1,6 @@
 // The bodies of estimate/.
 
+#include <gonio/estimate/impl/correction_iteration.ipp>
 #include <gonio/estimate/impl/left_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>
