@@ -113,7 +113,9 @@ GONIO_INLINE void left_out_error::sums::add(Eigen::MatrixXd columns, const Eigen
     columns.col(i) *= std::sqrt(weights[i]);
   }
   gram += product_with_transpose(columns);
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) *= std::sqrt(weights[i] * variances[i]);
+  // By rounding, a basis that explains everything leaves a variance below zero.
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    columns.col(i) *= std::sqrt(weights[i] * std::max(variances[i], 0.0));
   noise += product_with_transpose(columns);
 }
 
