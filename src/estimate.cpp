@@ -1,4 +1,4 @@
-// The bodies of estimate/.
+// The bodies of estimate/, but for what estimate_iterations.cpp has.
 
 #include <gonio/estimate/impl/left_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>

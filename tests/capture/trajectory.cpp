@@ -1,5 +1,6 @@
 #include <gonio/capture/trajectory.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 

@@ -7,9 +7,7 @@
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/sample_set.hpp>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <string>
 #include <vector>

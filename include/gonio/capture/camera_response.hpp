@@ -4,18 +4,14 @@
 /// measurement, Sec. 3).
 
 #include <gonio/core/error.hpp>
-#include <gonio/solve/quadratic_program.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace gonio {
 
@@ -85,74 +81,6 @@ struct response_options {
   /// From this count on a pixel is saturated; 0 stands for the largest count.
   std::uint16_t saturation = 0;
 };
-
-namespace detail {
-
-/// 0 at both ends of a camera's range, 1 in its middle (Debevec and Malik 1997, Eq. 4).
-[[nodiscard]] inline double hat(double count, double saturation) noexcept {
-  return std::max(0.0, 1.0 - std::abs(2.0 * count / saturation - 1.0));
-}
-
-/// The response at the knots, but for a constant, is G s, and its slopes by the logarithm of the count are S s, where s
-/// is the first slope and then one bend for each knot but the ends, of which the sum of squares is the integral that
-/// smoothness weighs. In these unknowns it is a multiple of the identity, and the problem well-conditioned.
-struct response_basis {
-  Eigen::MatrixXd values, slopes;  ///< G: knots x (knots - 1), S: (knots - 1) x (knots - 1)
-
-  explicit response_basis(Eigen::Index knots);
-};
-
-/// The normal equations of what the counts say of the response at its knots. Of each pixel, the unknown ln E is the
-/// weighted mean of what its rows say, so that only the response is left.
-class response_equations {
- public:
-  response_equations(Eigen::Index knots, double spacing, double saturation);
-
-  /// A pixel's counts, one for each time.
-  template <class Counts>
-  void add(const Counts& counts, const Eigen::VectorXd& log_times) {
-    Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(moment_.size());
-    double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
-    int rows = 0;
-    for (Eigen::Index j = 0; j < counts.size(); ++j) {
-      const double weight = std::pow(hat(counts[j], saturation_), 2);
-      if (!(weight > 0.0)) continue;
-      const auto [left, share] = camera_response::place_of(counts[j], spacing_, moment_.size());
-      const Eigen::Vector2d row(1.0 - share, share);
-      gram_.block<2, 2>(left, left) += weight * row * row.transpose();
-      moment_.segment<2>(left) += weight * log_times[j] * row;
-      darkest = std::min(darkest, static_cast<double>(counts[j]));
-      row_sum.segment<2>(left) += weight * row;
-      time_sum += weight * log_times[j];
-      weights += weight;
-      ++rows;
-    }
-    if (rows == 0) return;
-    gram_ -= row_sum * row_sum.transpose() / weights;
-    moment_ -= time_sum / weights * row_sum;
-    if (rows < 2) return;
-    weight_ += weights;
-    smallest_count_ = darkest;
-  }
-
-  [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
-  [[nodiscard]] const Eigen::VectorXd& moment() const noexcept { return moment_; }
-  /// Of all rows of pixels that have two or more: one alone says nothing.
-  [[nodiscard]] double weight() const noexcept { return weight_; }
-  /// Of the same rows.
-  [[nodiscard]] double smallest_count() const noexcept { return smallest_count_; }
-
- private:
-  Eigen::MatrixXd gram_;
-  Eigen::VectorXd moment_;
-  double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
-  double smallest_count_ = std::numeric_limits<double>::infinity();
-};
-
-/// Takes away what rounding lets a value fall by.
-[[nodiscard]] Eigen::VectorXd never_falling(Eigen::VectorXd values);
-
-}  // namespace detail
 
 /// The response of a camera whose pixels were exposed for several times each: the g that minimises
 ///

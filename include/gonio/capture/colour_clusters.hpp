@@ -7,8 +7,10 @@
 /// ours.
 
 #include <gonio/capture/k_means.hpp>
-#include <gonio/core/rgb.hpp>
+#include <gonio/core/parallel.hpp>
 
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace gonio {
@@ -39,23 +41,6 @@ struct cluster_count_choice {
   Eigen::Index most = 6;
   double least_silhouette = 0.7;
 };
-
-namespace detail {
-
-/// Pixels that the number of clusters and their first centres are found from.
-inline constexpr std::size_t clustered_sample = 2000;
-
-/// The positions of `clustered_sample` of n points at random, or of all if there are not as many, in their order.
-[[nodiscard]] std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed);
-
-void require_colours(const point_matrix_view& colours);
-
-/// Carries clusters of some of the points over to all of them.
-[[nodiscard]] colour_clusters clusters_of_all(const point_matrix_view& colours, const point_matrix& points,
-                                              const std::vector<Eigen::Index>& some, point_matrix first_centres,
-                                              thread_count threads);
-
-}  // namespace detail
 
 /// Where colours are compared: CIELAB of n linear Rec. 709 colours, n x 3, in which a distance is about what an
 /// observer sees. Of any unit: they are exposed so that the largest channel of 99 of 100 pixels is at most 1, and

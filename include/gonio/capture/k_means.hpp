@@ -8,14 +8,8 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
-#include <random>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -35,33 +29,12 @@ struct point_clusters {
 
 namespace detail {
 
-void require_finite_points(const point_matrix_view& points);
-
 /// How many of the points differ, but no more than `limit`. O(n limit).
 [[nodiscard]] Eigen::Index different_points(const point_matrix_view& points, Eigen::Index limit);
-
-/// The first centre is any point; each further one is a point chosen with a probability in proportion to its squared
-/// distance to the nearest centre so far. Of k or more different points.
-[[nodiscard]] point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k, std::mt19937_64& generator);
-
-/// The nearest centre of each point, the first of equally near ones, and the squared distance to it. Says whether a
-/// label has changed. O(n k d).
-[[nodiscard]] bool assign(const point_matrix_view& points, const point_matrix& centres, Eigen::VectorXi& labels,
-                          Eigen::VectorXd& squares, thread_count threads);
-
-/// How many points each cluster has.
-[[nodiscard]] std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k);
-
-/// A cluster without points takes the point that is farthest from its centre, of a cluster that keeps another.
-void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k);
 
 /// The means of clusters none of which is empty: k x d.
 [[nodiscard]] point_matrix cluster_means(const point_matrix_view& points, const Eigen::VectorXi& labels, Eigen::Index k,
                                          thread_count threads);
-
-/// Numbers the clusters by their size.
-[[nodiscard]] point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
-                                             double inertia);
 
 }  // namespace detail
 

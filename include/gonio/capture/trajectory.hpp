@@ -5,13 +5,13 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -23,7 +23,8 @@ struct camera_pose {
   double yaw = 0.0;          ///< gamma of Eq. 5, about the z axis
 
   /// Turns the tool's axes to the robot's: first by the pitch, then by the yaw. The camera looks along the tool's x.
-  [[nodiscard]] Eigen::Quaterniond orientation() const;
+  /// Whoever asks includes <Eigen/Geometry>.
+  [[nodiscard]] Eigen::Quaternion<double> orientation() const;
   [[nodiscard]] direction looks_along() const;
 };
 

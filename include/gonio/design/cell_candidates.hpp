@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include <limits>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,27 +26,8 @@ class cell_candidates {
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
                   thread_count threads = {}, std::span<const double> own_etas = {})
-      : geometry_(basis.cells(), std::move(constraint)),
-        criterion_(std::move(criterion)),
-        materials_(static_cast<Eigen::Index>(basis.cells().size()), criterion_.coefficients().rows()),
-        weighted_(materials_.rows(), materials_.cols()),
-        own_etas_(Eigen::ArrayXf::Zero(materials_.rows())),
-        threads_(threads) {
-    if (!own_etas.empty()) own_etas_ = checked(own_etas, size());
-    const Eigen::MatrixXf to_materials = criterion_.coefficients().transpose().cast<float>();
-    const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().transpose().cast<float>();
-    for (std::size_t cell = 0; cell < size(); ++cell)
-      if (!geometry_.allows(cell)) excluded_.push_back(cell);
-    for_each_block(
-        size(), 512,
-        [&](block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-          const auto components = basis.components().middleRows(begin, count);
-          materials_.middleRows(begin, count).noalias() = components * to_materials;
-          weighted_.middleRows(begin, count).noalias() = components * to_weighted;
-        },
-        threads_);
-  }
+      : cell_candidates(basis.cells(), basis.components(), std::move(criterion), std::move(constraint), threads,
+                        own_etas) {}
 
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(materials_.rows()); }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
@@ -56,21 +37,22 @@ class cell_candidates {
   [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const;
 
   /// E of measurements at some cells.
-  [[nodiscard]] double operator()(std::span<const std::size_t> cells) const { return criterion_(rows_of(cells)); }
+  [[nodiscard]] double operator()(std::span<const std::size_t> cells) const;
 
-  /// E of measurements at some cells and one more, as a function of that cell: O(n m) instead of O(n^2 m).
-  [[nodiscard]] auto beside(std::span<const std::size_t> cells) const {
-    return [this, with = extended_error<double>(criterion_, rows_of(cells))](std::size_t cell) {
-      const expected_error::rows row = rows_of({&cell, 1});
-      return with(row.materials(), row.weighted(), row.own_eta.array())[0];
-    };
-  }
+  /// E of measurements at some cells and one more, as a function of that cell.
+  class with_one_more;
+
+  /// That of some cells: O(n m) a call instead of O(n^2 m). It refers to the candidates.
+  [[nodiscard]] with_one_more beside(std::span<const std::size_t> cells) const;
 
   /// E of measurements at some cells and, in turn, at each cell beside them: one value a cell, infinity for those
   /// that the constraint excludes. 8 n m operations a cell for n measurements and m observations; reads Y and W once.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> cells) const;
 
  private:
+  cell_candidates(const valid_cells& cells, const cell_matrix& components, expected_error criterion,
+                  capture_constraint constraint, thread_count threads, std::span<const double> own_etas);
+
   [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> own_etas, std::size_t cells);
 
   point_geometry geometry_;
@@ -79,6 +61,17 @@ class cell_candidates {
   cell_matrix materials_, weighted_;
   Eigen::ArrayXf own_etas_;
   thread_count threads_;
+};
+
+class cell_candidates::with_one_more {
+ public:
+  with_one_more(const cell_candidates& candidates, std::span<const std::size_t> cells);
+
+  [[nodiscard]] double operator()(std::size_t cell) const;
+
+ private:
+  const cell_candidates* candidates_;
+  extended_error<double> with_;
 };
 
 }  // namespace gonio

@@ -3,12 +3,12 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/table/valid_cells.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
-#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,30 +21,26 @@ struct component_rows {
   Eigen::VectorXd noise;
 };
 
+namespace detail {
+
+/// The cells next to some directions, ascending, and how often each is met.
+[[nodiscard]] std::vector<std::pair<std::size_t, double>> cells_next_to(std::span<const half_difference> directions,
+                                                                        const valid_cells& cells);
+
+}  // namespace detail
+
 /// The rows of the cells next to some directions, which are above the horizon. A cell that is met c times is one row
 /// times sqrt(c): the same normal equations. O(n k).
 template <basis Basis>
 [[nodiscard]] component_rows rows_at(const Basis& basis, std::span<const half_difference> directions) {
-  std::vector<std::size_t> cells;
-  cells.reserve(directions.size());
-  const grid& grid = basis.cells().grid();
-  for (const half_difference& angles : directions)
-    cells.push_back(basis.cells().representative(grid.linear(grid.nearest(angles))));
-  std::ranges::sort(cells);
-
-  std::vector<std::pair<std::size_t, double>> counts;
-  for (const std::size_t cell : cells) {
-    if (counts.empty() || counts.back().first != cell) counts.emplace_back(cell, 0.0);
-    counts.back().second += 1.0;
-  }
+  const std::vector<std::pair<std::size_t, double>> counts = detail::cells_next_to(directions, basis.cells());
   const auto n = std::ssize(counts), k = static_cast<std::ptrdiff_t>(basis.size());
   component_rows rows{Eigen::MatrixXd(n, k), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& [cell, count] = counts[static_cast<std::size_t>(i)];
     const std::span<const float> row = basis.row(cell);
     const double root = std::sqrt(count);
-    rows.components.row(i) =
-        root * Eigen::Map<const Eigen::RowVectorXf>(row.data(), static_cast<Eigen::Index>(row.size())).cast<double>();
+    for (Eigen::Index j = 0; j < k; ++j) rows.components(i, j) = root * double{row[static_cast<std::size_t>(j)]};
     rows.noise[i] = root;
   }
   return rows;

@@ -2,18 +2,9 @@
 /// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016) is
 /// one such criterion; here are the condition number (Nielsen et al. 2015) and two of Bayesian experimental design.
 
-#include <gonio/core/error.hpp>
-
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
-#include <algorithm>
-#include <cmath>
 #include <concepts>
-#include <limits>
-#include <string>
-#include <utility>
 
 namespace gonio {
 
@@ -34,9 +25,6 @@ struct condition_number {
 static_assert(design_criterion<condition_number>);
 
 namespace detail {
-
-/// The Cholesky factors of I + R R' / eta.
-[[nodiscard]] Eigen::LLT<Eigen::MatrixXd> certainty(const Eigen::MatrixXd& components, double eta);
 
 void require_positive_eta(double eta);
 

@@ -4,12 +4,9 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/design_criterion.hpp>
-#include <gonio/solve/row_source.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
-#include <cmath>
 #include <utility>
 
 namespace gonio {
@@ -43,7 +40,8 @@ class expected_error {
   /// What is needed of n measurements and m observations: Y and W, one row for each measurement, and what noise does to
   /// them. Y stands above W in one matrix, because products with both at once are faster than two.
   struct rows {
-    row_matrix both;          ///< 2n x m
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;  ///< 2n x m
+
     Eigen::VectorXd noise;    ///< S O of Eq. 13, n values: 1 for a sample by itself
     Eigen::VectorXd own_eta;  ///< m v of the errors of its own, n values: 0 where there are none
 
@@ -67,16 +65,7 @@ class expected_error {
   /// size.
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
-      : options_(options), coefficients_(basis.coefficients().template cast<double>()) {
-    detail::require_positive_eta(options.eta);
-    if (!(options.noise >= 0.0 && std::isfinite(options.noise)))
-      throw error("the noise must be finite and not negative, not " + std::to_string(options.noise));
-    const auto k = static_cast<Eigen::Index>(basis.size());
-    if (norm.rows() != k || norm.cols() != k)
-      throw error("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
-    weighted_ = coefficients_ * norm;
-    energies_ = coefficients_.cwiseProduct(weighted_).rowwise().sum();
-  }
+      : expected_error(basis.coefficients(), options, norm) {}
 
   [[nodiscard]] const expected_error_options& options() const noexcept { return options_; }
   /// C and C M: m x k. A measurement whose row of components is q has the rows C q and C M q of Y and W.
@@ -87,9 +76,8 @@ class expected_error {
 
   /// Y and W of measurements, given the components' values at them, n x k, and what noise does to them. O(n k m).
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components, Eigen::VectorXd noise) const;
-  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const {
-    return prepare(components, Eigen::VectorXd::Ones(components.rows()));
-  }
+  /// The same for samples by themselves.
+  [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const;
 
   /// E(S). O(n^2 m) for n measurements and m observations.
   [[nodiscard]] double operator()(const rows& measured) const { return state(measured).error(options_.noise); }
@@ -100,7 +88,7 @@ class expected_error {
   /// What is left unknown when some measurements are made, and how to add to them.
   struct remainder {
     Eigen::MatrixXd inverse;         ///< K^-1, n x n
-    Eigen::ArrayXd squared_errors;   ///< of each observation
+    Eigen::VectorXd squared_errors;  ///< of each observation
     Eigen::VectorXd own_variances;   ///< v of each measurement's own error
     Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what noise adds to the weights
     double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
@@ -111,6 +99,9 @@ class expected_error {
   [[nodiscard]] remainder state(const rows& measured) const;
 
  private:
+  expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
+                 const Eigen::MatrixXd& norm);
+
   expected_error_options options_;
   Eigen::MatrixXd coefficients_, weighted_;
   Eigen::VectorXd energies_;
@@ -130,75 +121,39 @@ class extended_error {
   using matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using column = Eigen::Array<Scalar, Eigen::Dynamic, 1>;
 
-  extended_error(const expected_error& criterion, const expected_error::rows& measured)
-      : eta_(static_cast<Scalar>(criterion.options().eta)), noise_(static_cast<Scalar>(criterion.options().noise)) {
-    const expected_error::remainder left = criterion.state(measured);
-    materials_ = measured.materials().cast<Scalar>();
-    weighted_ = measured.weighted().cast<Scalar>();
-    inverse_ = left.inverse.cast<Scalar>();
-    squared_errors_ = left.squared_errors.cast<Scalar>().transpose();
-    own_variances_ = left.own_variances.cast<Scalar>();
-    noise_response_ = left.noise_response.cast<Scalar>();
-    noise_energy_ = static_cast<Scalar>(left.noise_energy);
-  }
+  extended_error(const expected_error& criterion, const expected_error::rows& measured);
 
   /// E with each of some candidates, whose rows of Y and W and whose own etas are given.
   [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
-                                  const Eigen::Ref<const column>& own_eta) const {
-    // Take away what the measurements know: from q, then from M q.
-    matrix t = y, once = w, known_once, known_twice;
-    if (materials_.rows() > 0) {
-      known_once = (y * materials_.transpose()) * inverse_;
-      t.noalias() -= known_once * materials_;
-      once.noalias() -= known_once * weighted_;
-    }
-    matrix twice = once;
-    if (materials_.rows() > 0) {
-      known_twice = (once * materials_.transpose()) * inverse_;
-      twice.noalias() -= known_twice * materials_;
-    }
-    const column d = eta_ + own_eta + y.cwiseProduct(t).rowwise().sum().array();
-    const column r = t.cwiseProduct(once).rowwise().sum().array();
-    const column grown = own_growth(known_once, known_twice, own_eta, d, r);
-    column found(y.rows());
-    for (Eigen::Index i = 0; i < y.rows(); ++i) {
-      const auto step = t.row(i).array() / d[i];
-      found[i] = (squared_errors_ + (grown[i] + step * (r[i] * step - Scalar(2) * twice.row(i).array())))
-                     .max(Scalar(0))
-                     .sqrt()
-                     .mean();
-    }
-    if (noise_ > Scalar(0)) found += noise_ * noise(y, once, d, r);
-    return found;
-  }
+                                  const Eigen::Ref<const column>& own_eta) const;
 
  private:
-  /// By how much errors of their own add to each squared error, beyond what they do now.
-  [[nodiscard]] column own_growth(const matrix& known_once, const matrix& known_twice,
-                                  const Eigen::Ref<const column>& own_eta, const column& d, const column& r) const {
-    const column v = own_eta / static_cast<Scalar>(squared_errors_.size());
-    column growth = v * r / d.square();
-    if (materials_.rows() == 0) return growth;
-    const matrix spread = known_once * own_variances_.asDiagonal();
-    growth += spread.cwiseProduct(known_once).rowwise().sum().array() * r / d.square();
-    growth -= Scalar(2) * spread.cwiseProduct(known_twice).rowwise().sum().array() / d;
-    return growth;
-  }
+  /// One column for each candidate, as products are fastest.
+  using columns = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
 
-  /// |Q (SQ)+_eta 1| with each candidate: (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
-  [[nodiscard]] column noise(const Eigen::Ref<const matrix>& y, const matrix& once, const column& d,
-                             const column& r) const {
-    const column growth = (Scalar(1) - (y * noise_response_).array()) / d;
-    const column along = (once * noise_response_).array();
-    return (noise_energy_ + growth * (Scalar(2) * along + growth * r)).max(Scalar(0)).sqrt();
-  }
+  /// What the measurements know of each candidate: a and b above, times -1. Empty if there are none.
+  struct knowledge {
+    columns once, twice;
+  };
+
+  /// Makes the columns of q and M q, one above the other, those of t and w, and those of M A q that of C A M A q.
+  [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
+  [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar own_eta, Scalar d,
+                                  Scalar r) const;
 
   Scalar eta_, noise_;
-  matrix materials_, weighted_, inverse_;
-  Eigen::Array<Scalar, 1, Eigen::Dynamic> squared_errors_;
+  columns both_;               ///< Y' above W'
+  columns y_, minus_inverse_;  ///< Y, -K^-1
+  column squared_errors_;
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_, own_variances_;
-  Scalar noise_energy_ = Scalar(0);
+  Scalar noise_energy_;
 };
+
+#if defined(GONIO_COMPILED)
+/// Sweeps are made in single precision, steps of a descent in double.
+extern template class extended_error<float>;
+extern template class extended_error<double>;
+#endif
 
 }  // namespace gonio
 

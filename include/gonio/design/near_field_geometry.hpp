@@ -2,14 +2,15 @@
 /// Pictures of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
 /// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 5.2 and Fig. 4.
 
-#include <gonio/core/pinhole_camera.hpp>
 #include <gonio/design/capture_geometry.hpp>
 
-#include <numbers>
+#include <cstddef>
 #include <optional>
-#include <string>
+#include <vector>
 
 namespace gonio {
+
+class pinhole_camera;  // core/pinhole_camera.hpp, which needs more of Eigen than all else here
 
 /// The apparatus.
 struct near_field_options {

@@ -7,7 +7,7 @@
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
 
-#include <cmath>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -22,6 +22,20 @@ struct correction_limits {
   /// say that nothing needs to be corrected. What a few samples say about a hundred functions is mostly noise.
   double inertia = 1.0;
 };
+
+namespace detail {
+
+/// What a round did, given how far each measurement was trusted, what it counted, the factor that was wanted for its
+/// estimate and the one that was found.
+[[nodiscard]] correction_round describe_round(const channel_values& trust, const channel_values& weights,
+                                              const channel_values& wanted, const channel_values& found);
+
+/// The product of all rounds' corrections over the cells, given the weights of the functions in each. O(cells k
+/// rounds).
+[[nodiscard]] brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
+                                          thread_count threads);
+
+}  // namespace detail
 
 /// The iteration as an object that steps. Its rows are read where the basis has them; a round costs O(samples k^2) for
 /// k functions, and O(samples k) if the weights are those of the round before.
@@ -74,7 +88,7 @@ class correction_run {
     const channel_values found = functions_.apply(beta);
     total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
-    history_.push_back(describe(trust, weights, wanted, found));
+    history_.push_back(detail::describe_round(trust, weights, wanted, found));
     return history_.back();
   }
 
@@ -97,7 +111,7 @@ class correction_run {
 
   /// The estimate after the rounds so far. O(cells k rounds).
   [[nodiscard]] corrected_brdf<Initial> result() const {
-    return {initial_, total_correction(), factor(), weights_, history_};
+    return {initial_, detail::total_correction(corrections_, weights_, threads_), factor(), weights_, history_};
   }
 
  private:
@@ -123,40 +137,6 @@ class correction_run {
     const std::vector<Eigen::Index>& columns = functions_.columns();
     const normal_equations normal{std::move(gram), std::move(moment)};
     return spread(solver_.solve(normal.subset(columns)), columns, functions_.unknowns()).weights.col(0);
-  }
-
-  [[nodiscard]] static correction_round describe(const channel_values& trust, const channel_values& weights,
-                                                 const channel_values& sigma, const channel_values& found) {
-    const double total = weights.cast<double>().sum();
-    const double squares = (weights.cast<double>() * (sigma.cast<double>() - 1.0).square()).sum();
-    return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
-            (trust < 0.5f).cast<double>().mean()};
-  }
-
-  /// The product of all rounds' corrections over the cells.
-  [[nodiscard]] brdf_table total_correction() const {
-    brdf_table total(corrections_.cells());
-    for (std::size_t c = 0; c < 3; ++c) {
-      Eigen::MatrixXf betas(functions_.unknowns(), std::ssize(weights_));
-      for (std::size_t round = 0; round < weights_.size(); ++round)
-        betas.col(static_cast<Eigen::Index>(round)) =
-            weights_[round].col(static_cast<Eigen::Index>(c)).template cast<float>();
-      const auto channel = corrections_.channel(c);
-      for_each_block(
-          corrections_.cells().size(), 1024,
-          [&](block range) {
-            const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-            const cell_matrix sigmas = channel.values().middleRows(begin, count) * betas;
-            for (Eigen::Index i = 0; i < count; ++i) {
-              float product = 1.0f;
-              for (const float sigma : sigmas.row(i))
-                product = std::min(product * sigma, correction_factor::largest_factor);
-              total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = product;
-            }
-          },
-          threads_);
-    }
-    return total;
   }
 
   Initial initial_;
@@ -225,3 +205,7 @@ class correction_iteration {
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/correction_iteration.ipp>
+#endif

@@ -5,14 +5,14 @@
 /// contains is reconstructed best without any.
 
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 
-#include <cmath>
+#include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -41,22 +41,13 @@ class left_out_error {
   left_out_error(const pca<Metric>& basis, std::span<const location> places, const Eigen::VectorXd& weights,
                  double noise, thread_count threads = {})
       : threads_(threads) {
-    if (weights.size() != std::ssize(places) || places.empty())
-      throw error(std::to_string(places.size()) + " places need as many weights, not " +
-                  std::to_string(weights.size()) + ", and at least one");
-    if (basis.names().size() < 2)
-      throw error("one material alone cannot be left out of what was learned from it: eta must be stated");
+    require_sensible(places.size(), weights, basis.names().size());
     const mapped_noise mapped = map_noise(basis, places, noise, threads);
-    const sums all = add_rows(basis, places, weights, mapped, threads);
-    decompose(basis.singular_values().array().square(), all);
-    for (std::size_t material = 0; material < basis.names().size(); ++material)
-      leave_out(basis.singular_values().array().square(),
-                basis.coefficients().middleRows(static_cast<Eigen::Index>(3 * material), 3).template cast<double>(),
-                static_cast<double>(basis.coefficients().rows()));
+    initialise(add_rows(basis, places, weights, mapped, threads), basis.singular_values(), basis.coefficients());
   }
 
   /// The largest eigenvalue of A'WA.
-  [[nodiscard]] double largest() const { return values_.maxCoeff(); }
+  [[nodiscard]] double largest() const { return values_[values_.size() - 1]; }
 
   /// The error at each eta, which must be positive. O(materials r^2) each, where r <= min(n, k) is the rows' rank.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const;
@@ -66,7 +57,12 @@ class left_out_error {
   struct sums {
     Eigen::MatrixXd gram, noise;
     Eigen::VectorXd shift;
+
+    explicit sums(Eigen::Index k);
     sums& operator+=(const sums& other);
+    /// Adds places with the row of the basis at each as a column.
+    void add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights, const Eigen::VectorXd& shifts,
+             const Eigen::VectorXd& variances);
   };
 
   /// A material in the eigenvectors V: t is what it differs by from the others' mean, n as above, M = Sigma^2.
@@ -82,35 +78,38 @@ class left_out_error {
     const auto k = static_cast<Eigen::Index>(basis.size());
     const auto observations = static_cast<double>(basis.coefficients().rows());
     const double beyond = (1.0 / basis.explained_variance() - 1.0) / observations;
-    const sums zero{Eigen::MatrixXd::Zero(k, k), Eigen::MatrixXd::Zero(k, k), Eigen::VectorXd::Zero(k)};
     return sum_over_blocks(
-        places.size(), 256, zero,
+        places.size(), 256, sums(k),
         [&](sums& sum, block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-          Eigen::MatrixXd rows(count, k);
-          for (Eigen::Index i = 0; i < count; ++i)
-            read_row_at(basis, places[range.begin + static_cast<std::size_t>(i)], rows.row(i));
-          const auto weight = weights.segment(begin, count).array();
-          const Eigen::ArrayXd variance =
-              mapped.variance.segment(begin, count).array() + beyond * rows.rowwise().squaredNorm().array();
-          const Eigen::MatrixXd weighted = weight.matrix().asDiagonal() * rows;
-          sum.gram.noalias() += weighted.transpose() * rows;
-          sum.noise.noalias() += weighted.transpose() * variance.matrix().asDiagonal() * weighted;
-          sum.shift.noalias() += weighted.transpose() * mapped.shift.segment(begin, count);
+          Eigen::MatrixXd columns(k, count);
+          Eigen::VectorXd variances = mapped.variance.segment(begin, count);
+          for (Eigen::Index i = 0; i < count; ++i) {
+            const location& place = places[range.begin + static_cast<std::size_t>(i)];
+            read_row_at(basis, place, Eigen::Map<Eigen::RowVectorXd>(columns.col(i).data(), k));
+            variances[i] += beyond * columns.col(i).squaredNorm();
+          }
+          sum.add(std::move(columns), weights.segment(begin, count), mapped.shift.segment(begin, count), variances);
         },
         threads);
   }
 
-  /// V and l, without what is rounding, and all that does not depend on the material.
-  void decompose(const Eigen::ArrayXd& energies, const sums& all);
+  /// Throws gonio::error unless there are as many weights as places, at least one, and two materials.
+  static void require_sensible(std::size_t places, const Eigen::VectorXd& weights, std::size_t materials);
 
-  /// `own`: the material's three rows of C.
-  void leave_out(const Eigen::ArrayXd& energies, const Eigen::MatrixXd& own, double observations);
+  void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients);
+
+  /// V and l, without what is rounding, and all that does not depend on the material. `energies` is the diagonal of M.
+  void decompose(const Eigen::VectorXd& energies, const sums& all);
+
+  /// `own`: the material's three rows of C, as columns.
+  [[nodiscard]] left_out leave_out(const Eigen::VectorXd& energies, const Eigen::MatrixXd& own,
+                                   double observations) const;
 
   [[nodiscard]] double error_at(double eta) const;
 
   /// Of each channel.
-  [[nodiscard]] Eigen::Array3d squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
+  [[nodiscard]] Eigen::Vector3d squared_bias(const left_out& material, const Eigen::VectorXd& d) const;
 
   Eigen::VectorXd values_;        // l, ascending
   Eigen::MatrixXd vectors_;       // V

@@ -116,8 +116,9 @@ class misplaced_decomposition {
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
       for (std::size_t place = 0; place < seen.rows.size(); ++place) {
-        const Eigen::RowVector3d along = (seen.rows[place] - means.rows.row(i)) * weights;
-        etas[i] += (along.array() + (seen.offsets[place] - means.offsets[i])).square().mean();
+        const Eigen::RowVectorXd change = seen.rows[place] - means.rows.row(i);
+        for (Eigen::Index c = 0; c < 3; ++c)
+          etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) / 3.0;
       }
       etas[i] *= observations() / static_cast<double>(seen.rows.size());
     });

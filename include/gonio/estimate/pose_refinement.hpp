@@ -8,14 +8,11 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/table/picture_samples.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
-#include <array>
 #include <cmath>
-#include <numbers>
-#include <string>
+#include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -34,6 +31,68 @@ struct pose_refinement_options {
   int iterations = 20;              ///< at most
   thread_count threads = {};
 };
+
+namespace detail {
+
+/// All but the prior of `pose_refinement`: its steps, given whatever reads the equations of a picture.
+class pose_iteration {
+ public:
+  /// The equations W^(1/2) (Q c - y) of some samples: rows as columns, k x n, and right-hand sides, n x 3.
+  struct equations {
+    Eigen::MatrixXd columns, right;
+
+    equations(Eigen::Index components, Eigen::Index samples) : columns(components, samples), right(samples, 3) {}
+  };
+
+  /// Writes the row of Q and the three values y of a sample, given its angles and reflectance; from several threads at
+  /// once.
+  using reader = std::function<void(const half_difference& angles, const rgb& value, Eigen::Ref<Eigen::RowVectorXd> row,
+                                    rgb& right)>;
+
+  /// A prior of k components and m observations. Throws as `pose_refinement`.
+  pose_iteration(std::vector<picture_samples> pictures, const pose_refinement_options& options, Eigen::Index components,
+                 Eigen::Index observations, const reader& read);
+
+  [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return turns_; }
+  [[nodiscard]] double objective() const noexcept { return state_.objective; }
+  [[nodiscard]] bool converged() const noexcept { return converged_; }
+  [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return state_.weights; }
+  [[nodiscard]] sample_set samples() const;
+
+  void step(const reader& read);
+  void solve(const reader& read);
+
+ private:
+  static constexpr Eigen::Index unknowns = 6;  ///< of a picture
+
+  struct state {
+    equations system;
+    Eigen::MatrixXd normal;   ///< Q'Q + eta I
+    Eigen::MatrixXd weights;  ///< k x 3
+    double objective = 0.0;
+  };
+
+  void require_sensible() const;
+  /// The equations of one picture from row `begin` on.
+  void add_picture(const picture_samples& picture, const picture_turns& turns, const reader& read, Eigen::Index begin,
+                   equations& out) const;
+  [[nodiscard]] state at(const std::vector<picture_turns>& turns, const reader& read) const;
+  /// Of |t|^2, where the objective is divided by eta.
+  [[nodiscard]] double turn_penalty() const;
+  [[nodiscard]] std::vector<picture_turns> moved(const Eigen::VectorXd& by) const;
+  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t picture, Eigen::Index unknown, const reader& read) const;
+  [[nodiscard]] Eigen::MatrixXd jacobian(const reader& read) const;
+  [[nodiscard]] Eigen::VectorXd newton_step(const reader& read) const;
+
+  std::vector<picture_samples> pictures_;
+  pose_refinement_options options_;
+  Eigen::Index components_, observations_;
+  std::vector<picture_turns> turns_;
+  state state_;
+  bool converged_ = false;
+};
+
+}  // namespace detail
 
 /// Turns t of light and camera, and weights c of a prior with m observations, that together minimise
 ///
@@ -55,207 +114,45 @@ class pose_refinement {
   /// Throws gonio::error unless eta and deviation are positive and there is a sample in each picture, all of them above
   /// the horizon and finite, with weights that are not negative.
   pose_refinement(pca<Metric> prior, std::vector<picture_samples> pictures, const pose_refinement_options& options = {})
-      : prior_(std::move(prior)), pictures_(std::move(pictures)), options_(options), turns_(pictures_.size()) {
-    require_sensible();
-    state_ = at(turns_);
-  }
+      : prior_(std::move(prior)),
+        iteration_(std::move(pictures), options, static_cast<Eigen::Index>(prior_.size()), prior_.coefficients().rows(),
+                   reader()) {}
 
-  [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return turns_; }
+  [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return iteration_.turns(); }
   /// What is minimised, divided by eta.
-  [[nodiscard]] double objective() const noexcept { return state_.objective; }
+  [[nodiscard]] double objective() const noexcept { return iteration_.objective(); }
   /// Did the last step improve the objective by less than a millionth of it?
-  [[nodiscard]] bool converged() const noexcept { return converged_; }
+  [[nodiscard]] bool converged() const noexcept { return iteration_.converged(); }
   [[nodiscard]] fitted_brdf<pca<Metric>> fit() const {
     solution found;
-    found.weights = state_.weights;
+    found.weights = iteration_.weights();
     return {prior_, std::move(found)};
   }
 
   /// The samples where they were found to be, for any estimator.
-  [[nodiscard]] sample_set samples() const {
-    sample_set all;
-    for (std::size_t p = 0; p < pictures_.size(); ++p) {
-      const Eigen::Matrix3d light = rotation(turns_[p].light), camera = rotation(turns_[p].camera);
-      for (const pair_sample& s : pictures_[p]) all.push_back({angles(s, light, camera), s.value, s.weight});
-    }
-    return all;
-  }
+  [[nodiscard]] sample_set samples() const { return iteration_.samples(); }
 
   /// One step of Gauss and Newton.
-  void step() {
-    const Eigen::VectorXd whole = newton_step();
-    for (double length = 1.0; length > 0.01; length /= 2.0) {
-      const std::vector<picture_turns> tried = moved(length * whole);
-      state candidate = at(tried);
-      if (!(candidate.objective < state_.objective)) continue;
-      converged_ = state_.objective - candidate.objective < 1e-6 * state_.objective;
-      state_ = std::move(candidate);
-      turns_ = tried;
-      return;
-    }
-    converged_ = true;
-  }
-
-  void solve() {
-    for (int i = 0; i < options_.iterations && !converged_; ++i) step();
-  }
+  void step() { iteration_.step(reader()); }
+  /// Steps until it has converged, or as often as the options say.
+  void solve() { iteration_.solve(reader()); }
 
  private:
-  static constexpr Eigen::Index unknowns = 6;  ///< of a picture
-
-  /// All samples' equations W^(1/2) (Q c - y) for given turns.
-  struct equations {
-    row_matrix rows;
-    Eigen::MatrixXd right;
-  };
-
-  struct state {
-    equations system;
-    Eigen::LLT<Eigen::MatrixXd> normal;  ///< of Q'Q + eta I
-    Eigen::MatrixXd weights;             ///< k x 3
-    double objective = 0.0;
-  };
-
-  void require_sensible() const {
-    if (!(options_.eta > 0.0 && std::isfinite(options_.eta)))
-      throw error("eta must be positive and finite, not " + std::to_string(options_.eta));
-    if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
-      throw error("light and camera may be off by 0 to 45 degrees, not by " +
-                  std::to_string(degrees(options_.deviation)));
-    if (pictures_.empty()) throw error("there is no picture");
-    for (const picture_samples& picture : pictures_) require_usable(as_sample_set(picture));
-  }
-
-  [[nodiscard]] static Eigen::Matrix3d rotation(const Eigen::Vector3d& turn) {
-    const double angle = turn.norm();
-    if (!(angle > 0.0)) return Eigen::Matrix3d::Identity();
-    return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  }
-
-  /// Where one sample of a picture is after the turns; where that would be below the horizon, where it was.
-  [[nodiscard]] static half_difference angles(const pair_sample& s, const Eigen::Matrix3d& light,
-                                              const Eigen::Matrix3d& camera) {
-    const direction wi = light * s.directions.wi, wo = camera * s.directions.wo;
-    const bool above = wi.z() > 0.0 && wo.z() > 0.0;
-    return above ? to_half_difference(wi, wo) : to_half_difference(s.directions.wi, s.directions.wo);
-  }
-
-  /// The equations of one picture from row `begin` on.
-  void read(const picture_samples& picture, const picture_turns& turns, Eigen::Index begin, equations& out) const {
-    const Eigen::Matrix3d light = rotation(turns.light), camera = rotation(turns.camera);
-    for_each_block(
-        picture.size(), 64,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i) {
-            const location here = locate(prior_.cells(), angles(picture[i], light, camera));
-            const auto row = begin + static_cast<Eigen::Index>(i);
-            const double root = std::sqrt(picture[i].weight), mean = offset_at(prior_, here);
-            read_row_at(prior_, here, out.rows.row(row));
-            out.rows.row(row) *= root;
-            for (Eigen::Index c = 0; c < 3; ++c)
-              out.right(row, c) = root * (prior_.metric().forward(picture[i].value[c], here) - mean);
-          }
-        },
-        options_.threads);
-  }
-
-  [[nodiscard]] state at(const std::vector<picture_turns>& turns) const {
-    Eigen::Index n = 0;
-    for (const picture_samples& picture : pictures_) n += std::ssize(picture);
-    const auto k = static_cast<Eigen::Index>(prior_.size());
-    state found{{row_matrix(n, k), Eigen::MatrixXd(n, 3)}, {}, {}, 0.0};
-    Eigen::Index begin = 0;
-    for (std::size_t p = 0; p < pictures_.size(); ++p) {
-      read(pictures_[p], turns[p], begin, found.system);
-      begin += std::ssize(pictures_[p]);
-    }
-    Eigen::MatrixXd normal = found.system.rows.transpose() * found.system.rows;
-    normal.diagonal().array() += options_.eta;
-    found.normal.compute(normal);
-    found.weights = found.normal.solve(found.system.rows.transpose() * found.system.right);
-    const Eigen::MatrixXd misfit = found.system.right - found.system.rows * found.weights;
-    found.objective = misfit.cwiseProduct(found.system.right).sum() / options_.eta;
-    for (const picture_turns& t : turns)
-      found.objective += turn_penalty() * (t.light.squaredNorm() + t.camera.squaredNorm());
-    return found;
-  }
-
-  /// Of |t|^2, where the objective is divided by eta.
-  [[nodiscard]] double turn_penalty() const {
-    const auto m = static_cast<double>(prior_.coefficients().rows());
-    return 3.0 / (m * options_.deviation * options_.deviation);
-  }
-
-  /// (Q Q' + eta I)^-1 b, through the k x k normal equations (Woodbury).
-  [[nodiscard]] Eigen::MatrixXd unexplained(const Eigen::MatrixXd& b) const {
-    return (b - state_.system.rows * state_.normal.solve(state_.system.rows.transpose() * b)) / options_.eta;
-  }
-
-  [[nodiscard]] static Eigen::Vector<double, unknowns> as_vector(const picture_turns& turns) {
-    Eigen::Vector<double, unknowns> both;
-    both << turns.light, turns.camera;
-    return both;
-  }
-
-  [[nodiscard]] std::vector<picture_turns> moved(const Eigen::VectorXd& by) const {
-    std::vector<picture_turns> turns = turns_;
-    for (std::size_t p = 0; p < turns.size(); ++p) {
-      const auto step = by.segment<unknowns>(unknowns * static_cast<Eigen::Index>(p));
-      turns[p].light += step.template head<3>();
-      turns[p].camera += step.template tail<3>();
-    }
-    return turns;
-  }
-
-  /// How the misfit y - Q c of a picture changes with one of its unknowns, by central differences. They span what is
-  /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t picture, Eigen::Index unknown) const {
-    const double width = options_.deviation / 2.0;
-    const auto n = std::ssize(pictures_[picture]);
-    const auto misfit_at = [&](double offset) {
-      picture_turns turns = turns_[picture];
-      (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
-      equations there{row_matrix(n, state_.system.rows.cols()), Eigen::MatrixXd(n, 3)};
-      read(pictures_[picture], turns, 0, there);
-      return Eigen::MatrixXd(there.right - there.rows * state_.weights);
+  [[nodiscard]] detail::pose_iteration::reader reader() const {
+    return [this](const half_difference& angles, const rgb& value, Eigen::Ref<Eigen::RowVectorXd> row, rgb& right) {
+      const location here = locate(prior_.cells(), angles);
+      const double mean = offset_at(prior_, here);
+      read_row_at(prior_, here, row);
+      for (Eigen::Index c = 0; c < 3; ++c) right[c] = prior_.metric().forward(value[c], here) - mean;
     };
-    return (misfit_at(width) - misfit_at(-width)) / (2.0 * width);
-  }
-
-  [[nodiscard]] Eigen::VectorXd newton_step() const {
-    const auto all = unknowns * std::ssize(pictures_);
-    const Eigen::Index n = state_.system.rows.rows();
-    std::array<Eigen::MatrixXd, 3> jacobian;
-    jacobian.fill(Eigen::MatrixXd::Zero(n, all));
-    Eigen::Index begin = 0;
-    for (std::size_t p = 0; p < pictures_.size(); ++p) {
-      const auto count = std::ssize(pictures_[p]);
-      for (Eigen::Index u = 0; u < unknowns; ++u) {
-        const Eigen::MatrixXd change = derivative(p, u);
-        for (std::size_t c = 0; c < 3; ++c)
-          jacobian[c].col(unknowns * static_cast<Eigen::Index>(p) + u).segment(begin, count) =
-              change.col(static_cast<Eigen::Index>(c));
-      }
-      begin += count;
-    }
-    Eigen::MatrixXd hessian = turn_penalty() * Eigen::MatrixXd::Identity(all, all);
-    Eigen::VectorXd gradient(all);
-    for (std::size_t p = 0; p < pictures_.size(); ++p)
-      gradient.segment<unknowns>(unknowns * static_cast<Eigen::Index>(p)) = turn_penalty() * as_vector(turns_[p]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Eigen::MatrixXd left = unexplained(jacobian[c]);
-      hessian += jacobian[c].transpose() * left;
-      gradient += left.transpose() * state_.system.right.col(static_cast<Eigen::Index>(c));
-    }
-    return -hessian.llt().solve(gradient);
   }
 
   pca<Metric> prior_;
-  std::vector<picture_samples> pictures_;
-  pose_refinement_options options_;
-  std::vector<picture_turns> turns_;
-  state state_;
-  bool converged_ = false;
+  detail::pose_iteration iteration_;
 };
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/pose_refinement.ipp>
+#endif

@@ -4,11 +4,13 @@
 #include <gonio/capture/camera_response.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/solve/dense.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -65,6 +67,20 @@ GONIO_INLINE std::pair<Eigen::Index, double> camera_response::place_of(double co
 
 namespace gonio::detail {
 
+/// 0 at both ends of a camera's range, 1 in its middle (Debevec and Malik 1997, Eq. 4).
+[[nodiscard]] GONIO_INLINE double hat(double count, double saturation) noexcept {
+  return std::max(0.0, 1.0 - std::abs(2.0 * count / saturation - 1.0));
+}
+
+/// The response at the knots, but for a constant, is G s, and its slopes by the logarithm of the count are S s, where s
+/// is the first slope and then one bend for each knot but the ends, of which the sum of squares is the integral that
+/// smoothness weighs. In these unknowns it is a multiple of the identity, and the problem well-conditioned.
+struct response_basis {
+  Eigen::MatrixXd values, slopes;  ///< G: knots x (knots - 1), S: (knots - 1) x (knots - 1)
+
+  explicit response_basis(Eigen::Index knots);
+};
+
 GONIO_INLINE response_basis::response_basis(Eigen::Index knots)
     : values(Eigen::MatrixXd::Zero(knots, knots - 1)), slopes(Eigen::MatrixXd::Zero(knots - 1, knots - 1)) {
   const auto width = [](Eigen::Index interval) { return std::log1p(1.0 / static_cast<double>(interval + 1)); };
@@ -78,13 +94,66 @@ GONIO_INLINE response_basis::response_basis(Eigen::Index knots)
   for (Eigen::Index k = 1; k < knots; ++k) values.row(k) = values.row(k - 1) + width(k - 1) * slopes.row(k - 1);
 }
 
-GONIO_INLINE response_equations::response_equations(Eigen::Index knots, double spacing, double saturation)
-    : gram_(Eigen::MatrixXd::Zero(knots, knots)),
-      moment_(Eigen::VectorXd::Zero(knots)),
-      spacing_(spacing),
-      saturation_(saturation) {}
+/// The normal equations of what the counts say of the response at its knots. Of each pixel, the unknown ln E is the
+/// weighted mean of what its rows say, so that only the response is left.
+class response_equations {
+ public:
+  response_equations(Eigen::Index knots, double spacing, double saturation)
+      : gram_(Eigen::MatrixXd::Zero(knots, knots)),
+        moment_(Eigen::VectorXd::Zero(knots)),
+        spacing_(spacing),
+        saturation_(saturation) {}
 
-GONIO_INLINE Eigen::VectorXd never_falling(Eigen::VectorXd values) {
+  /// A pixel's counts, one for each time.
+  void add(const exposure_counts& counts, Eigen::Index pixel, const std::vector<double>& log_times);
+
+  [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
+  [[nodiscard]] const Eigen::VectorXd& moment() const noexcept { return moment_; }
+  /// Of all rows of pixels that have two or more: one alone says nothing.
+  [[nodiscard]] double weight() const noexcept { return weight_; }
+  /// Of the same rows.
+  [[nodiscard]] double smallest_count() const noexcept { return smallest_count_; }
+
+ private:
+  Eigen::MatrixXd gram_;
+  Eigen::VectorXd moment_;
+  double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
+  double smallest_count_ = std::numeric_limits<double>::infinity();
+};
+
+GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::Index pixel,
+                                          const std::vector<double>& log_times) {
+  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(moment_.size());
+  double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
+  int rows = 0;
+  for (Eigen::Index j = 0; j < counts.cols(); ++j) {
+    const double count = counts(pixel, j), log_time = log_times[static_cast<std::size_t>(j)];
+    const double weight = std::pow(hat(count, saturation_), 2);
+    if (!(weight > 0.0)) continue;
+    const auto [left, share] = camera_response::place_of(count, spacing_, moment_.size());
+    const std::array<double, 2> row{1.0 - share, share};
+    for (Eigen::Index a = 0; a < 2; ++a) {
+      const double weighted = weight * row[static_cast<std::size_t>(a)];
+      for (Eigen::Index b = 0; b < 2; ++b) gram_(left + a, left + b) += weighted * row[static_cast<std::size_t>(b)];
+      moment_[left + a] += weighted * log_time;
+      row_sum[left + a] += weighted;
+    }
+    darkest = std::min(darkest, count);
+    time_sum += weight * log_time;
+    weights += weight;
+    ++rows;
+  }
+  if (rows == 0) return;
+  for (Eigen::Index k = 0; k < row_sum.size(); ++k)
+    if (row_sum[k] != 0.0) gram_.col(k) -= row_sum[k] / weights * row_sum;
+  moment_ -= time_sum / weights * row_sum;
+  if (rows < 2) return;
+  weight_ += weights;
+  smallest_count_ = darkest;
+}
+
+/// Takes away what rounding lets a value fall by.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd never_falling(Eigen::VectorXd values) {
   for (Eigen::Index k = 1; k < values.size(); ++k) values[k] = std::max(values[k], values[k - 1]);
   return values;
 }
@@ -102,29 +171,29 @@ GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, st
     if (!(time > 0.0 && std::isfinite(time)))
       throw error("an exposure time must be positive, not " + std::to_string(time));
   if (largest_count < 3) throw error("a camera of " + std::to_string(largest_count) + " counts has no response");
-  for (const double count : counts.reshaped())
-    if (!(count >= 0.0 && count <= largest_count))
+  for (Eigen::Index i = 0; i < counts.size(); ++i)
+    if (const double count = counts.data()[i]; !(count >= 0.0 && count <= largest_count))
       throw error("a pixel's count is " + std::to_string(count) + ", expected from 0 to " +
                   std::to_string(largest_count));
 
   const Eigen::Index knots = std::min<Eigen::Index>(largest_count, camera_response::most_knots);
   detail::response_equations equations(knots, largest_count / static_cast<double>(knots),
                                        options.saturation > 0 ? options.saturation : largest_count);
-  const Eigen::VectorXd log_times =
-      Eigen::Map<const Eigen::VectorXd>(times.data(), std::ssize(times)).array().log().matrix();
-  for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) equations.add(counts.row(pixel), log_times);
+  std::vector<double> log_times;
+  for (const double time : times) log_times.push_back(std::log(time));
+  for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel) equations.add(counts, pixel, log_times);
   const double total = equations.weight();
   if (!(total > 0.0))
     throw error("no pixel is neither dark nor saturated in two exposures: a camera's response needs such");
 
   const detail::response_basis basis(knots);
-  Eigen::MatrixXd gram = basis.values.transpose() * equations.gram() * basis.values / total;
-  gram.diagonal().tail(knots - 2).array() += options.smoothness;
+  const Eigen::MatrixXd to_slopes = basis.values.transpose() / total;
+  Eigen::MatrixXd gram = product(product(to_slopes, equations.gram()), basis.values);
+  for (Eigen::Index k = 1; k < knots - 1; ++k) gram(k, k) += options.smoothness;
   const linear_constraints never_falls{-basis.slopes, Eigen::VectorXd::Zero(knots - 1)};
   const solution found =
-      quadratic_program(never_falls)
-          .solve(normal_equations(std::move(gram), basis.values.transpose() * equations.moment() / total));
-  return {largest_count, detail::never_falling(basis.values * found.weights.col(0)), equations.smallest_count()};
+      quadratic_program(never_falls).solve(normal_equations(std::move(gram), product(to_slopes, equations.moment())));
+  return {largest_count, detail::never_falling(product(basis.values, found.weights)), equations.smallest_count()};
 }
 
 }  // namespace gonio

@@ -4,8 +4,14 @@
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/rgb.hpp>
 
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -21,7 +27,11 @@ GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluste
 
 namespace gonio::detail {
 
-GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
+/// Pixels that the number of clusters and their first centres are found from.
+inline constexpr std::size_t clustered_sample = 2000;
+
+/// The positions of `clustered_sample` of n points at random, or of all if there are not as many, in their order.
+[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
   std::vector<Eigen::Index> all(static_cast<std::size_t>(n)), chosen(std::min(all.size(), clustered_sample));
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   std::mt19937_64 generator(seed);
@@ -37,9 +47,10 @@ GONIO_INLINE void require_colours(const point_matrix_view& colours) {
     if (!colours.row(i).allFinite()) throw error("the colour of pixel " + std::to_string(i + 1) + " is not finite");
 }
 
-GONIO_INLINE colour_clusters clusters_of_all(const point_matrix_view& colours, const point_matrix& points,
-                                             const std::vector<Eigen::Index>& some, point_matrix first_centres,
-                                             thread_count threads) {
+/// Carries clusters of some of the points over to all of them.
+[[nodiscard]] GONIO_INLINE colour_clusters clusters_of_all(const point_matrix_view& colours, const point_matrix& points,
+                                                           const std::vector<Eigen::Index>& some,
+                                                           point_matrix first_centres, thread_count threads) {
   const point_clusters found = refine_clusters(points, std::move(first_centres), threads);
   point_matrix centres = cluster_means(colours, found.labels, found.centres.rows(), threads);
   const double silhouette = mean_silhouette(points(some, Eigen::all), found.labels(some), threads);

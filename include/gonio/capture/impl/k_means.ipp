@@ -36,7 +36,10 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
   return count;
 }
 
-GONIO_INLINE point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k, std::mt19937_64& generator) {
+/// The first centre is any point; each further one is a point chosen with a probability in proportion to its squared
+/// distance to the nearest centre so far. Of k or more different points.
+[[nodiscard]] GONIO_INLINE point_matrix seed_centres(const point_matrix_view& points, Eigen::Index k,
+                                                     std::mt19937_64& generator) {
   point_matrix centres(k, points.cols());
   centres.row(0) = points.row(std::uniform_int_distribution<Eigen::Index>(0, points.rows() - 1)(generator));
   Eigen::VectorXd squares = (points.rowwise() - centres.row(0)).rowwise().squaredNorm();
@@ -57,8 +60,10 @@ GONIO_INLINE point_matrix seed_centres(const point_matrix_view& points, Eigen::I
   return centres;
 }
 
-GONIO_INLINE bool assign(const point_matrix_view& points, const point_matrix& centres, Eigen::VectorXi& labels,
-                         Eigen::VectorXd& squares, thread_count threads) {
+/// The nearest centre of each point, the first of equally near ones, and the squared distance to it. Says whether a
+/// label has changed. O(n k d).
+[[nodiscard]] GONIO_INLINE bool assign(const point_matrix_view& points, const point_matrix& centres,
+                                       Eigen::VectorXi& labels, Eigen::VectorXd& squares, thread_count threads) {
   const Eigen::VectorXi before = labels;
   for_each_block(
       static_cast<std::size_t>(points.rows()), 4096,
@@ -77,12 +82,14 @@ GONIO_INLINE bool assign(const point_matrix_view& points, const point_matrix& ce
   return labels != before;
 }
 
-GONIO_INLINE std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
+/// How many points each cluster has.
+[[nodiscard]] GONIO_INLINE std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
   std::vector<std::size_t> sizes(static_cast<std::size_t>(k));
   for (const int label : labels) ++sizes[static_cast<std::size_t>(label)];
   return sizes;
 }
 
+/// A cluster without points takes the point that is farthest from its centre, of a cluster that keeps another.
 GONIO_INLINE void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k) {
   std::vector<std::size_t> sizes = cluster_sizes(labels, k);
   for (std::size_t c = 0; c < sizes.size(); ++c) {
@@ -113,8 +120,9 @@ GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const E
   return sums.leftCols(points.cols()).array().colwise() / sums.col(points.cols()).array();
 }
 
-GONIO_INLINE point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
-                                            double inertia) {
+/// Numbers the clusters by their size.
+[[nodiscard]] GONIO_INLINE point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
+                                                          double inertia) {
   const std::vector<std::size_t> sizes = cluster_sizes(labels, centres.rows());
   std::vector<std::size_t> order(sizes.size()), rank(sizes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -2,19 +2,48 @@
 /// Bodies of design/cell_candidates.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/design/capture_geometry.hpp>
 #include <gonio/design/cell_candidates.hpp>
-#include <gonio/design/expected_error.hpp>
+#include <gonio/design/float_product.hpp>
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio {
+
+GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const cell_matrix& components,
+                                              expected_error criterion, capture_constraint constraint,
+                                              thread_count threads, std::span<const double> own_etas)
+    : geometry_(cells, std::move(constraint)),
+      criterion_(std::move(criterion)),
+      materials_(static_cast<Eigen::Index>(cells.size()), criterion_.coefficients().rows()),
+      weighted_(materials_.rows(), materials_.cols()),
+      own_etas_(Eigen::ArrayXf::Zero(materials_.rows())),
+      threads_(threads) {
+  if (!own_etas.empty()) own_etas_ = checked(own_etas, size());
+  const Eigen::MatrixXf to_materials = criterion_.coefficients().cast<float>();
+  const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().cast<float>();
+  for (std::size_t cell = 0; cell < size(); ++cell)
+    if (!geometry_.allows(cell)) excluded_.push_back(cell);
+  for_each_block(
+      size(), 512,
+      [&](block range) {
+        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const float_matrix_view rows = components.middleRows(begin, count).transpose();
+        materials_.middleRows(begin, count).setZero();
+        weighted_.middleRows(begin, count).setZero();
+        add_product(to_materials, rows, materials_.middleRows(begin, count).transpose());
+        add_product(to_weighted, rows, weighted_.middleRows(begin, count).transpose());
+      },
+      threads_);
+}
 
 GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const std::size_t> cells) const {
   const auto n = std::ssize(cells);
@@ -27,6 +56,23 @@ GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const std::
     rows.own_eta[i] = double{own_etas_[cell]};
   }
   return rows;
+}
+
+GONIO_INLINE double cell_candidates::operator()(std::span<const std::size_t> cells) const {
+  return criterion_(rows_of(cells));
+}
+
+GONIO_INLINE cell_candidates::with_one_more cell_candidates::beside(std::span<const std::size_t> cells) const {
+  return {*this, cells};
+}
+
+GONIO_INLINE cell_candidates::with_one_more::with_one_more(const cell_candidates& candidates,
+                                                           std::span<const std::size_t> cells)
+    : candidates_(&candidates), with_(candidates.criterion_, candidates.rows_of(cells)) {}
+
+GONIO_INLINE double cell_candidates::with_one_more::operator()(std::size_t cell) const {
+  const expected_error::rows row = candidates_->rows_of({&cell, 1});
+  return with_(row.materials(), row.weighted(), row.own_eta.array())[0];
 }
 
 GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const std::size_t> cells) const {

@@ -1,13 +1,12 @@
 #pragma once
 /// Bodies of design/compressed_rows.hpp.
 
-#include <gonio/basis/basis.hpp>
 #include <gonio/core/compiled.hpp>
-#include <gonio/core/direction.hpp>
 #include <gonio/design/compressed_rows.hpp>
+#include <gonio/solve/dense.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -15,22 +14,61 @@
 #include <utility>
 #include <vector>
 
+namespace gonio::detail {
+
+GONIO_INLINE std::vector<std::pair<std::size_t, double>> cells_next_to(std::span<const half_difference> directions,
+                                                                       const valid_cells& cells) {
+  const grid& grid = cells.grid();
+  std::vector<std::size_t> met;
+  met.reserve(directions.size());
+  for (const half_difference& angles : directions)
+    met.push_back(cells.representative(grid.linear(grid.nearest(angles))));
+  std::sort(met.begin(), met.end());
+
+  std::vector<std::pair<std::size_t, double>> counts;
+  for (const std::size_t cell : met) {
+    if (counts.empty() || counts.back().first != cell) counts.emplace_back(cell, 0.0);
+    counts.back().second += 1.0;
+  }
+  return counts;
+}
+
+/// V' R and V' O for orthonormal columns V.
+[[nodiscard]] GONIO_INLINE component_rows turned(const Eigen::MatrixXd& vectors, const component_rows& rows) {
+  component_rows turned{product(vectors.transpose(), rows.components), Eigen::VectorXd(vectors.cols())};
+  for (Eigen::Index j = 0; j < vectors.cols(); ++j) turned.noise[j] = vectors.col(j).dot(rows.noise);
+  return turned;
+}
+
+/// L^1/2 V' and L^-1/2 V'R'O for the eigenvalues L of R'R.
+[[nodiscard]] GONIO_INLINE component_rows scaled(const Eigen::MatrixXd& vectors, std::span<const double> values,
+                                                 const component_rows& rows) {
+  const Eigen::Index k = vectors.rows(), kept = vectors.cols();
+  Eigen::VectorXd noise(k);  // R'O
+  for (Eigen::Index j = 0; j < k; ++j) noise[j] = rows.components.col(j).dot(rows.noise);
+  component_rows few{Eigen::MatrixXd(kept, k), Eigen::VectorXd(kept)};
+  for (Eigen::Index i = 0; i < kept; ++i) {
+    const double root = std::sqrt(values[static_cast<std::size_t>(i)]);
+    for (Eigen::Index j = 0; j < k; ++j) few.components(i, j) = root * vectors(j, i);
+    few.noise[i] = vectors.col(i).dot(noise) / root;
+  }
+  return few;
+}
+
+}  // namespace gonio::detail
+
 namespace gonio {
 
 GONIO_INLINE component_rows compressed(const component_rows& rows, double negligible) {
   const Eigen::MatrixXd& r = rows.components;
   const bool tall = r.rows() > r.cols();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(tall ? Eigen::MatrixXd(r.transpose() * r)
-                                                                  : Eigen::MatrixXd(r * r.transpose()));
-  const Eigen::VectorXd& values = eigen.eigenvalues();  // smallest first
-  const auto dropped = std::ranges::count_if(values, [&](double value) { return !(value > negligible); });
-  const Eigen::Index kept = values.size() - dropped;
-  const auto vectors = eigen.eigenvectors().rightCols(kept);
-  const Eigen::VectorXd roots = values.tail(kept).cwiseSqrt();
-  if (tall)
-    return {roots.asDiagonal() * vectors.transpose(),
-            roots.cwiseInverse().asDiagonal() * (vectors.transpose() * (r.transpose() * rows.noise))};
-  return {vectors.transpose() * r, vectors.transpose() * rows.noise};
+  const symmetric_eigen eigen = decompose_symmetric(
+      tall ? product_with_transpose(r.transpose()) : product_with_transpose(r), "a Gram matrix of measurements");
+  const std::span<const double> values(eigen.values.data(), static_cast<std::size_t>(eigen.values.size()));
+  const auto kept =
+      static_cast<std::size_t>(std::ranges::count_if(values, [&](double value) { return value > negligible; }));
+  const Eigen::MatrixXd vectors = eigen.vectors.rightCols(static_cast<Eigen::Index>(kept));
+  return tall ? detail::scaled(vectors, values.last(kept), rows) : detail::turned(vectors, rows);
 }
 
 }  // namespace gonio

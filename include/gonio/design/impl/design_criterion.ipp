@@ -4,14 +4,13 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/design/design_criterion.hpp>
+#include <gonio/solve/dense.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <limits>
 #include <string>
 #include <utility>
@@ -20,11 +19,9 @@ namespace gonio {
 
 GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& components) const {
   if (components.rows() == 1) return 1.0 / components.norm();
-  const Eigen::MatrixXd gram = components.rows() <= components.cols()
-                                   ? Eigen::MatrixXd(components * components.transpose())
-                                   : Eigen::MatrixXd(components.transpose() * components);
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::MatrixXd gram = components.rows() <= components.cols() ? product_with_transpose(components)
+                                                                      : product_with_transpose(components.transpose());
+  const Eigen::VectorXd values = symmetric_eigenvalues(gram, "a Gram matrix of measurements");
   const double smallest = values[0], largest = values[values.size() - 1];
   if (!(smallest > 1e-14 * largest)) return std::numeric_limits<double>::infinity();
   return std::sqrt(largest / smallest);
@@ -34,10 +31,12 @@ GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& componen
 
 namespace gonio::detail {
 
-GONIO_INLINE Eigen::LLT<Eigen::MatrixXd> certainty(const Eigen::MatrixXd& components, double eta) {
-  Eigen::MatrixXd gram = components * components.transpose() / eta;
-  gram.diagonal().array() += 1.0;
-  return gram.llt();
+/// The Cholesky factors of I + R R' / eta.
+[[nodiscard]] GONIO_INLINE cholesky certainty(const Eigen::MatrixXd& components, double eta) {
+  Eigen::MatrixXd gram = product_with_transpose(components);
+  gram /= eta;
+  for (Eigen::Index i = 0; i < gram.rows(); ++i) gram(i, i) += 1.0;
+  return cholesky(gram);
 }
 
 GONIO_INLINE void require_positive_eta(double eta) {
@@ -49,20 +48,23 @@ GONIO_INLINE void require_positive_eta(double eta) {
 namespace gonio {
 
 GONIO_INLINE double d_optimality::operator()(const Eigen::MatrixXd& components) const {
-  return -detail::certainty(components, eta_).matrixLLT().diagonal().array().log().sum();
+  return -0.5 * detail::certainty(components, eta_).log_determinant();
 }
 
 GONIO_INLINE a_optimality::a_optimality(Eigen::VectorXd energies, double eta)
     : energies_(std::move(energies)), eta_(eta) {
   detail::require_positive_eta(eta);
-  if (!energies_.allFinite() || !(energies_.array() >= 0.0).all() || !(energies_.sum() > 0.0))
+  const auto possible = [](double energy) { return energy >= 0.0 && std::isfinite(energy); };
+  if (!std::all_of(energies_.data(), energies_.data() + energies_.size(), possible) || !(energies_.sum() > 0.0))
     throw error("the components' energies must be finite, not negative, and not all zero");
 }
 
 GONIO_INLINE double a_optimality::operator()(const Eigen::MatrixXd& components) const {
   // (R'R + eta I)^-1 = (I - R' K^-1 R / eta) / eta with K = I + R R' / eta = L L'.
-  const Eigen::MatrixXd known = detail::certainty(components, eta_).matrixL().solve(components);
-  return 1.0 - (known.array().square().matrix() * energies_).sum() / (eta_ * energies_.sum());
+  const Eigen::MatrixXd known = detail::certainty(components, eta_).solve_lower(components);
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < known.cols(); ++j) sum += known.col(j).squaredNorm() * energies_[j];
+  return 1.0 - sum / (eta_ * energies_.sum());
 }
 
 }  // namespace gonio

@@ -2,13 +2,16 @@
 /// Bodies of design/near_field_geometry.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/pinhole_camera.hpp>
-#include <gonio/design/capture_geometry.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gonio {
 

@@ -1,20 +1,88 @@
 #pragma once
 /// Bodies of estimate/left_out_error.hpp.
 
-#include <gonio/basis/pca.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/estimate/left_out_error.hpp>
-#include <gonio/estimate/mapped_noise.hpp>
+#include <gonio/solve/dense.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
+#include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio {
+
+namespace detail {
+
+/// diag(d) A.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd scaled_rows(const Eigen::VectorXd& d, const Eigen::MatrixXd& a) {
+  Eigen::MatrixXd scaled(a.rows(), a.cols());
+  for (Eigen::Index j = 0; j < a.cols(); ++j) scaled.col(j) = d.cwiseProduct(a.col(j));
+  return scaled;
+}
+
+/// A'B of matrices of three columns each.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d dots(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  Eigen::Matrix3d found;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j) found(i, j) = a.col(i).dot(b.col(j));
+  return found;
+}
+
+/// The pivot of a step of Gaussian elimination: its row and its column, none of them done yet.
+[[nodiscard]] GONIO_INLINE std::array<Eigen::Index, 2> largest_beyond(Eigen::Index step, const Eigen::Matrix3d& a) {
+  std::array<Eigen::Index, 2> found{step, step};
+  for (Eigen::Index i = step; i < 3; ++i)
+    for (Eigen::Index j = step; j < 3; ++j)
+      if (std::abs(a(i, j)) > std::abs(a(found[0], found[1]))) found = {i, j};
+  return found;
+}
+
+/// X with A X = B by Gaussian elimination with complete pivoting; zero where A is singular to rounding. Golub and Van
+/// Loan, Matrix Computations, 4th ed. 2013, 3.4.8; Eigen's takes a second to compile.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d solve_3_by_3(Eigen::Matrix3d a, Eigen::Matrix3d b) {
+  std::array<Eigen::Index, 3> unknown{0, 1, 2};
+  Eigen::Index rank = 0;
+  double least = 0.0;
+  for (; rank < 3; ++rank) {
+    const auto [row, column] = largest_beyond(rank, a);
+    if (!(std::abs(a(row, column)) > least)) break;
+    if (rank == 0) least = 3.0 * std::numeric_limits<double>::epsilon() * std::abs(a(row, column));
+    std::swap(unknown[static_cast<std::size_t>(rank)], unknown[static_cast<std::size_t>(column)]);
+    for (Eigen::Index i = 0; i < 3; ++i) std::swap(a(i, rank), a(i, column));
+    for (Eigen::Index j = 0; j < 3; ++j) std::swap(a(rank, j), a(row, j));
+    for (Eigen::Index j = 0; j < 3; ++j) std::swap(b(rank, j), b(row, j));
+    for (Eigen::Index i = rank + 1; i < 3; ++i) {
+      const double factor = a(i, rank) / a(rank, rank);
+      for (Eigen::Index j = 0; j < 3; ++j) a(i, j) -= factor * a(rank, j);
+      for (Eigen::Index j = 0; j < 3; ++j) b(i, j) -= factor * b(rank, j);
+    }
+  }
+  Eigen::Matrix3d x = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = rank - 1; i >= 0; --i)
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      double sum = b(i, c);
+      for (Eigen::Index j = i + 1; j < rank; ++j) sum -= a(i, j) * x(unknown[static_cast<std::size_t>(j)], c);
+      x(unknown[static_cast<std::size_t>(i)], c) = sum / a(i, i);
+    }
+  return x;
+}
+
+/// sum += A X of a matrix of three columns.
+GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::Matrix3d& x, Eigen::MatrixXd& sum) {
+  for (Eigen::Index j = 0; j < 3; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i) sum.col(j) += x(i, j) * a.col(i);
+}
+
+}  // namespace detail
 
 GONIO_INLINE Eigen::VectorXd left_out_error::operator()(const Eigen::VectorXd& etas) const {
   Eigen::VectorXd errors(etas.size());
@@ -28,6 +96,9 @@ GONIO_INLINE Eigen::VectorXd left_out_error::operator()(const Eigen::VectorXd& e
   return errors;
 }
 
+GONIO_INLINE left_out_error::sums::sums(Eigen::Index k)
+    : gram(Eigen::MatrixXd::Zero(k, k)), noise(Eigen::MatrixXd::Zero(k, k)), shift(Eigen::VectorXd::Zero(k)) {}
+
 GONIO_INLINE left_out_error::sums& left_out_error::sums::operator+=(const sums& other) {
   gram += other.gram;
   noise += other.noise;
@@ -35,55 +106,110 @@ GONIO_INLINE left_out_error::sums& left_out_error::sums::operator+=(const sums& 
   return *this;
 }
 
-GONIO_INLINE void left_out_error::decompose(const Eigen::ArrayXd& energies, const sums& all) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(all.gram);
-  if (eigen.info() != Eigen::Success) throw error("the eigenvalues of a least-squares problem do not converge");
-  const Eigen::VectorXd& values = eigen.eigenvalues();
-  const Eigen::Index rank = (values.array() > 1e-12 * values[values.size() - 1]).count();
-  if (rank == 0 || !(values[values.size() - 1] > 0.0))
-    throw error("eta cannot be chosen: the basis does not vary where was measured");
-  values_ = values.tail(rank);
-  vectors_ = eigen.eigenvectors().rightCols(rank);
-  norm_ = vectors_.transpose() * energies.matrix().asDiagonal() * vectors_;
-  noise_energy_ = norm_.cwiseProduct(vectors_.transpose() * all.noise * vectors_);
-  shift_ = vectors_.transpose() * all.shift;
+GONIO_INLINE void left_out_error::sums::add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights,
+                                            const Eigen::VectorXd& shifts, const Eigen::VectorXd& variances) {
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    shift += weights[i] * shifts[i] * columns.col(i);
+    columns.col(i) *= std::sqrt(weights[i]);
+  }
+  gram += product_with_transpose(columns);
+  // By rounding, a basis that explains everything leaves a variance below zero.
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    columns.col(i) *= std::sqrt(weights[i] * std::max(variances[i], 0.0));
+  noise += product_with_transpose(columns);
 }
 
-GONIO_INLINE void left_out_error::leave_out(const Eigen::ArrayXd& energies, const Eigen::MatrixXd& own,
-                                            double observations) {
+GONIO_INLINE void left_out_error::require_sensible(std::size_t places, const Eigen::VectorXd& weights,
+                                                   std::size_t materials) {
+  if (static_cast<std::size_t>(weights.size()) != places || places == 0)
+    throw error(std::to_string(places) + " places need as many weights, not " + std::to_string(weights.size()) +
+                ", and at least one");
+  if (materials < 2)
+    throw error("one material alone cannot be left out of what was learned from it: eta must be stated");
+}
+
+GONIO_INLINE void left_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
+                                             const Eigen::MatrixXf& coefficients) {
+  const Eigen::VectorXd energies = singular_values.cwiseProduct(singular_values);
+  decompose(energies, all);
+  for (Eigen::Index row = 0; row < coefficients.rows(); row += 3)
+    materials_.push_back(leave_out(energies, coefficients.middleRows(row, 3).transpose().cast<double>(),
+                                   static_cast<double>(coefficients.rows())));
+}
+
+GONIO_INLINE void left_out_error::decompose(const Eigen::VectorXd& energies, const sums& all) {
+  const symmetric_eigen eigen = decompose_symmetric(all.gram, "a least-squares problem");
+  const double largest = eigen.values[eigen.values.size() - 1];
+  const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
+                                          [&](double value) { return value > 1e-12 * largest; });
+  if (rank == 0 || !(largest > 0.0)) throw error("eta cannot be chosen: the basis does not vary where was measured");
+  values_ = eigen.values.tail(rank);
+  vectors_ = eigen.vectors.rightCols(rank);
+  const Eigen::MatrixXd transposed = vectors_.transpose();
+  norm_ = product(transposed, detail::scaled_rows(energies, vectors_));
+  noise_energy_ = norm_.cwiseProduct(product(transposed, product(all.noise, vectors_)));
+  shift_.resize(rank);
+  for (Eigen::Index j = 0; j < rank; ++j) shift_[j] = vectors_.col(j).dot(all.shift);
+}
+
+GONIO_INLINE left_out_error::left_out left_out_error::leave_out(const Eigen::VectorXd& energies,
+                                                                const Eigen::MatrixXd& own, double observations) const {
   const double others = observations - 3.0;
-  const Eigen::VectorXd mean = own.colwise().sum().transpose() / -others;
-  const Eigen::Matrix3d r = (Eigen::Matrix3d::Identity() + Eigen::Matrix3d::Constant(1.0 / others)).llt().matrixL();
-  const Eigen::MatrixXd t = own.transpose().colwise() - mean, n = own.transpose() * r;
-  const Eigen::MatrixXd mt = energies.matrix().asDiagonal() * t, mn = energies.matrix().asDiagonal() * n;
-  const auto seen = vectors_.transpose();
-  materials_.push_back({seen * t, seen * n, seen * mt, seen * mn, n.transpose() * mn, n.transpose() * mt,
-                        t.cwiseProduct(mt).colwise().sum().transpose()});
+  // R = I + b 1 1', the symmetric root of I + 1 1' / (m - 3).
+  const double b = (std::sqrt(1.0 + 3.0 / others) - 1.0) / 3.0;
+  const Eigen::VectorXd sum = own.col(0) + own.col(1) + own.col(2);
+  Eigen::MatrixXd t(own.rows(), 3), n(own.rows(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    t.col(c) = own.col(c) + sum / others;
+    n.col(c) = own.col(c) + b * sum;
+  }
+  const Eigen::MatrixXd mt = detail::scaled_rows(energies, t), mn = detail::scaled_rows(energies, n);
+  Eigen::MatrixXd all(own.rows(), 12);
+  all.leftCols(3) = t;
+  all.middleCols(3, 3) = n;
+  all.middleCols(6, 3) = mt;
+  all.rightCols(3) = mn;
+  const Eigen::MatrixXd seen = product(vectors_.transpose(), all);
+  return {seen.leftCols(3),    seen.middleCols(3, 3), seen.middleCols(6, 3),         seen.rightCols(3),
+          detail::dots(n, mn), detail::dots(n, mt),   detail::dots(t, mt).diagonal()};
 }
 
 GONIO_INLINE double left_out_error::error_at(double eta) const {
-  const Eigen::VectorXd d = (values_.array() + eta).inverse();
-  const double variance = d.dot(noise_energy_ * d);
+  Eigen::VectorXd d(values_.size());
+  for (Eigen::Index j = 0; j < d.size(); ++j) d[j] = 1.0 / (values_[j] + eta);
+  double variance = 0.0;
+  for (Eigen::Index j = 0; j < d.size(); ++j) variance += d[j] * noise_energy_.col(j).dot(d);
   double sum = 0.0;
-  for (const left_out& material : materials_)
-    sum += (squared_bias(material, d) + variance).array().max(0.0).sqrt().sum();
+  for (const left_out& material : materials_) {
+    const Eigen::Vector3d bias = squared_bias(material, d);
+    for (Eigen::Index c = 0; c < 3; ++c) sum += std::sqrt(std::max(bias[c] + variance, 0.0));
+  }
   return sum / static_cast<double>(3 * materials_.size());
 }
 
-GONIO_INLINE Eigen::Array3d left_out_error::squared_bias(const left_out& material, const Eigen::VectorXd& d) const {
-  const Eigen::VectorXd f = values_.cwiseProduct(d);
-  const Eigen::MatrixXd fn = f.asDiagonal() * material.n;
-  const Eigen::MatrixXd q = (values_.asDiagonal() * material.t).colwise() + shift_;
-  const Eigen::MatrixXd dq = d.asDiagonal() * q;
-  const Eigen::Matrix3d within = Eigen::Matrix3d::Identity() - material.n.transpose() * fn;
-  const Eigen::MatrixXd u = dq + fn * within.fullPivLu().solve(material.n.transpose() * dq);
+GONIO_INLINE Eigen::Vector3d left_out_error::squared_bias(const left_out& material, const Eigen::VectorXd& d) const {
+  const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);
+  const Eigen::MatrixXd fn = detail::scaled_rows(f, material.n);
+  Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q first
+  for (Eigen::Index c = 0; c < 3; ++c) u.col(c) += shift;
+  const Eigen::Matrix3d within = Eigen::Matrix3d::Identity() - detail::dots(material.n, fn);
+  const Eigen::Matrix3d known = detail::dots(material.n, u);
+  detail::add_combined(fn, detail::solve_3_by_3(within, known), u);
   // x - c = V u - N p, and its distance from t.
-  const Eigen::Matrix3d p = material.n.transpose() * u;
-  const auto dot = [](const auto& a, const auto& b) {
-    return Eigen::Array3d(a.cwiseProduct(b).colwise().sum().transpose());
-  };
-  return material.energy.array() - 2.0 * (dot(u, material.mt) - dot(p, material.nmt)) + dot(u, norm_ * u) -
-         2.0 * dot(u, material.mn * p) + dot(p, material.nmn * p);
+  const Eigen::Matrix3d p = detail::dots(material.n, u);
+  Eigen::MatrixXd gradient = product(norm_, u);
+  detail::add_combined(material.mn, -2.0 * p, gradient);
+  for (Eigen::Index c = 0; c < 3; ++c) gradient.col(c) -= 2.0 * material.mt.col(c);
+  Eigen::Vector3d found = material.energy;
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    found[c] += u.col(c).dot(gradient.col(c));
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      double along = 2.0 * material.nmt(i, c);
+      for (Eigen::Index j = 0; j < 3; ++j) along += material.nmn(i, j) * p(j, c);
+      found[c] += p(i, c) * along;
+    }
+  }
+  return found;
 }
 
 }  // namespace gonio

@@ -1,0 +1,51 @@
+#pragma once
+/// Bodies of estimate/correction_iteration.hpp.
+
+#include <gonio/basis/correction.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/estimate/correction_iteration.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gonio::detail {
+
+GONIO_INLINE correction_round describe_round(const channel_values& trust, const channel_values& weights,
+                                             const channel_values& wanted, const channel_values& found) {
+  const double total = weights.cast<double>().sum();
+  const double squares = (weights.cast<double>() * (wanted.cast<double>() - 1.0).square()).sum();
+  return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
+          (trust < 0.5f).cast<double>().mean()};
+}
+
+GONIO_INLINE brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
+                                         thread_count threads) {
+  brdf_table total(corrections.cells());
+  const auto functions = static_cast<Eigen::Index>(corrections.size());
+  for (std::size_t c = 0; c < 3; ++c) {
+    Eigen::MatrixXf betas(functions, std::ssize(weights));
+    for (std::size_t round = 0; round < weights.size(); ++round)
+      betas.col(static_cast<Eigen::Index>(round)) = weights[round].col(static_cast<Eigen::Index>(c)).cast<float>();
+    const auto channel = corrections.channel(c);
+    for_each_block(
+        corrections.cells().size(), 1024,
+        [&](block range) {
+          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const cell_matrix sigmas = channel.values().middleRows(begin, count) * betas;
+          for (Eigen::Index i = 0; i < count; ++i) {
+            float factor = 1.0f;
+            for (Eigen::Index round = 0; round < sigmas.cols(); ++round)
+              factor = std::min(factor * sigmas(i, round), correction_factor::largest_factor);
+            total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = factor;
+          }
+        },
+        threads);
+  }
+  return total;
+}
+
+}  // namespace gonio::detail

@@ -1,0 +1,197 @@
+#pragma once
+/// Bodies of estimate/pose_refinement.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/estimate/pose_refinement.hpp>
+#include <gonio/solve/dense.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+/// A direction after a turn: Rodrigues' formula.
+[[nodiscard]] GONIO_INLINE direction turned_by(const direction& w, const Eigen::Vector3d& turn) {
+  const double angle = turn.norm();
+  if (!(angle > 0.0)) return w;
+  const Eigen::Vector3d axis = turn / angle;
+  const double cosine = std::cos(angle), along = (1.0 - cosine) * axis.dot(w);
+  return cosine * w + along * axis + std::sin(angle) * cross_product(axis, w);
+}
+
+/// Where one sample of a picture is after the turns; where that would be below the horizon, where it was.
+[[nodiscard]] GONIO_INLINE half_difference turned_angles(const pair_sample& s, const picture_turns& turns) {
+  const direction wi = turned_by(s.directions.wi, turns.light), wo = turned_by(s.directions.wo, turns.camera);
+  const bool above = wi.z() > 0.0 && wo.z() > 0.0;
+  return above ? to_half_difference(wi, wo) : to_half_difference(s.directions.wi, s.directions.wo);
+}
+
+GONIO_INLINE pose_iteration::pose_iteration(std::vector<picture_samples> pictures,
+                                            const pose_refinement_options& options, Eigen::Index components,
+                                            Eigen::Index observations, const reader& read)
+    : pictures_(std::move(pictures)),
+      options_(options),
+      components_(components),
+      observations_(observations),
+      turns_(pictures_.size()),
+      state_{equations(0, 0), {}, {}, 0.0} {
+  require_sensible();
+  state_ = at(turns_, read);
+}
+
+GONIO_INLINE void pose_iteration::require_sensible() const {
+  if (!(options_.eta > 0.0 && std::isfinite(options_.eta)))
+    throw error("eta must be positive and finite, not " + std::to_string(options_.eta));
+  if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
+    throw error("light and camera may be off by 0 to 45 degrees, not by " +
+                std::to_string(degrees(options_.deviation)));
+  if (pictures_.empty()) throw error("there is no picture");
+  for (const picture_samples& picture : pictures_) require_usable(as_sample_set(picture));
+}
+
+GONIO_INLINE sample_set pose_iteration::samples() const {
+  sample_set all;
+  for (std::size_t p = 0; p < pictures_.size(); ++p)
+    for (const pair_sample& s : pictures_[p]) all.push_back({turned_angles(s, turns_[p]), s.value, s.weight});
+  return all;
+}
+
+GONIO_INLINE void pose_iteration::step(const reader& read) {
+  const Eigen::VectorXd whole = newton_step(read);
+  for (double length = 1.0; length > 0.01; length /= 2.0) {
+    const std::vector<picture_turns> tried = moved(length * whole);
+    state candidate = at(tried, read);
+    if (!(candidate.objective < state_.objective)) continue;
+    converged_ = state_.objective - candidate.objective < 1e-6 * state_.objective;
+    state_ = std::move(candidate);
+    turns_ = tried;
+    return;
+  }
+  converged_ = true;
+}
+
+GONIO_INLINE void pose_iteration::solve(const reader& read) {
+  for (int i = 0; i < options_.iterations && !converged_; ++i) step(read);
+}
+
+GONIO_INLINE void pose_iteration::add_picture(const picture_samples& picture, const picture_turns& turns,
+                                              const reader& read, Eigen::Index begin, equations& out) const {
+  for_each_block(
+      picture.size(), 64,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const Eigen::Index sample = begin + static_cast<Eigen::Index>(i);
+          const double root = std::sqrt(picture[i].weight);
+          rgb right;
+          auto column = out.columns.col(sample);
+          read(turned_angles(picture[i], turns), picture[i].value, column.transpose(), right);
+          column *= root;
+          for (Eigen::Index c = 0; c < 3; ++c) out.right(sample, c) = root * right[c];
+        }
+      },
+      options_.threads);
+}
+
+GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<picture_turns>& turns,
+                                                      const reader& read) const {
+  Eigen::Index n = 0;
+  for (const picture_samples& picture : pictures_) n += std::ssize(picture);
+  state found{equations(components_, n), {}, {}, 0.0};
+  Eigen::Index begin = 0;
+  for (std::size_t p = 0; p < pictures_.size(); ++p) {
+    add_picture(pictures_[p], turns[p], read, begin, found.system);
+    begin += std::ssize(pictures_[p]);
+  }
+  const equations& system = found.system;
+  found.normal = product_with_transpose(system.columns);
+  for (Eigen::Index k = 0; k < components_; ++k) found.normal(k, k) += options_.eta;
+  found.weights = cholesky(found.normal).solve(product(system.columns, system.right));
+  const Eigen::MatrixXd explained = product(system.columns.transpose(), found.weights);
+  for (Eigen::Index c = 0; c < 3; ++c)
+    found.objective += (system.right.col(c) - explained.col(c)).dot(system.right.col(c)) / options_.eta;
+  for (const picture_turns& t : turns)
+    found.objective += turn_penalty() * (t.light.squaredNorm() + t.camera.squaredNorm());
+  return found;
+}
+
+GONIO_INLINE double pose_iteration::turn_penalty() const {
+  return 3.0 / (static_cast<double>(observations_) * options_.deviation * options_.deviation);
+}
+
+GONIO_INLINE std::vector<picture_turns> pose_iteration::moved(const Eigen::VectorXd& by) const {
+  std::vector<picture_turns> turns = turns_;
+  for (std::size_t p = 0; p < turns.size(); ++p) {
+    const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+    turns[p].light += by.segment<3>(first);
+    turns[p].camera += by.segment<3>(first + 3);
+  }
+  return turns;
+}
+
+/// How the misfit y - Q c of a picture changes with one of its unknowns, by central differences. They span what is
+/// expected of the turns: on the grid of the prior, smaller ones would see single cells.
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t picture, Eigen::Index unknown,
+                                                        const reader& read) const {
+  const double width = options_.deviation / 2.0;
+  const auto misfit_at = [&](double offset) {
+    picture_turns turns = turns_[picture];
+    (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
+    equations there(components_, std::ssize(pictures_[picture]));
+    add_picture(pictures_[picture], turns, read, 0, there);
+    there.right -= product(there.columns.transpose(), state_.weights);
+    return there.right;
+  };
+  Eigen::MatrixXd change = misfit_at(width);
+  change -= misfit_at(-width);
+  return change /= 2.0 * width;
+}
+
+/// The derivatives of all misfits by all unknowns, those of red, green and blue one above the other: 3 n x unknowns.
+GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(const reader& read) const {
+  const Eigen::Index n = state_.system.right.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures_));
+  Eigen::Index begin = 0;
+  for (std::size_t p = 0; p < pictures_.size(); ++p) {
+    const auto count = std::ssize(pictures_[p]);
+    for (Eigen::Index u = 0; u < unknowns; ++u) {
+      const Eigen::MatrixXd change = derivative(p, u, read);
+      auto column = all.col(unknowns * static_cast<Eigen::Index>(p) + u);
+      for (Eigen::Index c = 0; c < 3; ++c) column.segment(c * n + begin, count) = change.col(c);
+    }
+    begin += count;
+  }
+  return all;
+}
+
+GONIO_INLINE Eigen::VectorXd pose_iteration::newton_step(const reader& read) const {
+  const Eigen::MatrixXd changes = jacobian(read);
+  const Eigen::Index n = state_.system.right.rows(), all = changes.cols();
+  const Eigen::MatrixXd rows = state_.system.columns.transpose();
+  const cholesky normal(state_.normal);
+  Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(all, all), gradient(all, 1);
+  for (Eigen::Index i = 0; i < all; ++i) hessian(i, i) = turn_penalty();
+  for (std::size_t p = 0; p < turns_.size(); ++p)
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+      gradient(first + i, 0) = turn_penalty() * turns_[p].light[i];
+      gradient(first + 3 + i, 0) = turn_penalty() * turns_[p].camera[i];
+    }
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // (Q Q' + eta I)^-1 J, through the k x k normal equations (Woodbury).
+    const Eigen::MatrixXd own = changes.middleRows(c * n, n);
+    Eigen::MatrixXd left = own - product(rows, normal.solve(product(state_.system.columns, own)));
+    left /= options_.eta;
+    hessian += product(own.transpose(), left);
+    gradient += product(left.transpose(), state_.system.right.col(c));
+  }
+  return -cholesky(hessian).solve(gradient);
+}
+
+}  // namespace gonio::detail
