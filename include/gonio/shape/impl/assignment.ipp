@@ -17,7 +17,9 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
+/// 2^40 steps between the least and the largest cost, of opposite sign as dlib maximises, with rows or columns of zeros
+/// to make a square: whoever is assigned there is left over, and all pay the same for it.
+[[nodiscard]] GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
   constexpr double steps = 0x1p40;
   const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));
   dlib::matrix<std::int64_t> gains(size, size);

@@ -1,14 +1,16 @@
 #pragma once
 /// Bodies of shape/shape_model.hpp.
 
+#include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/metric/lin.hpp>
 #include <gonio/shape/alignment.hpp>
-#include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/shape_basis.hpp>
 #include <gonio/shape/shape_model.hpp>
 
 #include <algorithm>
-#include <memory>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
