@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -67,13 +66,11 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
 /// The shares of all weights: 1/n each if there are none.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
   Eigen::VectorXd shares = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
-  if (shares.size() != points)
-    throw error("an alignment of " + std::to_string(points) + " points is given " + std::to_string(shares.size()) +
-                " weights");
+  if (shares.size() != points) throw error{"an alignment of ", points, " points is given ", shares.size(), " weights"};
   if (std::ranges::any_of(shares, [](double weight) { return !(weight >= 0.0 && std::isfinite(weight)); }))
     throw error("the weights of an alignment must be finite and not negative");
   const auto positive = std::ranges::count_if(shares, [](double weight) { return weight > 0.0; });
-  if (positive < 3) throw error("an alignment needs three points of positive weight, not " + std::to_string(positive));
+  if (positive < 3) throw error{"an alignment needs three points of positive weight, not ", positive};
   shares /= shares.maxCoeff();  // whose sum does not overflow
   shares /= shares.sum();
   return shares;
@@ -101,8 +98,7 @@ namespace gonio {
 GONIO_INLINE similarity_transform align(const point_columns& from, const point_columns& onto, alignment_kind kind,
                                         const Eigen::VectorXd& weights) {
   if (from.cols() != onto.cols())
-    throw error("an alignment needs corresponded points, not " + std::to_string(from.cols()) + " and " +
-                std::to_string(onto.cols()));
+    throw error{"an alignment needs corresponded points, not ", from.cols(), " and ", onto.cols()};
   if (!from.allFinite() || !onto.allFinite()) throw error("the points of an alignment must be finite");
   const Eigen::VectorXd shares = detail::weight_shares(weights, from.cols());
   const detail::centred_points source(from, shares), target(onto, shares);
@@ -138,8 +134,7 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
     throw error("a Procrustes mean needs a positive tolerance and at least one iteration");
   for (std::size_t i = 1; i < shapes.size(); ++i)
     if (shapes[i].cols() != shapes[0].cols())
-      throw error("shape " + std::to_string(i) + " has " + std::to_string(shapes[i].cols()) +
-                  " points where the first has " + std::to_string(shapes[0].cols()));
+      throw error{"shape ", i, " has ", shapes[i].cols(), " points where the first has ", shapes[0].cols()};
 }
 
 [[nodiscard]] GONIO_INLINE point_columns mean_of_shapes(const std::vector<point_columns>& shapes) {
@@ -179,8 +174,8 @@ GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& sh
     result.mean = std::move(mean);
     if (change <= options.tolerance * size) return result;
   }
-  throw error("a Procrustes mean of " + std::to_string(shapes.size()) + " shapes still changes after " +
-              std::to_string(options.most_iterations) + " iterations");
+  throw error{"a Procrustes mean of ", shapes.size(), " shapes still changes after ", options.most_iterations,
+              " iterations"};
 }
 
 }  // namespace gonio

@@ -19,7 +19,6 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -45,9 +44,9 @@ GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return 
 GONIO_INLINE void require_shown(const known_vertices& places, const shape_model& model) {
   constexpr std::size_t least = 10;
   if (places.vertices.size() < least)
-    throw error("the scan shows " + std::to_string(places.vertices.size()) + " of the model's " +
-                std::to_string(model.vertices()) + " vertices, expected at least " + std::to_string(least) +
-                ": is its pose right?");
+    throw error{"the scan shows ",     places.vertices.size(),          " of the model's ",
+                model.vertices(),      " vertices, expected at least ", least,
+                ": is its pose right?"};
 }
 
 }  // namespace gonio

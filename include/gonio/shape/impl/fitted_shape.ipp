@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -64,18 +63,21 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const kno
   if (count == 0) throw error("no vertex is known: there is nothing to predict a shape from");
   const auto none_or_all = [&](Eigen::Index size) { return size == 0 || size == count; };
   if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.trust.size()))
-    throw error(std::to_string(count) + " known vertices have " + std::to_string(known.positions.cols()) +
-                " positions, " + std::to_string(known.normals.cols()) + " normals and " +
-                std::to_string(known.trust.size()) + " weights");
+    throw error{count,
+                " known vertices have ",
+                known.positions.cols(),
+                " positions, ",
+                known.normals.cols(),
+                " normals and ",
+                known.trust.size(),
+                " weights"};
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index vertex = known.vertices[static_cast<std::size_t>(i)];
     if (vertex < 0 || vertex >= static_cast<Eigen::Index>(coordinates.vertices))
-      throw error("vertex " + std::to_string(vertex) + " is known of shapes of " +
-                  std::to_string(coordinates.vertices) + " vertices");
-    if (!known.positions.col(i).allFinite())
-      throw error("the position of known vertex " + std::to_string(vertex) + " is not finite");
+      throw error{"vertex ", vertex, " is known of shapes of ", coordinates.vertices, " vertices"};
+    if (!known.positions.col(i).allFinite()) throw error{"the position of known vertex ", vertex, " is not finite"};
     if (known.normals.cols() != 0 && !(std::abs(known.normals.col(i).norm() - 1.0) < 1e-6))
-      throw error("the normal at known vertex " + std::to_string(vertex) + " does not have length 1");
+      throw error{"the normal at known vertex ", vertex, " does not have length 1"};
   }
 }
 
@@ -109,7 +111,7 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
 GONIO_INLINE fitted_shape::fitted_shape(shape_basis basis, solution found)
     : basis_(std::move(basis)), found_(std::move(found)) {
   if (found_.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found_.weights.cols() != 1)
-    throw error("a shape of " + std::to_string(basis_.size()) + " functions needs as many weights");
+    throw error{"a shape of ", basis_.size(), " functions needs as many weights"};
 }
 
 GONIO_INLINE Eigen::Vector3d fitted_shape::vertex(Eigen::Index number) const {

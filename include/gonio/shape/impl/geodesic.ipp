@@ -11,7 +11,6 @@
 #include <functional>
 #include <limits>
 #include <queue>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -22,11 +21,9 @@ namespace gonio::detail {
 GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen::Index source,
                              const std::function<bool(Eigen::Index vertex, double distance)>& arrive) {
   if (mesh.vertices.cols() != topology.vertices())
-    throw error("a mesh of " + std::to_string(mesh.vertices.cols()) + " vertices has a topology of " +
-                std::to_string(topology.vertices()));
+    throw error{"a mesh of ", mesh.vertices.cols(), " vertices has a topology of ", topology.vertices()};
   if (source < 0 || source >= topology.vertices())
-    throw error("vertex " + std::to_string(source) + " to walk from is none of a mesh of " +
-                std::to_string(topology.vertices()));
+    throw error{"vertex ", source, " to walk from is none of a mesh of ", topology.vertices()};
   if (!mesh.vertices.allFinite()) throw error("a mesh to walk on has a vertex that is not finite");
   using step = std::pair<double, Eigen::Index>;
   std::priority_queue<step, std::vector<step>, std::greater<>> pending;

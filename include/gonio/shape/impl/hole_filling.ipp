@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -85,8 +84,7 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
   }
   const auto lost = std::ranges::find(reached, false);
   if (lost != reached.end())
-    throw error("vertex " + std::to_string(lost - reached.begin()) +
-                " cannot be filled in: no known vertex is in its part of the mesh");
+    throw error{"vertex ", lost - reached.begin(), " cannot be filled in: no known vertex is in its part of the mesh"};
 }
 
 /// The linear system of the missing vertices, numbered in their order: the lower triangle of a symmetric matrix, and
@@ -128,14 +126,13 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
                                          const std::vector<bool>& known, smoothness kind) {
   const Eigen::Index vertices = topology.vertices();
   if (points.cols() != vertices || static_cast<Eigen::Index>(known.size()) != vertices)
-    throw error("a mesh of " + std::to_string(vertices) + " vertices has " + std::to_string(points.cols()) +
-                " points and " + std::to_string(known.size()) + " marks of known ones");
+    throw error{"a mesh of ",   vertices,     " vertices has ",      points.cols(),
+                " points and ", known.size(), " marks of known ones"};
   detail::require_reached(topology, known);
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < vertices; ++v) {
     const bool is_known = known[static_cast<std::size_t>(v)];
-    if (is_known && !points.col(v).allFinite())
-      throw error("the position of known vertex " + std::to_string(v) + " is not finite");
+    if (is_known && !points.col(v).allFinite()) throw error{"the position of known vertex ", v, " is not finite"};
     if (!is_known) missing.push_back(v);
   }
   if (missing.empty()) return points;

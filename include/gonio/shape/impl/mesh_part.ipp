@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -56,8 +55,7 @@ namespace gonio {
 
 GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked) {
   if (marked.size() != static_cast<std::size_t>(mesh.vertices.cols()))
-    throw error(std::to_string(marked.size()) + " marks for the " + std::to_string(mesh.vertices.cols()) +
-                " vertices of a mesh");
+    throw error{marked.size(), " marks for the ", mesh.vertices.cols(), " vertices of a mesh"};
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[static_cast<std::size_t>(v)]}; }))

@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -82,8 +81,7 @@ namespace gonio {
 
 GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
   if (static_cast<Eigen::Index>(colours.size()) != mesh.vertices.cols())
-    throw error("a picture of " + std::to_string(mesh.vertices.cols()) + " vertices is given " +
-                std::to_string(colours.size()) + " colours");
+    throw error{"a picture of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"};
   const Eigen::Vector3d right = view.towards.cross(view.up);
   if (!(view.radius > 0.0 && view.pixels > 0 && right.norm() > 0.0))
     throw error("a picture of a mesh needs pixels, a radius and a direction that is not that of up");

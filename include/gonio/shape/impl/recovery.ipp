@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,10 +28,15 @@ GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_m
   const Eigen::Index weights = fit.weights().size();
   const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
   if (fit.squared_distance() <= limit) return;
-  throw error("the scan is not of the model's family: its Mahalanobis distance from the mean shape is " +
-              std::to_string(std::sqrt(fit.squared_distance())) + ", expected at most " +
-              std::to_string(std::sqrt(limit)) + " with " + std::to_string(weights) + " components of " +
-              std::to_string(model.shapes()) + " shapes");
+  throw error{"the scan is not of the model's family: its Mahalanobis distance from the mean shape is ",
+              std::sqrt(fit.squared_distance()),
+              ", expected at most ",
+              std::sqrt(limit),
+              " with ",
+              weights,
+              " components of ",
+              model.shapes(),
+              " shapes"};
 }
 
 }  // namespace gonio::detail

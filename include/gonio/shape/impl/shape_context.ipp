@@ -21,7 +21,6 @@
 #include <memory>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -32,12 +31,12 @@ GONIO_INLINE void require_context(const shape_context_options& options) {
   if (options.radial_bins < 1 || options.polar_bins < 1 || options.azimuthal_bins < 1)
     throw error("a shape context needs at least one bin for each of its three coordinates");
   if (!(options.radius > 0.0 && std::isfinite(options.radius)))
-    throw error("the radius of a shape context must be positive and finite, not " + std::to_string(options.radius));
+    throw error{"the radius of a shape context must be positive and finite, not ", options.radius};
   if (!options.vertical.allFinite() || !(options.vertical.cwiseAbs().maxCoeff() > 0.0))
     throw error("the vertical axis of a shape context must be finite and not zero");
   if (!(options.least_inclination > 0.0 && options.least_inclination < std::numbers::pi / 2.0))
-    throw error("the least inclination of a shape context's normals must be between 0 and pi/2, not " +
-                std::to_string(options.least_inclination));
+    throw error{"the least inclination of a shape context's normals must be between 0 and pi/2, not ",
+                options.least_inclination};
 }
 
 /// What sampling and describing need of a mesh, which may be less than a surface.
@@ -45,8 +44,7 @@ GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   if (!mesh.vertices.allFinite()) throw error("the vertices of a mesh to describe must be finite");
   if (mesh.triangles.cols() == 0) throw error("a mesh to describe has no triangles");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
-    throw error("a triangle of a mesh to describe names a vertex that is not among its " +
-                std::to_string(mesh.vertices.cols()));
+    throw error{"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()};
 }
 
 /// A third of the area of the triangles around each vertex.
@@ -165,8 +163,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
     if (vertex < 0 || vertex >= mesh.vertices.cols())
-      throw error("vertex " + std::to_string(vertex) + " of a mesh of " + std::to_string(mesh.vertices.cols()) +
-                  " cannot be described");
+      throw error{"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"};
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
@@ -207,8 +204,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
 GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, const shape_descriptors& onto,
                                               thread_count threads) {
   if (from.histograms.rows() != onto.histograms.rows())
-    throw error("descriptors of " + std::to_string(from.histograms.rows()) + " and " +
-                std::to_string(onto.histograms.rows()) + " bins cannot be compared");
+    throw error{"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"};
   Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
   // Empty in both: 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -93,9 +92,8 @@ struct described_points {
 
 GONIO_INLINE void require_points(const shape_descriptors& descriptors, const char* what) {
   if (descriptors.vertex.size() < 3)
-    throw error("a " + std::string(what) + " to be aligned by shape contexts has " +
-                std::to_string(descriptors.vertex.size()) +
-                " points that can be described, not three: are all normals along the vertical axis?");
+    throw error{"a ", what, " to be aligned by shape contexts has ", descriptors.vertex.size(),
+                " points that can be described, not three: are all normals along the vertical axis?"};
 }
 
 }  // namespace gonio::detail
@@ -116,12 +114,10 @@ GONIO_INLINE shape_context_matcher::shape_context_matcher(const triangle_mesh& m
                                                           thread_count threads)
     : options_(options) {
   if (options.points < 3)
-    throw error("an alignment by shape contexts needs at least three points, not " + std::to_string(options.points));
+    throw error{"an alignment by shape contexts needs at least three points, not ", options.points};
   if (!(options.significant > 0.0 && options.significant <= 1.0))
-    throw error("the share of significant matches must be above 0 and at most 1, not " +
-                std::to_string(options.significant));
-  if (!(options.tolerance > 0.0))
-    throw error("the tolerance of matches must be positive, not " + std::to_string(options.tolerance));
+    throw error{"the share of significant matches must be above 0 and at most 1, not ", options.significant};
+  if (!(options.tolerance > 0.0)) throw error{"the tolerance of matches must be positive, not ", options.tolerance};
   model_ = std::make_shared<const described_model>(model, detail::described(model, options_, threads));
   detail::require_points(model_->points.descriptors, "model");
 }

@@ -18,7 +18,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -256,7 +255,7 @@ struct triangle_feature {
 }
 
 GONIO_INLINE void require_finite_vector(const Eigen::Vector3d& vector, const char* what) {
-  if (!vector.allFinite()) throw error(std::string(what) + " is not finite");
+  if (!vector.allFinite()) throw error{what, " is not finite"};
 }
 
 }  // namespace gonio::detail
@@ -322,7 +321,7 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
   detail::require_finite_vector(line, "the direction of a line");
   if (!(line.cwiseAbs().maxCoeff() > 0.0)) throw error("the direction of a line that is to meet a surface is zero");
   if (!(reach >= 0.0))
-    throw error("the reach of a line that is to meet a surface must not be negative, and is " + std::to_string(reach));
+    throw error{"the reach of a line that is to meet a surface must not be negative, and is ", reach};
   const Eigen::Vector3d unit = unit_vector(line);
   std::optional<surface_point> best;
   // Boxes that the line misses are infinitely far, so the limit is finite.
