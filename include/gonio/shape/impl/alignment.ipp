@@ -56,10 +56,11 @@ struct centred_points {
 
 GONIO_INLINE centred_points::centred_points(const point_columns& points, const Eigen::VectorXd& shares)
     : centroid(Eigen::Vector3d::Zero()), scaled(points) {
-  for (Eigen::Index v = 0; v < points.cols(); ++v) centroid += shares[v] * points.col(v);
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) centroid[i] += shares[v] * points(i, v);
   for (Eigen::Index v = 0; v < points.cols(); ++v) {
-    scaled.col(v) -= centroid;
-    scaled.col(v) *= std::sqrt(shares[v]);
+    const double root = std::sqrt(shares[v]);
+    for (Eigen::Index i = 0; i < 3; ++i) scaled(i, v) = root * (points(i, v) - centroid[i]);
   }
 }
 
@@ -80,14 +81,16 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
 [[nodiscard]] GONIO_INLINE Eigen::Matrix3d sum_of_outer_products(const point_columns& a, const point_columns& b) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (Eigen::Index v = 0; v < a.cols(); ++v)
-    for (Eigen::Index j = 0; j < 3; ++j) sum.col(j) += b(j, v) * a.col(v);
+    for (Eigen::Index j = 0; j < 3; ++j)
+      for (Eigen::Index i = 0; i < 3; ++i) sum(i, j) += a(i, v) * b(j, v);
   return sum;
 }
 
 GONIO_INLINE double centroid_size(const point_columns& points) {
   const Eigen::Vector3d centroid = centroid_of(points);
   double sum = 0.0;
-  for (Eigen::Index v = 0; v < points.cols(); ++v) sum += (points.col(v) - centroid).squaredNorm();
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) sum += (points(i, v) - centroid[i]) * (points(i, v) - centroid[i]);
   return std::sqrt(sum);
 }
 
@@ -147,7 +150,8 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
 GONIO_INLINE void rescale(point_columns& shape, double size) {
   const Eigen::Vector3d centroid = centroid_of(shape);
   const double factor = size / centroid_size(shape);
-  for (auto point : shape.colwise()) point = centroid + factor * (point - centroid);
+  for (Eigen::Index v = 0; v < shape.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) shape(i, v) = centroid[i] + factor * (shape(i, v) - centroid[i]);
 }
 
 }  // namespace gonio::detail

@@ -8,7 +8,6 @@
 #include <Eigen/Core>
 #include <unsupported/Eigen/SpecialFunctions>
 
-
 namespace gonio::detail {
 
 /// Where an increasing function of a positive number reaches a share, to 1e-12 of that number.

@@ -56,8 +56,10 @@ namespace gonio::detail {
 GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement) {
   std::vector<double> distances;
   distances.reserve(places.vertices.size());
-  for (const Eigen::Index vertex : places.vertices)
-    distances.push_back((places.positions.col(std::ssize(distances)) - shape.col(vertex)).norm());
+  for (const Eigen::Index vertex : places.vertices) {
+    const Eigen::Vector3d off = places.positions.col(std::ssize(distances)) - shape.col(vertex);
+    distances.push_back(off.norm());
+  }
   std::vector<double> sorted = distances;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);

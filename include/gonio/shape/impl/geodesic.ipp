@@ -36,7 +36,8 @@ GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& top
     if (distance > distances[vertex]) continue;  // was reached by a shorter path
     if (!arrive(vertex, distance)) return;
     for (const int neighbour : topology.neighbours(vertex)) {
-      const double further = distance + (mesh.vertices.col(neighbour) - mesh.vertices.col(vertex)).norm();
+      const Eigen::Vector3d edge = mesh.vertices.col(neighbour) - mesh.vertices.col(vertex);
+      const double further = distance + edge.norm();
       if (!(further < distances[neighbour])) continue;
       distances[neighbour] = further;
       pending.emplace(further, neighbour);

@@ -24,15 +24,19 @@ namespace gonio {
 GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vector3d& towards,
                                      const Eigen::Vector3d& up) {
   mesh_view view{towards, up};
-  Eigen::Vector3d low = mesh.vertices.col(0), high = low;
-  for (Eigen::Index v = 1; v < mesh.vertices.cols(); ++v) {
-    low = low.cwiseMin(mesh.vertices.col(v));
-    high = high.cwiseMax(mesh.vertices.col(v));
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double low = mesh.vertices(axis, 0), high = low;
+    for (Eigen::Index v = 1; v < mesh.vertices.cols(); ++v) {
+      low = std::min(low, mesh.vertices(axis, v));
+      high = std::max(high, mesh.vertices(axis, v));
+    }
+    view.centre[axis] = 0.5 * (low + high);
   }
-  view.centre = 0.5 * (low + high);
   double farthest = 0.0;
-  for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v)
-    farthest = std::max(farthest, (mesh.vertices.col(v) - view.centre).norm());
+  for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
+    const Eigen::Vector3d away = mesh.vertices.col(v) - view.centre;
+    farthest = std::max(farthest, away.norm());
+  }
   view.radius = 1.02 * farthest;
   return view;
 }
@@ -51,18 +55,17 @@ struct depth_picture {
 GONIO_INLINE void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
   const std::size_t pixels = onto.picture.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;
-  const Eigen::Vector3d low = corners.col(0).cwiseMin(corners.col(1)).cwiseMin(corners.col(2)),
-                        high = corners.col(0).cwiseMax(corners.col(1)).cwiseMax(corners.col(2));
-  if (!(high.x() >= 0.0 && high.y() >= 0.0 && low.x() <= last + 1.0 && low.y() <= last + 1.0)) return;
+  const auto [left, right] = std::minmax({corners(0, 0), corners(0, 1), corners(0, 2)});
+  const auto [top, bottom] = std::minmax({corners(1, 0), corners(1, 1), corners(1, 2)});
+  if (!(right >= 0.0 && bottom >= 0.0 && left <= last + 1.0 && top <= last + 1.0)) return;
   Eigen::Matrix3d edges = corners;
   for (Eigen::Index corner = 0; corner < 3; ++corner) edges(2, corner) = 1.0;
   if (!(std::abs(edges.determinant()) > 1e-12)) return;  // seen edge-on
   const Eigen::Matrix3d shares_of = edges.inverse();
-  const auto first_row = static_cast<std::size_t>(std::max(0.0, std::ceil(low.y() - 0.5)));
-  const auto first_column = static_cast<std::size_t>(std::max(0.0, std::ceil(low.x() - 0.5)));
-  for (std::size_t row = first_row; row < pixels && static_cast<double>(row) + 0.5 <= high.y(); ++row)
-    for (std::size_t column = first_column; column < pixels && static_cast<double>(column) + 0.5 <= high.x();
-         ++column) {
+  const auto first_row = static_cast<std::size_t>(std::max(0.0, std::ceil(top - 0.5)));
+  const auto first_column = static_cast<std::size_t>(std::max(0.0, std::ceil(left - 0.5)));
+  for (std::size_t row = first_row; row < pixels && static_cast<double>(row) + 0.5 <= bottom; ++row)
+    for (std::size_t column = first_column; column < pixels && static_cast<double>(column) + 0.5 <= right; ++column) {
       const Eigen::Vector3d middle(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, 1.0),
           shares = shares_of * middle;
       if (shares.minCoeff() < -1e-9) continue;

@@ -141,7 +141,8 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
     std::vector<double> nearer = nearest;
     for (Eigen::Index v = 0; v < vertices; ++v) {
       double& square = nearer[static_cast<std::size_t>(v)];
-      square = std::min(square, (mesh.vertices.col(v) - place).squaredNorm());
+      const Eigen::Vector3d away = mesh.vertices.col(v) - place;
+      square = std::min(square, away.squaredNorm());
     }
     return nearer;
   };

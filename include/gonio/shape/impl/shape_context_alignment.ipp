@@ -21,7 +21,10 @@ namespace gonio::detail {
 
 GONIO_INLINE Eigen::VectorXd matched_points::squared_distances(const similarity_transform& pose) const {
   Eigen::VectorXd squares(from.cols());
-  for (Eigen::Index i = 0; i < from.cols(); ++i) squares[i] = (pose(from.col(i)) - onto.col(i)).squaredNorm();
+  for (Eigen::Index i = 0; i < from.cols(); ++i) {
+    const Eigen::Vector3d off = onto.col(i) - pose(from.col(i));
+    squares[i] = off.squaredNorm();
+  }
   return squares;
 }
 
@@ -46,7 +49,10 @@ GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matc
     used = static_cast<std::size_t>(left);
     const similarity_transform next = align(points.from, points.onto, alignment_kind::rigid, weights);
     double moved = 0.0;
-    for (const auto& point : points.from.colwise()) moved = std::max(moved, (next(point) - pose(point)).norm());
+    for (Eigen::Index i = 0; i < points.from.cols(); ++i) {
+      const Eigen::Vector3d step_of_point = next(points.from.col(i)) - pose(points.from.col(i));
+      moved = std::max(moved, step_of_point.norm());
+    }
     pose = next;
     if (limit == tolerance && moved <= 1e-6 * tolerance) break;
   }

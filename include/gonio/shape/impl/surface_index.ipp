@@ -48,7 +48,8 @@ inline constexpr double on_side = 1e-9;
     const Eigen::Vector3d side = corner[to] - corner[from], away = point - corner[from];
     const double square = side.squaredNorm(),
                  along = square > 0.0 ? std::clamp(away.dot(side) / square, 0.0, 1.0) : 0.0;
-    const double distance = (away - along * side).squaredNorm();
+    const Eigen::Vector3d apart = away - along * side;
+    const double distance = apart.squaredNorm();
     if (!(distance < least)) continue;
     least = distance;
     best.setZero();
@@ -87,8 +88,10 @@ struct extent {
   Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
 
   void include(const Eigen::Vector3d& point) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
   }
   [[nodiscard]] Eigen::Vector3d centre() const { return 0.5 * (low + high); }
 };
@@ -299,7 +302,8 @@ GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) 
   surface_->tree.search(least, bound, [&](Eigen::Index t) {
     const Eigen::Matrix3d corners = mesh().corners(t);
     const Eigen::Vector3d barycentric = detail::closest_barycentric(corners, point), position = corners * barycentric;
-    const double distance = (position - point).squaredNorm();
+    const Eigen::Vector3d apart = position - point;
+    const double distance = apart.squaredNorm();
     if (std::tie(distance, t) < std::tie(least, best.triangle)) {
       least = distance;
       best.position = position;
@@ -354,7 +358,8 @@ GONIO_INLINE Eigen::Vector3d surface_index::pseudonormal(const surface_point& pl
 
 GONIO_INLINE double surface_index::signed_distance(const Eigen::Vector3d& point) const {
   const surface_point place = closest(point);
-  return (point - place.position).dot(pseudonormal(place)) < 0.0 ? -place.distance : place.distance;
+  const Eigen::Vector3d apart = point - place.position;
+  return apart.dot(pseudonormal(place)) < 0.0 ? -place.distance : place.distance;
 }
 
 GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,

@@ -21,16 +21,18 @@ GONIO_INLINE Eigen::Matrix3d triangle_mesh::corners(Eigen::Index triangle) const
 }
 
 GONIO_INLINE double triangle_mesh::angle(Eigen::Index triangle, Eigen::Index corner) const {
-  const auto place = [&](Eigen::Index of) { return vertices.col(triangles(of % 3, triangle)); };
-  const Eigen::Vector3d next = place(corner + 1) - place(corner), last = place(corner + 2) - place(corner);
+  const auto place = [&](Eigen::Index of) -> Eigen::Vector3d { return vertices.col(triangles(of % 3, triangle)); };
+  const Eigen::Vector3d here = place(corner), next = place(corner + 1) - here, last = place(corner + 2) - here;
   return std::atan2(next.cross(last).norm(), next.dot(last));
 }
 
 GONIO_INLINE point_columns area_normals(const triangle_mesh& mesh) {
   point_columns normals(3, mesh.triangles.cols());
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
-    const auto corner = [&](Eigen::Index number) { return mesh.vertices.col(mesh.triangles(number, t)); };
-    const Eigen::Vector3d first = corner(1) - corner(0), second = corner(2) - corner(0);
+    const auto corner = [&](Eigen::Index number) -> Eigen::Vector3d {
+      return mesh.vertices.col(mesh.triangles(number, t));
+    };
+    const Eigen::Vector3d origin = corner(0), first = corner(1) - origin, second = corner(2) - origin;
     normals.col(t) = first.cross(second);
   }
   return normals;
