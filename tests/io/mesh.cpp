@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 
 using gonio::triangle_mesh;

@@ -1,5 +1,6 @@
 #include "made_up_shapes.hpp"
 #include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/alignment.hpp>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,7 @@
 #include <rapidcheck.h>
 
 #include <cstdint>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <random>
 

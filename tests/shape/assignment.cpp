@@ -1,9 +1,11 @@
+#include <gonio/core/error.hpp>
 #include <gonio/shape/assignment.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <numeric>
 #include <random>

@@ -1,3 +1,4 @@
+#include <gonio/core/error.hpp>
 #include <gonio/shape/confidence.hpp>
 
 #include <doctest/doctest.h>

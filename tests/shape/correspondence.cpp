@@ -1,6 +1,7 @@
 #include "made_up_surfaces.hpp"
 #include <gonio/shape/correspondence.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 TEST_CASE("a shape finds itself on its own scan, wherever that lies") {

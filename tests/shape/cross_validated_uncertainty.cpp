@@ -1,4 +1,5 @@
 #include "small_ears.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 
 #include <doctest/doctest.h>

@@ -1,7 +1,10 @@
 #include "small_ears.hpp"
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "made_up_shapes.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -8,6 +9,7 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 
 namespace {

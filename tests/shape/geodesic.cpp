@@ -1,4 +1,5 @@
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/geodesic.hpp>
 
 #include <doctest/doctest.h>
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <numbers>
 #include <utility>

@@ -1,12 +1,15 @@
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/hole_filling.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Small sets of corresponded points for tests: a few random directions of change and a little of everything.
 
+#include <gonio/basis/learn_pca.hpp>
 #include <gonio/shape/shape_basis.hpp>
 
 #include <cstdint>

@@ -1,9 +1,12 @@
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
+
+#include <iostream>  // rapidcheck.h does not include what it uses
 
 TEST_CASE("a part has the marked triangles, each vertex once") {
   const gonio::triangle_mesh mesh = flat_grid(3, 4);

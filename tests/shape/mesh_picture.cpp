@@ -1,3 +1,4 @@
+#include <gonio/core/error.hpp>
 #include <gonio/shape/mesh_picture.hpp>
 
 #include <doctest/doctest.h>

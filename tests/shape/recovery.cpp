@@ -1,4 +1,5 @@
 #include "small_ears.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>

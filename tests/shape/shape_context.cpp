@@ -1,11 +1,15 @@
 #include "made_up_canals.hpp"
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/shape_context.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
 #include <functional>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <set>
 

@@ -1,6 +1,9 @@
 #include "made_up_canals.hpp"
+#include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 #include <algorithm>

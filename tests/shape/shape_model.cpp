@@ -1,7 +1,9 @@
 #include "made_up_shapes.hpp"
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/shape_model.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 
 namespace {

@@ -1,4 +1,5 @@
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
 #include <doctest/doctest.h>

@@ -1,11 +1,14 @@
 #include "made_up_surfaces.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/shape/surface_index.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 #include <numbers>
 #include <optional>

@@ -7,48 +7,12 @@
 /// docs/decisions/0010-mesh-files.md.
 
 #include <gonio/core/rgb.hpp>
-#include <gonio/io/byte_stream.hpp>
-#include <gonio/io/file.hpp>
-#include <gonio/io/obj.hpp>
-#include <gonio/io/ply.hpp>
-#include <gonio/io/text.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace gonio::io {
-
-namespace detail {
-
-enum class mesh_format { ply, obj };
-
-[[nodiscard]] mesh_format mesh_format_of(const std::filesystem::path& path);
-
-/// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
-void check_mesh(const triangle_mesh& mesh, const std::filesystem::path& path);
-
-// ---- writing ----------------------------------------------------------------------------------
-
-[[nodiscard]] inline std::array<std::uint8_t, 3> srgb_codes(const rgb& linear) noexcept {
-  const auto code = [](double light) { return static_cast<std::uint8_t>(std::lround(255.0 * encode_srgb(light))); };
-  return {code(linear[0]), code(linear[1]), code(linear[2])};
-}
-
-/// Of no colours where there are none to write.
-void write_ply(const std::filesystem::path& path, const triangle_mesh& mesh, std::span<const rgb> colours);
-
-void write_obj(const std::filesystem::path& path, const triangle_mesh& mesh);
-
-}  // namespace detail
 
 /// Reads a .ply or .obj file, whichever the extension says in letters of either case. Colours, normals, texture
 /// coordinates and all else are ignored. Triangles come in the order of the file's polygons, each of which is split

@@ -1,7 +1,6 @@
 #pragma once
 /// What the readers of mesh files have in common.
 
-#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <string_view>

@@ -4,15 +4,10 @@
 /// Procrustes alignment (Gower, Psychometrika 40, 1975). As "Anatomically correct surface recovery" does (Nielsen's
 /// doctoral thesis, DTU 2016, contribution C.V, section 2 and Algorithm 1).
 
-#include <gonio/core/error.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
-#include <Eigen/SVD>
+#include <Eigen/Core>
 
-#include <cmath>
-#include <cstddef>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -28,9 +23,10 @@ struct similarity_transform {
   [[nodiscard]] Eigen::Matrix<double, 3, Derived::ColsAtCompileTime> operator()(
       const Eigen::MatrixBase<Derived>& points) const {
     static_assert(Derived::RowsAtCompileTime == 3);
-    Eigen::Matrix<double, 3, Derived::ColsAtCompileTime> moved = scale * rotation * points;
-    moved.colwise() += translation;
-    return moved;
+    if constexpr (Derived::ColsAtCompileTime == 1)
+      return moved_point(points);
+    else
+      return moved_points(points);
   }
 
   [[nodiscard]] similarity_transform inverse() const;
@@ -38,8 +34,13 @@ struct similarity_transform {
   /// The one on the right first, as with matrices.
   [[nodiscard]] friend similarity_transform operator*(const similarity_transform& second,
                                                       const similarity_transform& first) {
-    return {second.scale * first.scale, second.rotation * first.rotation, second(first.translation)};
+    return second.after(first);
   }
+
+ private:
+  [[nodiscard]] Eigen::Vector3d moved_point(const Eigen::Vector3d& point) const;
+  [[nodiscard]] point_columns moved_points(const point_columns& points) const;
+  [[nodiscard]] similarity_transform after(const similarity_transform& first) const;
 };
 
 /// What an alignment may change besides the translation.
@@ -47,24 +48,6 @@ enum class alignment_kind {
   rigid,      ///< the rotation
   similarity  ///< the rotation and the scale
 };
-
-namespace detail {
-
-/// Points without their weighted centroid, each times the root of its share of the weights.
-struct centred_points {
-  Eigen::Vector3d centroid;
-  point_columns scaled;
-
-  centred_points(const point_columns& points, const Eigen::VectorXd& shares);
-};
-
-/// The shares of all weights: 1/n each if there are none.
-[[nodiscard]] Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points);
-
-/// Root of the summed squares of the distances from the centroid.
-[[nodiscard]] double centroid_size(const point_columns& points);
-
-}  // namespace detail
 
 /// The transform T that minimises sum_i weights_i |T(from_i) - onto_i|^2 over corresponded points; a mirror image is
 /// never made. Without weights all points count the same. O(points).
@@ -93,12 +76,8 @@ struct procrustes_options {
 
 namespace detail {
 
-void require_corresponded(const std::vector<point_columns>& shapes, const procrustes_options& options);
-
-[[nodiscard]] point_columns mean_of_shapes(const std::vector<point_columns>& shapes);
-
-/// About its centroid.
-void rescale(point_columns& shape, double size);
+/// Root of the summed squares of the distances from the centroid.
+[[nodiscard]] double centroid_size(const point_columns& points);
 
 }  // namespace detail
 

@@ -3,27 +3,11 @@
 /// method (Kuhn, Naval Research Logistics Quarterly 2, 1955) as dlib has it, in O(n^3). Programs that include this link
 /// dlib; docs/decisions/0011-assignment.md says why.
 
-#include <gonio/core/error.hpp>
-
 #include <Eigen/Core>
-#include <dlib/optimization/max_cost_assignment.h>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <string>
 #include <vector>
 
 namespace gonio {
-
-namespace detail {
-
-/// 2^40 steps between the least and the largest cost, of opposite sign as dlib maximises, with rows or columns of zeros
-/// to make a square: whoever is assigned there is left over, and all pay the same for it.
-[[nodiscard]] dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs);
-
-}  // namespace detail
 
 /// For each row the column it is assigned to, no column twice, such that the costs of all assigned pairs have the least
 /// sum. As many pairs are made as the shorter side has; rows beyond the number of columns are assigned to -1. Costs of

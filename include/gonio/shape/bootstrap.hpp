@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -45,43 +44,8 @@ struct bootstrap_result {
   shape_model model;
   std::vector<bootstrap_outcome> outcomes;
 
-  [[nodiscard]] std::size_t accepted() const {
-    return static_cast<std::size_t>(std::ranges::count_if(outcomes, &bootstrap_outcome::accepted));
-  }
+  [[nodiscard]] std::size_t accepted() const;
 };
-
-namespace detail {
-
-/// Shapes and their names, which a model is learned from again and again.
-class growing_model {
- public:
-  growing_model(std::vector<point_columns> shapes, std::vector<std::string> names, triangle_columns triangles,
-                thread_count threads);
-
-  [[nodiscard]] const shape_model& model() const noexcept { return model_; }
-
-  void add(std::string name, point_columns shape);
-
-  /// How many shapes it has not learned from yet, as a share of those that it has.
-  [[nodiscard]] double unlearned() const {
-    return static_cast<double>(shapes_.size()) / static_cast<double>(model_.shapes()) - 1.0;
-  }
-
-  void learn() { model_ = learn_shape_model(shapes_, names_, model_.triangles(), threads_); }
-
- private:
-  std::vector<point_columns> shapes_;
-  std::vector<std::string> names_;
-  thread_count threads_;
-  shape_model model_;
-};
-
-/// One attempt at a scan.
-[[nodiscard]] bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
-                                        const triangle_mesh& scan, const bootstrap_options& options,
-                                        thread_count threads);
-
-}  // namespace detail
 
 /// Grows a model from corresponded shapes by scans of any triangulation. Scans that are refused are tried again by the
 /// grown model, until a pass over them accepts none. Throws gonio::error if the first shapes are no model (see

@@ -7,6 +7,8 @@
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/surface_index.hpp>
 
+#include <Eigen/Core>
+
 #include <optional>
 #include <vector>
 
@@ -19,18 +21,14 @@ struct posed_scan {
   Eigen::RowVectorXd trust = {};  ///< none, or how much each vertex of the surface counts: see `known_vertices`
 
   /// The nearest place to a point of the model's space, in that space.
-  [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const {
-    return placed(surface.closest(pose.inverse()(point)));
-  }
+  [[nodiscard]] surface_point closest(const Eigen::Vector3d& point) const;
 
   /// The nearest place on a line through a point of the model's space, at most `reach` away.
   [[nodiscard]] std::optional<surface_point> along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
                                                    double reach) const;
 
   /// The outward normal at a place that was found, in the model's space: see `surface_index::pseudonormal`.
-  [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const {
-    return pose.rotation * surface.pseudonormal(place);
-  }
+  [[nodiscard]] Eigen::Vector3d normal(const surface_point& place) const;
 
   /// How much a place counts: 1 if nothing is said about the surface's vertices.
   [[nodiscard]] double trust_at(const surface_point& place) const;

@@ -3,20 +3,12 @@
 /// its own, recovered from the others, and compared.
 
 #include <gonio/core/parallel.hpp>
-#include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/recovery.hpp>
-#include <gonio/shape/shape_context_alignment.hpp>
-#include <gonio/shape/surface_noise.hpp>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <random>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -61,28 +53,6 @@ class cross_validated_uncertainty {
   [[nodiscard]] double squared_radius(double share) const;
 
  private:
-  static constexpr std::size_t least_trials = 10;
-
-  static void require_trials(const shape_model& model, const cross_validation_options& options);
-
-  /// The noise of a scan, mm: where it is as noisy as in most places.
-  [[nodiscard]] static double noise_of(const surface_index& scan);
-
-  /// The models of all shapes but those of one part.
-  [[nodiscard]] static std::vector<shape_model> models_without_parts(const shape_model& model,
-                                                                     const std::vector<point_columns>& shapes,
-                                                                     std::size_t parts, thread_count threads);
-
-  /// What is off when a shape is recovered by others; nothing if hardly any of its vertices are found on it.
-  [[nodiscard]] static std::optional<point_columns> error_of(const shape_model& others, const point_columns& shape,
-                                                             const std::vector<bool>& shown, double noise,
-                                                             std::uint64_t seed, const recovery_options& options);
-
-  [[nodiscard]] static std::vector<point_columns> errors_of_trials(const shape_model& model, double noise,
-                                                                   const std::vector<bool>& shown,
-                                                                   const cross_validation_options& options,
-                                                                   thread_count threads);
-
   void add_vertex(const std::vector<point_columns>& errors, Eigen::Index vertex);
 
   std::size_t trials_ = 0;

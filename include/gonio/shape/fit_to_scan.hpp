@@ -10,16 +10,9 @@
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/shape_model.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
-#include <gonio/shape/surface_noise.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
+#include <Eigen/Core>
 
 namespace gonio {
 
@@ -49,13 +42,13 @@ struct fit_to_scan_result {
   /// The vertices in the model's space, where the pose has taken their motion.
   [[nodiscard]] point_columns shape() const;
   /// Of the components that took part, see `shape_of`.
-  [[nodiscard]] Eigen::VectorXd weights() const { return fit.weights().head(fit.weights().size() - motions); }
+  [[nodiscard]] Eigen::VectorXd weights() const;
   /// See `squared_mahalanobis`.
-  [[nodiscard]] double squared_distance() const { return squared_mahalanobis(fit.functions(), weights()); }
+  [[nodiscard]] double squared_distance() const;
   /// How sure the vertices are, in the scan's space as in the model's, if the places are where they belong: motion is
   /// as unsure as the rest. What vertices slide along the surface is not in it: `cross_validated_uncertainty` measures
   /// it.
-  [[nodiscard]] shape_uncertainty uncertainty() const { return {fit, places, solver}; }
+  [[nodiscard]] shape_uncertainty uncertainty() const;
 };
 
 /// Throws gonio::error unless a scan shows enough vertices of a model to be aligned by.
@@ -66,13 +59,6 @@ namespace detail {
 /// How far to trust places on a scan (Geman and McClure's weights): nearly in full up to three times the misplacement
 /// or, while the shape is far off, three times what is usual; at noisy edges of holes and spurious triangles hardly.
 [[nodiscard]] Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement);
-
-/// Where a scan is noisy, vertices are off by its noise besides their misplacement.
-[[nodiscard]] Eigen::RowVectorXd trust_in_surface(const surface_index& scan, double misplacement);
-
-/// The rigid motion that the last weights of a basis `with_motion` of a shape stand for.
-[[nodiscard]] similarity_transform motion_of(const Eigen::VectorXd& weights, const point_columns& shape,
-                                             double freedom);
 
 }  // namespace detail
 

@@ -6,15 +6,14 @@
 /// E{s1|y2} = mu1 + S12 P L^-1 P' (s2 - mu2) is mu1 + Q1 w for the w of least norm with Q2 w = s2 - mu2 in the k
 /// largest singular directions: what `truncated_svd` finds.
 
+#include <gonio/core/parallel.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/located_samples.hpp>
 #include <gonio/shape/shape_basis.hpp>
+#include <gonio/solve/solver.hpp>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -37,18 +36,6 @@ struct known_vertices {
 
 /// Which of so many vertices are known.
 [[nodiscard]] std::vector<bool> marks_of(const known_vertices& known, Eigen::Index vertices);
-
-namespace detail {
-
-/// x, y and z of a vertex as an estimator reads them, one in each direction; `axes` has a unit vector in each column.
-void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at);
-
-/// The normal and two directions across it.
-[[nodiscard]] Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal);
-
-void require_known(const vertex_coordinates& coordinates, const known_vertices& known);
-
-}  // namespace detail
 
 /// What `decomposition` measures of a shape. Throws gonio::error if no vertex is known, one does not exist or is not
 /// finite, or for another number of positions or normals.

@@ -6,13 +6,6 @@
 
 #include <gonio/shape/mesh_topology.hpp>
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
-
-#include <algorithm>
-#include <cstddef>
-#include <iterator>
-#include <string>
 #include <vector>
 
 namespace gonio {
@@ -22,29 +15,6 @@ enum class smoothness {
   membrane,   ///< squared lengths of edges: each vertex is in the middle of its neighbours, and the rim is a crease
   thin_plate  ///< squared distances of vertices to their neighbours' middle: goes on as the surroundings slope
 };
-
-namespace detail {
-
-/// The neighbours along the border of a vertex on it: there are two. All its neighbours if that does not come out,
-/// where three edges are a ring but no triangle.
-[[nodiscard]] std::vector<int> along_border(const mesh_topology& topology, Eigen::Index vertex);
-
-/// Each row takes positions to how far the middle of a vertex's neighbours is from it. On a border the neighbours are
-/// those along it: the middle of all is inwards even of a plane, which would hold back surfaces that are continued to
-/// their end.
-[[nodiscard]] Eigen::SparseMatrix<double> umbrella_rows(const mesh_topology& topology);
-
-/// The energy's matrix: L'L, or the Laplacian of the graph.
-[[nodiscard]] Eigen::SparseMatrix<double> energy_matrix(const mesh_topology& topology, smoothness kind);
-
-/// Throws gonio::error at the first vertex that no known one is joined to by edges.
-void require_reached(const mesh_topology& topology, std::vector<bool> reached);
-
-/// The columns of a matrix at the given places, in their order.
-[[nodiscard]] Eigen::SparseMatrix<double> columns_at(const Eigen::SparseMatrix<double>& matrix,
-                                                     const std::vector<Eigen::Index>& places);
-
-}  // namespace detail
 
 /// The points (3 x vertices) with those that are not known put where the energy is least; what they were, even not
 /// finite, has no influence. All neighbours have the same weight: cotangents would need the positions that are missing,

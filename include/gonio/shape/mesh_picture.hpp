@@ -1,20 +1,14 @@
 #pragma once
 /// Pictures of surfaces with a colour at each vertex, from far away, without any graphics library.
 
-#include <gonio/core/error.hpp>
+#include <gonio/core/rgb.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 #include <gonio/table/image.hpp>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <cstddef>
 #include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace gonio {
 
@@ -31,19 +25,6 @@ struct mesh_view {
   [[nodiscard]] static mesh_view of(const triangle_mesh& mesh, const Eigen::Vector3d& towards,
                                     const Eigen::Vector3d& up = Eigen::Vector3d::UnitY());
 };
-
-namespace detail {
-
-/// A picture and how near what it shows is.
-struct depth_picture {
-  image picture;
-  std::vector<double> nearest;
-};
-
-/// Draws one triangle, whose corners are (column, row, depth) with colours as columns.
-void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours);
-
-}  // namespace detail
 
 /// A mesh lit from the viewer: colours (a linear one for each vertex) times how directly the surface is seen. The
 /// inside of an open surface is darker. O(triangles + pixels covered). Throws gonio::error for another number of

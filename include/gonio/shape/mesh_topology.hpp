@@ -1,13 +1,11 @@
 #pragma once
 /// Which vertices of a mesh are neighbours, and where the surface ends.
 
-#include <gonio/core/error.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
-#include <algorithm>
+#include <compare>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace gonio {

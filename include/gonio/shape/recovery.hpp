@@ -3,17 +3,9 @@
 /// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 3,
 /// Algorithm 1.
 
-#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
-#include <gonio/shape/geodesic.hpp>
-#include <gonio/solve/truncated_svd.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
+#include <cstddef>
 
 namespace gonio {
 
@@ -32,13 +24,6 @@ struct recovered_shape {
   similarity_transform pose;  ///< from the scan to the model
   fit_to_scan_result fit;     ///< what the recovery is, or began with
 };
-
-namespace detail {
-
-/// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
-void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence);
-
-}  // namespace detail
 
 /// Recovers what a scan does not show, from a pose that is about right, by the pose and the weights of the family that
 /// fit what it shows. About half a second on one core for 3,000 vertices and 160 shapes.
@@ -63,11 +48,6 @@ struct published_recovery_options {
 };
 
 namespace detail {
-
-/// Every vertex predicted from the known ones nearest to it along the mean shape.
-[[nodiscard]] point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
-                                            const known_vertices& known, const published_recovery_options& options,
-                                            thread_count threads);
 
 /// Algorithm 1's explained variance in a round.
 [[nodiscard]] double explained_variance_in(int round, const published_recovery_options& options);

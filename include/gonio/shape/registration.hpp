@@ -4,13 +4,8 @@
 /// C.V), section 2.
 
 #include <gonio/shape/fit_to_scan.hpp>
-#include <gonio/shape/surface_noise.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace gonio {
 
@@ -38,19 +33,6 @@ struct registration {
 
 /// The smallest angle of a share of the triangles is below the returned, in degrees.
 [[nodiscard]] double smallest_angle_percentile(const triangle_mesh& mesh, double share);
-
-namespace detail {
-
-/// Where lines along the smoothed normals of a shape meet the scan.
-[[nodiscard]] known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
-                                                  const triangle_mesh& shape, const registration_options& options,
-                                                  thread_count threads);
-
-/// The sentence of the first test that fails.
-[[nodiscard]] std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
-                                     const registration_options& options);
-
-}  // namespace detail
 
 /// Registers a scan from a pose that is about right. Vertices that the scan does not show take the place that the model
 /// predicts. Throws gonio::error if the scan shows hardly any.

@@ -3,14 +3,16 @@
 /// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 1-2 and 4; the
 /// metric is the identity, `lin`.
 
-#include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
+#include <gonio/table/domain.hpp>
+#include <gonio/table/material_set.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -58,9 +60,7 @@ static_assert(tabulated_basis<shape_basis>);
 
 /// The squared Mahalanobis distance of weights from the mean: m |w|^2 for a basis of m shapes. Of shapes of the
 /// family it is distributed as chi-square of as many degrees of freedom as there are weights (section 2).
-[[nodiscard]] inline double squared_mahalanobis(const shape_basis& basis, const Eigen::VectorXd& weights) {
-  return static_cast<double>(basis.names().size()) * weights.squaredNorm();
-}
+[[nodiscard]] double squared_mahalanobis(const shape_basis& basis, const Eigen::VectorXd& weights);
 
 /// The fewest components that explain a share of the shapes' variance. Throws gonio::error unless the share is above 0
 /// and at most 1.

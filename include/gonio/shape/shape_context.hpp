@@ -6,22 +6,12 @@
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/shape/assignment.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
-#include <Eigen/Geometry>
-#include <nanoflann.hpp>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <numbers>
+#include <memory>
 #include <optional>
-#include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -51,51 +41,22 @@ struct shape_match {
 
 namespace detail {
 
-void require_context(const shape_context_options& options);
-
-/// What sampling and describing need of a mesh, which may be less than a surface.
-void require_finite_mesh(const triangle_mesh& mesh);
-
-/// A third of the area of the triangles around each vertex.
-[[nodiscard]] Eigen::VectorXd vertex_areas(const triangle_mesh& mesh);
-
-/// Points in a k-d tree, which reads them where they are: they must outlive it.
+/// Points in a k-d tree, which reads them where they are: they must outlive it. Copies share it.
 class point_tree {
  public:
   /// O(n log n).
-  explicit point_tree(const point_columns& points) : points_{points}, tree_(3, points_, {leaf_size}) {}
+  explicit point_tree(const point_columns& points);
 
   /// Square of the distance to the closest point. O(log n). There must be a point.
   [[nodiscard]] double squared_distance(const Eigen::Vector3d& place) const;
 
-  /// Calls `use(index)` for each point nearer than a radius, always in the same order.
-  template <class Use>
-  void for_each_within(double radius, const Eigen::Vector3d& place, const Use& use) const {
-    std::vector<std::pair<std::uint32_t, double>> found;
-    tree_.radiusSearch(place.data(), radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
-    for (const auto& [index, squared] : found) use(static_cast<Eigen::Index>(index));
-  }
+  /// The numbers of the points nearer than a radius, always in the same order.
+  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const Eigen::Vector3d& place) const;
 
  private:
-  /// What nanoflann asks for.
-  struct adaptor {
-    const point_columns& points;
+  struct built_tree;
 
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.cols()); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t index, std::size_t axis) const {
-      return points(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(index));
-    }
-    template <class Box>
-    [[nodiscard]] bool kdtree_get_bbox(Box&) const {
-      return false;
-    }
-  };
-  using metric = nanoflann::L2_Simple_Adaptor<double, adaptor>;
-
-  static constexpr std::size_t leaf_size = 16;
-
-  adaptor points_;
-  nanoflann::KDTreeSingleIndexAdaptor<metric, adaptor, 3> tree_;
+  std::shared_ptr<const built_tree> tree_;
 };
 
 }  // namespace detail

@@ -5,14 +5,11 @@
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/shape_context.hpp>
 
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
+
 #include <cstddef>
-#include <limits>
 #include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 namespace gonio {
 
@@ -48,13 +45,6 @@ struct matched_points {
 [[nodiscard]] std::pair<similarity_transform, std::size_t> robust_pose(const matched_points& points, Eigen::Index first,
                                                                        double tolerance);
 
-/// The vertices that triangles have.
-[[nodiscard]] point_columns surface_vertices(const triangle_mesh& mesh);
-
-/// Of points in a pose to those of a tree.
-[[nodiscard]] double mean_distance(const similarity_transform& pose, const point_columns& points,
-                                   const point_tree& tree, thread_count threads);
-
 }  // namespace detail
 
 /// A model that many scans are aligned with: what it needs of the model is computed once. Copies are cheap.
@@ -76,34 +66,16 @@ class shape_context_matcher {
   [[nodiscard]] pre_alignment align(const triangle_mesh& scan, thread_count threads = {}) const;
 
  private:
-  struct described_points {
-    shape_descriptors descriptors;
-    point_columns places;
-  };
-
-  struct described_model {
-    described_model(const triangle_mesh& mesh, described_points some)
-        : points(std::move(some)), vertices(detail::surface_vertices(mesh)), tree(vertices) {}
-
-    described_points points;
-    point_columns vertices;
-    detail::point_tree tree;
-  };
-
-  [[nodiscard]] described_points described(const triangle_mesh& mesh, thread_count threads) const;
-
-  static void require_points(const shape_descriptors& descriptors, const char* what);
+  struct described_model;
 
   shape_context_alignment_options options_;
   std::shared_ptr<const described_model> model_;
 };
 
 /// Aligns one scan: see `shape_context_matcher`, which many scans should share.
-[[nodiscard]] inline pre_alignment align_by_shape_context(const triangle_mesh& scan, const triangle_mesh& model,
-                                                          const shape_context_alignment_options& options = {},
-                                                          thread_count threads = {}) {
-  return shape_context_matcher(model, options, threads).align(scan, threads);
-}
+[[nodiscard]] pre_alignment align_by_shape_context(const triangle_mesh& scan, const triangle_mesh& model,
+                                                   const shape_context_alignment_options& options = {},
+                                                   thread_count threads = {});
 
 }  // namespace gonio
 

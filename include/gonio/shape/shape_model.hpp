@@ -2,11 +2,13 @@
 /// An active shape model: principal components of shapes, and the triangles that all of them share.
 /// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2.
 
-#include <gonio/shape/alignment.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/shape_basis.hpp>
 
-#include <algorithm>
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>

@@ -2,12 +2,11 @@
 /// How sure the vertices of a predicted shape are: V{s1|s2} of "Anatomically correct surface recovery" (Nielsen,
 /// doctoral thesis, DTU 2016, contribution C.V, Eq. 4), by the solver that predicts them.
 
-#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/fitted_shape.hpp>
+#include <gonio/shape/shape_basis.hpp>
+#include <gonio/solve/any_solver.hpp>
 
-#include <algorithm>
-#include <string>
-#include <utility>
+#include <Eigen/Core>
 
 namespace gonio {
 
@@ -25,20 +24,7 @@ class shape_uncertainty {
  public:
   /// Of a fit by `solver` of these known vertices: O(3 known x k^2) for a basis of k components. Throws gonio::error
   /// for known vertices that `decomposition` refuses.
-  template <solver Solver>
-  shape_uncertainty(const fitted_shape& fit, const known_vertices& known, const Solver& solver)
-      : basis_(fit.functions()) {
-    const auto k = static_cast<Eigen::Index>(basis_.size());
-    const least_squares_problem problem = basis_equations<shape_basis>(basis_, known).problem();
-    const row_matrix rows = problem.rows();
-    const Eigen::MatrixXd seen = solver.solve(least_squares_problem(rows, rows, problem.weights())).weights;
-    unseen_ = Eigen::MatrixXd::Identity(k, k) - 0.5 * (seen + seen.transpose());
-    const auto m = static_cast<double>(basis_.names().size());
-    published_scale_ = 1.0 / m;
-    // Where as many directions are kept as there are shapes nothing is left to tell their own uncertainty from.
-    degrees_of_freedom_ = std::max(m - 1.0 - seen.trace(), 3.0);
-    scale_ = (1.0 + 1.0 / m + fit.weights().squaredNorm()) / degrees_of_freedom_;
-  }
+  shape_uncertainty(const fitted_shape& fit, const known_vertices& known, const any_solver& solver);
 
   /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) about where it is predicted with this
   /// probability: 3 F of 3 and m - 3 - k degrees of freedom, which for many shapes is chi-square of 3.

@@ -4,8 +4,7 @@
 
 #include <gonio/shape/surface_index.hpp>
 
-#include <cmath>
-#include <string>
+#include <Eigen/Core>
 
 namespace gonio {
 
@@ -28,10 +27,8 @@ struct surface_distance {
 /// How far points are from a surface; select some, as the recovered ones, with `points(Eigen::all, vertices)`. The
 /// other way, from a surface's vertices to the points' mesh, is another distance. Throws gonio::error if there is no
 /// point or one is not finite.
-[[nodiscard]] inline surface_distance distance_to(const surface_index& surface, const point_columns& points,
-                                                  thread_count threads = {}) {
-  return surface_distance::of(signed_distances(surface, points, threads));
-}
+[[nodiscard]] surface_distance distance_to(const surface_index& surface, const point_columns& points,
+                                           thread_count threads = {});
 
 }  // namespace gonio
 

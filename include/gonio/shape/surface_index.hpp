@@ -6,19 +6,10 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
-#include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -32,86 +23,6 @@ struct surface_point {
   double distance = 0.0;        ///< to where the query started, not negative
 };
 
-namespace detail {
-
-/// Shares of a triangle's corners below which a point is on the opposite side.
-inline constexpr double on_side = 1e-9;
-
-/// The shares of the corners in the point of a triangle that is closest to `point`: where it projects to or, if that is
-/// outside, the closest point of a side. Triangles without area consist of their sides.
-[[nodiscard]] Eigen::Vector3d closest_barycentric(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point);
-
-/// Where a line meets a triangle.
-struct line_hit {
-  double along;  ///< from where the line begins, in lengths of its direction
-  Eigen::Vector3d barycentric;
-};
-
-/// Moeller and Trumbore's test. Sides belong to the triangle with a little slack, so that no line slips between two
-/// triangles. A triangle seen edge-on is not met.
-[[nodiscard]] std::optional<line_hit> meet(const Eigen::Matrix3d& corners, const Eigen::Vector3d& origin,
-                                           const Eigen::Vector3d& line);
-
-/// A box along the axes, by its middle; a little larger than asked for, so that its bounds hold after rounding.
-struct centred_box {
-  static constexpr double slack = 1e-12;
-
-  explicit centred_box(const Eigen::AlignedBox3d& box);
-
-  Eigen::Vector3d centre, half_size;
-
-  [[nodiscard]] double squared_distance(const Eigen::Vector3d& point) const;
-
-  /// Does a line of a direction of length 1 pass through it? None of the three axes across the line and an axis of
-  /// space separates them.
-  [[nodiscard]] bool meets_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& line) const;
-};
-
-/// Boxes around the triangles of a mesh, in a binary tree.
-class box_tree {
- public:
-  /// O(n log n) for n triangles.
-  explicit box_tree(const triangle_mesh& mesh);
-
-  /// Calls `visit` with the number of each triangle in a box whose `bound` is at most `limit`, near ones first. `visit`
-  /// returns the limit from then on.
-  template <class Bound, class Visit>
-  void search(double limit, const Bound& bound, const Visit& visit) const {
-    std::array<std::pair<double, std::size_t>, 64> pending;  // one for each halving of the triangles
-    std::size_t size = 0;
-    pending[size++] = {bound(nodes_[0].box), 0};
-    while (size > 0) {
-      const auto [least, place] = pending[--size];
-      if (least > limit) continue;
-      const node& here = nodes_[place];
-      if (here.second == 0) {
-        for (std::size_t i = here.begin; i < here.end; ++i) limit = visit(order_[i]);
-        continue;
-      }
-      pending[size] = {bound(nodes_[here.second].box), here.second};
-      pending[size + 1] = {bound(nodes_[place + 1].box), place + 1};
-      if (pending[size].first < pending[size + 1].first) std::swap(pending[size], pending[size + 1]);
-      size += 2;
-    }
-  }
-
- private:
-  /// The first child follows its parent; `second` is 0 for a leaf.
-  struct node {
-    centred_box box;
-    std::size_t begin, end, second;
-  };
-
-  static constexpr std::size_t leaf_size = 4;
-
-  std::size_t build(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t begin, std::size_t end);
-
-  std::vector<Eigen::Index> order_;
-  std::vector<node> nodes_;
-};
-
-}  // namespace detail
-
 /// A surface to ask about places. Copies are cheap: they share what was built. All queries may run at the same time.
 ///
 /// The triangles are in a tree of boxes of our own. A tree of their centroids (nanoflann) has to search as far beyond
@@ -120,10 +31,10 @@ class box_tree {
 class surface_index {
  public:
   /// O(n log n) for n triangles. Throws gonio::error as `mesh_topology` does.
-  explicit surface_index(triangle_mesh mesh) : surface_(std::make_shared<const built_surface>(std::move(mesh))) {}
+  explicit surface_index(triangle_mesh mesh);
 
-  [[nodiscard]] const triangle_mesh& mesh() const noexcept { return surface_->mesh; }
-  [[nodiscard]] const mesh_topology& topology() const noexcept { return surface_->topology; }
+  [[nodiscard]] const triangle_mesh& mesh() const noexcept;
+  [[nodiscard]] const mesh_topology& topology() const noexcept;
 
   /// The closest point of the surface, to rounding; of triangles at the same distance that of the lowest number. About
   /// O(log n) near the surface. Throws gonio::error if the point is not finite or the
@@ -146,31 +57,7 @@ class surface_index {
   [[nodiscard]] double signed_distance(const Eigen::Vector3d& point) const;
 
  private:
-  /// The mesh with all that queries need.
-  struct built_surface {
-    explicit built_surface(triangle_mesh of);
-
-    triangle_mesh mesh;
-    mesh_topology topology;
-    detail::box_tree tree;
-    Eigen::Matrix3Xi across;  // the triangle beyond the side from each corner to the next, or -1
-    point_columns triangle_normals, vertex_normals;
-  };
-
-  /// A corner, or the side that begins at a corner, or neither: inside.
-  struct feature {
-    std::optional<Eigen::Index> corner, side;
-  };
-
-  static void require_finite(const Eigen::Vector3d& vector, const char* what);
-
-  [[nodiscard]] static feature feature_of(const Eigen::Vector3d& barycentric);
-
-  [[nodiscard]] bool is_on_border(const surface_point& place) const;
-
-  [[nodiscard]] static Eigen::Matrix3Xi across_sides(const triangle_columns& triangles);
-
-  [[nodiscard]] static point_columns angle_weighted(const triangle_mesh& mesh, const point_columns& normals);
+  struct built_surface;  // the mesh with all that queries need
 
   std::shared_ptr<const built_surface> surface_;
 };

@@ -10,22 +10,9 @@ namespace gonio {
 
 /// Each column replaced by the mean of itself and its neighbours. Vertices on the border have neighbours on the border
 /// alone, lest the surface shrink.
-template <class Derived>
-[[nodiscard]] typename Derived::PlainObject averaged_over_neighbours(const mesh_topology& topology,
-                                                                     const Eigen::MatrixBase<Derived>& values) {
-  typename Derived::PlainObject means(values.rows(), values.cols());
-  for (Eigen::Index v = 0; v < values.cols(); ++v) {
-    means.col(v) = values.col(v);
-    double count = 1.0;
-    for (const int neighbour : topology.neighbours(v)) {
-      if (topology.on_border(v) && !topology.on_border(neighbour)) continue;
-      means.col(v) += values.col(neighbour);
-      count += 1.0;
-    }
-    means.col(v) /= count;
-  }
-  return means;
-}
+[[nodiscard]] point_columns averaged_over_neighbours(const mesh_topology& topology, const point_columns& values);
+[[nodiscard]] Eigen::RowVectorXd averaged_over_neighbours(const mesh_topology& topology,
+                                                          const Eigen::RowVectorXd& values);
 
 /// The variance of the noise along the normals about each vertex, in the squared unit of the mesh.
 ///

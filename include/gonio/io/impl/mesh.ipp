@@ -24,7 +24,9 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE mesh_format mesh_format_of(const std::filesystem::path& path) {
+enum class mesh_format { ply, obj };
+
+[[nodiscard]] GONIO_INLINE mesh_format mesh_format_of(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
   std::string lower = extension;
   for (char& c : lower)
@@ -34,6 +36,7 @@ GONIO_INLINE mesh_format mesh_format_of(const std::filesystem::path& path) {
   refuse_file(path, "a mesh has the extension .ply or .obj, not " + quoted(std::string_view(extension)));
 }
 
+/// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
 GONIO_INLINE void check_mesh(const triangle_mesh& mesh, const std::filesystem::path& path) {
   const Eigen::Index vertices = mesh.vertices.cols();
   if (vertices > mesh_vertex_limit) refuse_file(path, "has 2^31 or more vertices, which are counted in int");
@@ -49,6 +52,12 @@ GONIO_INLINE void check_mesh(const triangle_mesh& mesh, const std::filesystem::p
                               " of a mesh of " + std::to_string(vertices));
 }
 
+[[nodiscard]] GONIO_INLINE std::array<std::uint8_t, 3> srgb_codes(const rgb& linear) noexcept {
+  const auto code = [](double light) { return static_cast<std::uint8_t>(std::lround(255.0 * encode_srgb(light))); };
+  return {code(linear[0]), code(linear[1]), code(linear[2])};
+}
+
+/// Of no colours where there are none to write.
 GONIO_INLINE void write_ply(const std::filesystem::path& path, const triangle_mesh& mesh,
                             std::span<const rgb> colours) {
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.cols()) +
@@ -92,7 +101,7 @@ GONIO_INLINE triangle_mesh read_mesh(const std::filesystem::path& path) {
   const std::string_view text = detail::as_text(bytes);
   const std::string name = path.string();
   const detail::mesh_parts parts =
-      format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::obj_parser(text, name).parse();
+      format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::parse_obj(text, name);
   const auto vertices = static_cast<Eigen::Index>(parts.vertices()),
              triangles = static_cast<Eigen::Index>(parts.corners.size() / 3);
   const triangle_mesh mesh{Eigen::Map<const point_columns>(parts.coordinates.data(), 3, vertices),

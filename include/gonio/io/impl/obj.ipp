@@ -16,6 +16,32 @@
 
 namespace gonio::io::detail {
 
+/// The lines of an OBJ of points and polygons.
+class obj_parser {
+ public:
+  obj_parser(std::string_view text, const std::string& name) : text_(text), place_{name} {}
+
+  [[nodiscard]] mesh_parts parse();
+
+ private:
+  void add(std::string_view line);
+
+  /// Weights and colours may follow the coordinates.
+  void add_vertex(std::string_view line);
+
+  void add_face(std::string_view line);
+
+  /// The vertex of v, v/vt, v//vn or v/vt/vn: from 1 on, or backwards from -1, the latest one.
+  [[nodiscard]] int vertex_of(std::string_view corner);
+
+  [[noreturn]] void refuse_vertex(std::string_view number) const;
+
+  std::string_view text_;
+  text_place place_;
+  mesh_parts parts_;
+  std::size_t largest_ = 0, largest_line_ = 0;  // vertex number from 1, and where it is named
+};
+
 GONIO_INLINE mesh_parts obj_parser::parse() {
   for_each_line(text_, place_, [&](std::string_view line) { add(line.substr(0, line.find('#'))); });
   // A face may name vertices of lines that follow.
@@ -69,6 +95,10 @@ GONIO_INLINE int obj_parser::vertex_of(std::string_view corner) {
 GONIO_INLINE void obj_parser::refuse_vertex(std::string_view number) const {
   place_.refuse("a face names vertex " + std::string(number) + " of " + std::to_string(parts_.vertices()) +
                 ", which are counted from 1");
+}
+
+GONIO_INLINE mesh_parts parse_obj(std::string_view text, const std::string& name) {
+  return obj_parser(text, name).parse();
 }
 
 }  // namespace gonio::io::detail

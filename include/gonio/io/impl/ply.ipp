@@ -2,6 +2,7 @@
 /// Bodies of io/ply.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/mesh_parts.hpp>
 #include <gonio/io/ply.hpp>
@@ -23,6 +24,192 @@
 #include <vector>
 
 namespace gonio::io::detail {
+
+// ---- PLY: the header --------------------------------------------------------------------------
+
+template <class Number>
+[[nodiscard]] double decode_ply(std::span<const std::byte> bytes, bool swapped) noexcept {
+  std::array<std::byte, sizeof(Number)> own{};
+  std::ranges::copy(bytes, own.begin());
+  if (swapped) std::ranges::reverse(own);
+  return static_cast<double>(std::bit_cast<Number>(own));
+}
+
+/// A type of number; double holds all values of each.
+struct ply_type {
+  std::string_view name, newer_name;
+  std::size_t size;
+  bool whole;
+  double (*decode)(std::span<const std::byte> bytes, bool swapped) noexcept;
+};
+
+inline constexpr std::array<ply_type, 8> ply_types{{
+    {"char", "int8", 1, true, &decode_ply<std::int8_t>},
+    {"uchar", "uint8", 1, true, &decode_ply<std::uint8_t>},
+    {"short", "int16", 2, true, &decode_ply<std::int16_t>},
+    {"ushort", "uint16", 2, true, &decode_ply<std::uint16_t>},
+    {"int", "int32", 4, true, &decode_ply<std::int32_t>},
+    {"uint", "uint32", 4, true, &decode_ply<std::uint32_t>},
+    {"float", "float32", 4, false, &decode_ply<float>},
+    {"double", "float64", 8, false, &decode_ply<double>},
+}};
+
+/// What a property says of a mesh. The first three index a point's coordinates.
+enum class ply_role : std::size_t { x, y, z, corners, ignored };
+
+struct ply_property {
+  std::string_view name;
+  std::optional<ply_type> count;  // of lists alone
+  ply_type value;
+  ply_role role = ply_role::ignored;
+};
+
+struct ply_element {
+  std::string_view name;
+  std::size_t count = 0;
+  std::vector<ply_property> properties;
+
+  [[nodiscard]] bool has(ply_role role) const {
+    return std::ranges::find(properties, role, &ply_property::role) != properties.end();
+  }
+};
+
+enum class ply_encoding { ascii, little_endian, big_endian };
+
+/// The names are those in the file's text.
+struct ply_header {
+  std::optional<ply_encoding> encoding;
+  std::vector<ply_element> elements;
+  std::size_t vertices = 0;
+};
+
+/// Takes the header off the front of a PLY file.
+class ply_header_parser {
+ public:
+  ply_header_parser(std::string_view& text, text_place& place) : text_(text), place_(place) {}
+
+  [[nodiscard]] ply_header parse();
+
+ private:
+  [[nodiscard]] std::string_view next_line();
+
+  void add(std::string_view line);
+
+  void set_encoding(std::string_view format);
+
+  void add_element(std::string_view line);
+
+  void add_property(std::string_view line);
+
+  [[nodiscard]] ply_type type_named(std::string_view name) const;
+
+  [[nodiscard]] static ply_role role_of(const ply_element& element, const ply_property& property);
+
+  /// Rows without properties take no bytes, so that any count of them would be believed.
+  void check(const ply_element& element) const;
+
+  std::string_view& text_;
+  text_place& place_;
+  ply_header header_;
+};
+
+// ---- PLY: the rows ----------------------------------------------------------------------------
+
+/// The rows of a binary PLY.
+class ply_binary_rows {
+ public:
+  ply_binary_rows(std::string_view body, bool swapped, const text_place& place)
+      : bytes_(std::as_bytes(std::span(body)), place.name), swapped_(swapped), name_(place.name) {}
+
+  void begin_row() const noexcept {}
+  [[nodiscard]] double take(const ply_type& type) { return type.decode(bytes_.take_bytes(type.size), swapped_); }
+  void skip(const ply_type& type, std::size_t count) { static_cast<void>(bytes_.take_bytes(count * type.size)); }
+  void end_row() const noexcept {}
+  void end() const {
+    if (bytes_.left() > 0) refuse(std::to_string(bytes_.left()) + " bytes follow what its header counts");
+  }
+  [[noreturn]] void refuse(const std::string& what) const;
+
+ private:
+  byte_reader bytes_;
+  bool swapped_;
+  const std::string& name_;
+};
+
+/// The rows of an ascii PLY, each on a line of its own.
+class ply_text_rows {
+ public:
+  ply_text_rows(std::string_view body, text_place& place) : left_(body), place_(place) {}
+
+  void begin_row() {
+    if (!next_line()) refuse("the file is truncated or its counts are wrong");
+  }
+  [[nodiscard]] double take(const ply_type&) {
+    return parse_number(take_field(), place_, [] { return std::string("a value"); });
+  }
+  void skip(const ply_type&, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) static_cast<void>(take_field());
+  }
+  void end_row() const;
+  void end() {
+    if (next_line()) refuse(quoted(row_) + " follows what the header counts");
+  }
+  [[noreturn]] void refuse(const std::string& what) const { place_.refuse(what); }
+
+ private:
+  /// Goes to the next line that holds something, if there is one.
+  [[nodiscard]] bool next_line();
+  [[nodiscard]] std::string_view take_field();
+
+  std::string_view left_, row_;
+  text_place& place_;
+};
+
+template <class Rows>
+[[nodiscard]] std::size_t take_ply_count(const ply_property& list, Rows& rows) {
+  const double count = rows.take(*list.count);
+  if (!(count >= 0.0 && count <= double{std::numeric_limits<std::uint32_t>::max()} && count == std::floor(count)))
+    rows.refuse("a list " + quoted(list.name) + " has " + shortest(count) + " values");
+  return static_cast<std::size_t>(count);
+}
+
+template <class Rows>
+void take_ply_face(const ply_type& type, std::size_t size, std::size_t vertices, Rows& rows, mesh_parts& parts) {
+  if (size < 3) rows.refuse("a face has " + std::to_string(size) + " vertices, expected at least 3");
+  polygon_fan fan(parts.corners);
+  while (fan.size() < size) {
+    const double vertex = rows.take(type);
+    if (!(vertex >= 0.0 && vertex < static_cast<double>(vertices) && vertex == std::floor(vertex)))
+      rows.refuse("a face names vertex " + shortest(vertex) + " of a mesh of " + std::to_string(vertices));
+    fan.add(static_cast<int>(vertex));
+  }
+}
+
+/// Nothing is allocated for rows that the file does not have, whatever its header counts.
+template <class Rows>
+[[nodiscard]] mesh_parts take_ply_elements(const ply_header& header, Rows rows) {
+  mesh_parts parts;
+  for (const ply_element& element : header.elements) {
+    const bool is_vertex = element.name == "vertex";
+    std::array<double, 3> point{};
+    for (std::size_t row = 0; row < element.count; ++row) {
+      rows.begin_row();
+      for (const ply_property& property : element.properties) {
+        const std::size_t count = property.count ? take_ply_count(property, rows) : 1;
+        if (property.role == ply_role::ignored)
+          rows.skip(property.value, count);
+        else if (property.role == ply_role::corners)
+          take_ply_face(property.value, count, header.vertices, rows, parts);
+        else
+          point[static_cast<std::size_t>(property.role)] = rows.take(property.value);
+      }
+      rows.end_row();
+      if (is_vertex) parts.coordinates.insert(parts.coordinates.end(), point.begin(), point.end());
+    }
+  }
+  rows.end();
+  return parts;
+}
 
 GONIO_INLINE ply_header ply_header_parser::parse() {
   if (!text_.starts_with("ply")) throw error(place_.name + ": is no PLY file, expected it to begin with 'ply'");

@@ -36,7 +36,16 @@ GONIO_INLINE void put_shape_model(byte_writer& out, const shape_model& model) {
   put_matrix(basis.components());
 }
 
-GONIO_INLINE shape_model take_shape_model(byte_reader& in, const std::string& name) {
+/// A matrix of so many rows and columns, as its numbers lie in memory.
+template <class Matrix>
+[[nodiscard]] Matrix take_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
+  const auto numbers = in.take_all<typename Matrix::Scalar>(rows * columns);
+  Matrix matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  std::ranges::copy(numbers, matrix.data());
+  return matrix;
+}
+
+[[nodiscard]] GONIO_INLINE shape_model take_shape_model(byte_reader& in, const std::string& name) {
   const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
                     components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left())
@@ -86,6 +95,14 @@ GONIO_INLINE shape_model decode_shape_model(std::span<const std::byte> bytes, co
   const auto payload = decode_checked(detail::shape_model_kind, bytes, name);
   byte_reader in(payload, name);
   return detail::take_shape_model(in, name);
+}
+
+GONIO_INLINE void write_shape_model(const std::filesystem::path& path, const shape_model& model) {
+  write_atomically(path, encode_shape_model(model));
+}
+
+GONIO_INLINE shape_model read_shape_model(const std::filesystem::path& path) {
+  return decode_shape_model(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

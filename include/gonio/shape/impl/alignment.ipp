@@ -6,44 +6,92 @@
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
+#include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio {
 
+GONIO_INLINE Eigen::Vector3d similarity_transform::moved_point(const Eigen::Vector3d& point) const {
+  const Eigen::Matrix3d turn = scale * rotation;
+  Eigen::Vector3d moved;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    moved[i] = turn(i, 0) * point[0] + turn(i, 1) * point[1] + turn(i, 2) * point[2] + translation[i];
+  return moved;
+}
+
+GONIO_INLINE point_columns similarity_transform::moved_points(const point_columns& points) const {
+  point_columns moved(3, points.cols());
+  for (Eigen::Index v = 0; v < points.cols(); ++v) moved.col(v) = moved_point(points.col(v));
+  return moved;
+}
+
 GONIO_INLINE similarity_transform similarity_transform::inverse() const {
   const Eigen::Matrix3d back = rotation.transpose();
-  return {1.0 / scale, back, back * translation / -scale};
+  const Eigen::Vector3d turned = back * translation;
+  return {1.0 / scale, back, turned / -scale};
+}
+
+GONIO_INLINE similarity_transform similarity_transform::after(const similarity_transform& first) const {
+  return {scale * first.scale, rotation * first.rotation, moved_point(first.translation)};
 }
 
 }  // namespace gonio
 
 namespace gonio::detail {
 
-GONIO_INLINE centred_points::centred_points(const point_columns& points, const Eigen::VectorXd& shares)
-    : centroid(points * shares), scaled((points.colwise() - centroid) * shares.cwiseSqrt().asDiagonal()) {}
+/// Points without their weighted centroid, each times the root of its share of the weights.
+struct centred_points {
+  Eigen::Vector3d centroid;
+  point_columns scaled;
 
-GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
-  const Eigen::VectorXd given = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
-  if (given.size() != points)
-    throw error("an alignment of " + std::to_string(points) + " points is given " + std::to_string(given.size()) +
-                " weights");
-  if (!given.allFinite() || (points > 0 && given.minCoeff() < 0.0))
+  centred_points(const point_columns& points, const Eigen::VectorXd& shares);
+};
+
+GONIO_INLINE centred_points::centred_points(const point_columns& points, const Eigen::VectorXd& shares)
+    : centroid(Eigen::Vector3d::Zero()), scaled(points) {
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) centroid[i] += shares[v] * points(i, v);
+  for (Eigen::Index v = 0; v < points.cols(); ++v) {
+    const double root = std::sqrt(shares[v]);
+    for (Eigen::Index i = 0; i < 3; ++i) scaled(i, v) = root * (points(i, v) - centroid[i]);
+  }
+}
+
+/// The shares of all weights: 1/n each if there are none.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
+  Eigen::VectorXd shares = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
+  if (shares.size() != points) throw error{"an alignment of ", points, " points is given ", shares.size(), " weights"};
+  if (std::ranges::any_of(shares, [](double weight) { return !(weight >= 0.0 && std::isfinite(weight)); }))
     throw error("the weights of an alignment must be finite and not negative");
-  if ((given.array() > 0.0).count() < 3)
-    throw error("an alignment needs three points of positive weight, not " +
-                std::to_string((given.array() > 0.0).count()));
-  return given / given.maxCoeff() / (given / given.maxCoeff()).sum();
+  const auto positive = std::ranges::count_if(shares, [](double weight) { return weight > 0.0; });
+  if (positive < 3) throw error{"an alignment needs three points of positive weight, not ", positive};
+  shares /= shares.maxCoeff();  // whose sum does not overflow
+  shares /= shares.sum();
+  return shares;
+}
+
+/// The sum of a_i b_i' over the columns.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d sum_of_outer_products(const point_columns& a, const point_columns& b) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (Eigen::Index v = 0; v < a.cols(); ++v)
+    for (Eigen::Index j = 0; j < 3; ++j)
+      for (Eigen::Index i = 0; i < 3; ++i) sum(i, j) += a(i, v) * b(j, v);
+  return sum;
 }
 
 GONIO_INLINE double centroid_size(const point_columns& points) {
-  const Eigen::Vector3d centroid = points.rowwise().mean();
-  return (points.colwise() - centroid).norm();
+  const Eigen::Vector3d centroid = centroid_of(points);
+  double sum = 0.0;
+  for (Eigen::Index v = 0; v < points.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) sum += (points(i, v) - centroid[i]) * (points(i, v) - centroid[i]);
+  return std::sqrt(sum);
 }
 
 }  // namespace gonio::detail
@@ -53,18 +101,19 @@ namespace gonio {
 GONIO_INLINE similarity_transform align(const point_columns& from, const point_columns& onto, alignment_kind kind,
                                         const Eigen::VectorXd& weights) {
   if (from.cols() != onto.cols())
-    throw error("an alignment needs corresponded points, not " + std::to_string(from.cols()) + " and " +
-                std::to_string(onto.cols()));
+    throw error{"an alignment needs corresponded points, not ", from.cols(), " and ", onto.cols()};
   if (!from.allFinite() || !onto.allFinite()) throw error("the points of an alignment must be finite");
   const Eigen::VectorXd shares = detail::weight_shares(weights, from.cols());
   const detail::centred_points source(from, shares), target(onto, shares);
-  const Eigen::Matrix3d covariance = target.scaled * source.scaled.transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(detail::sum_of_outer_products(target.scaled, source.scaled),
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
   if (svd.info() != Eigen::Success) throw error("the points of an alignment are too far apart to be squared");
   Eigen::Vector3d singular = svd.singularValues();
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs[2] = -1.0;
-  singular = singular.cwiseProduct(signs);
+  Eigen::Matrix3d left = svd.matrixU();
+  if (left.determinant() * svd.matrixV().determinant() < 0.0) {  // never a mirror image
+    singular[2] = -singular[2];
+    left.col(2) = -left.col(2);
+  }
   // How much the sum of squares rises with a small turn, about the axis about which it rises least.
   const double stiffness = singular[1] + singular[2];
   constexpr double undetermined = 1e-9;
@@ -72,7 +121,7 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
     throw error("the points of an alignment leave the rotation undetermined: do they lie on a line?");
 
   similarity_transform found;
-  found.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  found.rotation = left * svd.matrixV().transpose();
   if (kind == alignment_kind::similarity) found.scale = singular.sum() / source.scaled.squaredNorm();
   found.translation = target.centroid - found.scale * (found.rotation * source.centroid);
   return found;
@@ -88,20 +137,21 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
     throw error("a Procrustes mean needs a positive tolerance and at least one iteration");
   for (std::size_t i = 1; i < shapes.size(); ++i)
     if (shapes[i].cols() != shapes[0].cols())
-      throw error("shape " + std::to_string(i) + " has " + std::to_string(shapes[i].cols()) +
-                  " points where the first has " + std::to_string(shapes[0].cols()));
+      throw error{"shape ", i, " has ", shapes[i].cols(), " points where the first has ", shapes[0].cols()};
 }
 
-GONIO_INLINE point_columns mean_of_shapes(const std::vector<point_columns>& shapes) {
+[[nodiscard]] GONIO_INLINE point_columns mean_of_shapes(const std::vector<point_columns>& shapes) {
   point_columns sum = shapes.front();
   for (std::size_t i = 1; i < shapes.size(); ++i) sum += shapes[i];
   return sum / static_cast<double>(shapes.size());
 }
 
+/// About its centroid.
 GONIO_INLINE void rescale(point_columns& shape, double size) {
-  const Eigen::Vector3d centroid = shape.rowwise().mean();
+  const Eigen::Vector3d centroid = centroid_of(shape);
   const double factor = size / centroid_size(shape);
-  shape = ((shape.colwise() - centroid) * factor).colwise() + centroid;
+  for (Eigen::Index v = 0; v < shape.cols(); ++v)
+    for (Eigen::Index i = 0; i < 3; ++i) shape(i, v) = centroid[i] + factor * (shape(i, v) - centroid[i]);
 }
 
 }  // namespace gonio::detail
@@ -128,8 +178,8 @@ GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& sh
     result.mean = std::move(mean);
     if (change <= options.tolerance * size) return result;
   }
-  throw error("a Procrustes mean of " + std::to_string(shapes.size()) + " shapes still changes after " +
-              std::to_string(options.most_iterations) + " iterations");
+  throw error{"a Procrustes mean of ", shapes.size(), " shapes still changes after ", options.most_iterations,
+              " iterations"};
 }
 
 }  // namespace gonio

@@ -12,12 +12,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 namespace gonio::detail {
 
-GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
+/// 2^40 steps between the least and the largest cost, of opposite sign as dlib maximises, with rows or columns of zeros
+/// to make a square: whoever is assigned there is left over, and all pay the same for it.
+[[nodiscard]] GONIO_INLINE dlib::matrix<std::int64_t> integer_gains(const Eigen::MatrixXd& costs) {
   constexpr double steps = 0x1p40;
   const auto size = static_cast<long>(std::max(costs.rows(), costs.cols()));
   dlib::matrix<std::int64_t> gains(size, size);
@@ -38,9 +39,7 @@ namespace gonio {
 GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs) {
   for (Eigen::Index j = 0; j < costs.cols(); ++j)
     for (Eigen::Index i = 0; i < costs.rows(); ++i)
-      if (!std::isfinite(costs(i, j)))
-        throw error("the cost of assigning row " + std::to_string(i) + " to column " + std::to_string(j) +
-                    " is not finite");
+      if (!std::isfinite(costs(i, j))) throw error{"the cost of assigning row ", i, " to column ", j, " is not finite"};
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.rows()), -1);
   if (costs.size() == 0) return columns;
   const std::vector<long> found = dlib::max_cost_assignment(detail::integer_gains(costs));

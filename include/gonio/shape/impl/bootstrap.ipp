@@ -2,19 +2,52 @@
 /// Bodies of shape/bootstrap.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/shape/bootstrap.hpp>
 #include <gonio/shape/registration.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 
+#include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+namespace gonio {
+
+GONIO_INLINE std::size_t bootstrap_result::accepted() const {
+  return static_cast<std::size_t>(std::ranges::count_if(outcomes, &bootstrap_outcome::accepted));
+}
+
+}  // namespace gonio
+
 namespace gonio::detail {
+
+/// Shapes and their names, which a model is learned from again and again.
+class growing_model {
+ public:
+  growing_model(std::vector<point_columns> shapes, std::vector<std::string> names, triangle_columns triangles,
+                thread_count threads);
+
+  [[nodiscard]] const shape_model& model() const noexcept { return model_; }
+
+  void add(std::string name, point_columns shape);
+
+  /// How many shapes it has not learned from yet, as a share of those that it has.
+  [[nodiscard]] double unlearned() const {
+    return static_cast<double>(shapes_.size()) / static_cast<double>(model_.shapes()) - 1.0;
+  }
+
+  void learn() { model_ = learn_shape_model(shapes_, names_, model_.triangles(), threads_); }
+
+ private:
+  std::vector<point_columns> shapes_;
+  std::vector<std::string> names_;
+  thread_count threads_;
+  shape_model model_;
+};
 
 GONIO_INLINE growing_model::growing_model(std::vector<point_columns> shapes, std::vector<std::string> names,
                                           triangle_columns triangles, thread_count threads)
@@ -28,9 +61,10 @@ GONIO_INLINE void growing_model::add(std::string name, point_columns shape) {
   shapes_.push_back(std::move(shape));
 }
 
-GONIO_INLINE bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
-                                       const triangle_mesh& scan, const bootstrap_options& options,
-                                       thread_count threads) {
+/// One attempt at a scan.
+[[nodiscard]] GONIO_INLINE bootstrap_outcome attempt(const shape_model& model, const shape_context_matcher& matcher,
+                                                     const triangle_mesh& scan, const bootstrap_options& options,
+                                                     thread_count threads) {
   bootstrap_outcome outcome;
   try {
     const pre_alignment aligned = matcher.align(scan, threads);

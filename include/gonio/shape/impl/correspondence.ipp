@@ -8,10 +8,21 @@
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/surface_index.hpp>
 
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 namespace gonio {
+
+GONIO_INLINE surface_point posed_scan::closest(const Eigen::Vector3d& point) const {
+  return placed(surface.closest(pose.inverse()(point)));
+}
+
+GONIO_INLINE Eigen::Vector3d posed_scan::normal(const surface_point& place) const {
+  return pose.rotation * surface.pseudonormal(place);
+}
 
 GONIO_INLINE std::optional<surface_point> posed_scan::along(const Eigen::Vector3d& point, const Eigen::Vector3d& line,
                                                             double reach) const {
@@ -23,8 +34,10 @@ GONIO_INLINE std::optional<surface_point> posed_scan::along(const Eigen::Vector3
 
 GONIO_INLINE double posed_scan::trust_at(const surface_point& place) const {
   if (trust.size() == 0) return 1.0;
-  const Eigen::Vector3i corners = surface.mesh().triangles.col(place.triangle);
-  return trust(corners).dot(place.barycentric);
+  double sum = 0.0;
+  for (Eigen::Index corner = 0; corner < 3; ++corner)
+    sum += place.barycentric[corner] * trust[surface.mesh().triangles(corner, place.triangle)];
+  return sum;
 }
 
 GONIO_INLINE surface_point posed_scan::placed(surface_point found) const {
@@ -36,7 +49,7 @@ GONIO_INLINE surface_point posed_scan::placed(surface_point found) const {
 GONIO_INLINE known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
                                            const std::vector<char>& shown, double tangential) {
   known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
-  found.normals = normals(Eigen::all, found.vertices);
+  found.normals = chosen_columns(normals, found.vertices);
   found.tangential = tangential;
   return found;
 }
@@ -63,7 +76,9 @@ GONIO_INLINE known_vertices closest_places(const posed_scan& scan, const triangl
       },
       threads);
   known_vertices known = shown_vertices(places, normals, shown, options.tangential);
-  known.trust = trust(known.vertices);
+  known.trust.resize(known.positions.cols());
+  for (std::size_t i = 0; i < known.vertices.size(); ++i)
+    known.trust[static_cast<Eigen::Index>(i)] = trust[known.vertices[i]];
   return known;
 }
 

@@ -2,17 +2,20 @@
 /// Bodies of shape/cross_validated_uncertainty.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 #include <gonio/shape/surface_noise.hpp>
+#include <gonio/solve/dense.hpp>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -20,53 +23,31 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::detail {
 
-GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shape_model& model,
-                                                                      const surface_index& scan,
-                                                                      const recovered_shape& recovered,
-                                                                      const cross_validation_options& options,
-                                                                      thread_count threads) {
-  require_trials(model, options);
-  const std::vector<point_columns> errors =
-      errors_of_trials(model, noise_of(scan), marks_of(recovered.known, model.vertices()), options, threads);
-  if (errors.size() < least_trials)
-    throw error("of " + std::to_string(options.trials) + " shapes that were left out " + std::to_string(errors.size()) +
-                " were recovered, expected at least " + std::to_string(least_trials) + ": the scan shows too little");
-  trials_ = errors.size();
-  covariances_.reserve(static_cast<std::size_t>(model.vertices()));
-  for (Eigen::Index vertex = 0; vertex < model.vertices(); ++vertex) add_vertex(errors, vertex);
-  std::ranges::sort(squared_distances_);
-}
+inline constexpr std::size_t least_trials = 10;
 
-GONIO_INLINE double cross_validated_uncertainty::squared_radius(double share) const {
-  if (!(share > 0.0 && share < 1.0))
-    throw error("a share of vertices must be above 0 and below 1, not " + std::to_string(share));
-  const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
-  const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
-  return squared_distances_[static_cast<std::size_t>(place) - 1];
-}
-
-GONIO_INLINE void cross_validated_uncertainty::require_trials(const shape_model& model,
-                                                              const cross_validation_options& options) {
+GONIO_INLINE void require_trials(const shape_model& model, const cross_validation_options& options) {
   const std::size_t shapes = model.shapes();
   if (options.trials < least_trials || options.trials > shapes)
-    throw error("from " + std::to_string(least_trials) + " to " + std::to_string(shapes) +
-                " shapes can be left out, not " + std::to_string(options.trials));
+    throw error{"from ", least_trials, " to ", shapes, " shapes can be left out, not ", options.trials};
   if (options.parts < 2 || shapes < options.parts || shapes - (shapes + options.parts - 1) / options.parts < 2)
-    throw error(std::to_string(shapes) + " shapes cannot be left out in " + std::to_string(options.parts) +
-                " parts: expected at least 2, of which each leaves at least 2 shapes");
+    throw error{shapes, " shapes cannot be left out in ", options.parts,
+                " parts: expected at least 2, of which each leaves at least 2 shapes"};
 }
 
-GONIO_INLINE double cross_validated_uncertainty::noise_of(const surface_index& scan) {
+/// The noise of a scan, mm: where it is as noisy as in most places.
+[[nodiscard]] GONIO_INLINE double noise_of(const surface_index& scan) {
   Eigen::RowVectorXd variances = noise_variances(scan.mesh(), scan.topology());
-  const auto middle = variances.begin() + variances.size() / 2;
-  std::nth_element(variances.begin(), middle, variances.end());
+  double* const middle = variances.data() + variances.size() / 2;
+  std::nth_element(variances.data(), middle, variances.data() + variances.size());
   return std::sqrt(*middle);
 }
 
-GONIO_INLINE std::vector<shape_model> cross_validated_uncertainty::models_without_parts(
-    const shape_model& model, const std::vector<point_columns>& shapes, std::size_t parts, thread_count threads) {
+/// The models of all shapes but those of one part.
+[[nodiscard]] GONIO_INLINE std::vector<shape_model> models_without_parts(const shape_model& model,
+                                                                         const std::vector<point_columns>& shapes,
+                                                                         std::size_t parts, thread_count threads) {
   std::vector<shape_model> models;
   for (std::size_t part = 0; part < parts; ++part) {
     std::vector<point_columns> others;
@@ -81,11 +62,10 @@ GONIO_INLINE std::vector<shape_model> cross_validated_uncertainty::models_withou
   return models;
 }
 
-GONIO_INLINE std::optional<point_columns> cross_validated_uncertainty::error_of(const shape_model& others,
-                                                                                const point_columns& shape,
-                                                                                const std::vector<bool>& shown,
-                                                                                double noise, std::uint64_t seed,
-                                                                                const recovery_options& options) {
+/// What is off when a shape is recovered by others; nothing if hardly any of its vertices are found on it.
+[[nodiscard]] GONIO_INLINE std::optional<point_columns> error_of(const shape_model& others, const point_columns& shape,
+                                                                 const std::vector<bool>& shown, double noise,
+                                                                 std::uint64_t seed, const recovery_options& options) {
   triangle_mesh noisy = others.mesh(shape);
   const point_columns normals = vertex_normals(noisy);
   std::mt19937_64 generator(seed);
@@ -107,12 +87,13 @@ GONIO_INLINE std::optional<point_columns> cross_validated_uncertainty::error_of(
   }
 }
 
-GONIO_INLINE std::vector<point_columns> cross_validated_uncertainty::errors_of_trials(
-    const shape_model& model, double noise, const std::vector<bool>& shown, const cross_validation_options& options,
-    thread_count threads) {
+[[nodiscard]] GONIO_INLINE std::vector<point_columns> errors_of_trials(const shape_model& model, double noise,
+                                                                       const std::vector<bool>& shown,
+                                                                       const cross_validation_options& options,
+                                                                       thread_count threads) {
   std::vector<point_columns> shapes;
-  for (const auto& weights : model.basis().coefficients().rowwise())
-    shapes.push_back(shape_of(model.basis(), weights.transpose().cast<double>()));
+  for (std::size_t shape = 0; shape < model.shapes(); ++shape)
+    shapes.push_back(shape_of(model.basis(), model.basis().weights_of(shape)));
   const std::vector<shape_model> models = models_without_parts(model, shapes, options.parts, threads);
   std::vector<std::optional<point_columns>> found(options.trials);
   for_each_block(
@@ -129,15 +110,49 @@ GONIO_INLINE std::vector<point_columns> cross_validated_uncertainty::errors_of_t
   return errors;
 }
 
+}  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shape_model& model,
+                                                                      const surface_index& scan,
+                                                                      const recovered_shape& recovered,
+                                                                      const cross_validation_options& options,
+                                                                      thread_count threads) {
+  detail::require_trials(model, options);
+  const std::vector<point_columns> errors = detail::errors_of_trials(
+      model, detail::noise_of(scan), marks_of(recovered.known, model.vertices()), options, threads);
+  if (errors.size() < detail::least_trials)
+    throw error{"of ",
+                options.trials,
+                " shapes that were left out ",
+                errors.size(),
+                " were recovered, expected at least ",
+                detail::least_trials,
+                ": the scan shows too little"};
+  trials_ = errors.size();
+  covariances_.reserve(static_cast<std::size_t>(model.vertices()));
+  for (Eigen::Index vertex = 0; vertex < model.vertices(); ++vertex) add_vertex(errors, vertex);
+  std::ranges::sort(squared_distances_);
+}
+
+GONIO_INLINE double cross_validated_uncertainty::squared_radius(double share) const {
+  if (!(share > 0.0 && share < 1.0)) throw error{"a share of vertices must be above 0 and below 1, not ", share};
+  const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
+  const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
+  return squared_distances_[static_cast<std::size_t>(place) - 1];
+}
+
 GONIO_INLINE void cross_validated_uncertainty::add_vertex(const std::vector<point_columns>& errors,
                                                           Eigen::Index vertex) {
   const auto n = static_cast<double>(errors.size());
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const point_columns& one : errors) sum += one.col(vertex) * one.col(vertex).transpose();
-  covariances_.push_back(sum / n);
-  const Eigen::LLT<Eigen::Matrix3d> factors(sum);
-  for (const point_columns& one : errors) {
-    const double with_itself = one.col(vertex).dot(factors.solve(one.col(vertex)));
+  Eigen::MatrixXd off(3, static_cast<Eigen::Index>(errors.size()));
+  for (Eigen::Index trial = 0; trial < off.cols(); ++trial)
+    off.col(trial) = errors[static_cast<std::size_t>(trial)].col(vertex);
+  const Eigen::MatrixXd sum = product_with_transpose(off), whitened = cholesky(sum).solve_lower(off);
+  covariances_.emplace_back(sum / n);
+  for (Eigen::Index trial = 0; trial < off.cols(); ++trial) {
+    const double with_itself = whitened.col(trial).squaredNorm();
     // By the covariance of the others, (sum - e e') / (n - 1): Sherman and Morrison.
     squared_distances_.push_back((n - 1.0) * with_itself / std::max(1.0 - with_itself, 1e-12));
   }

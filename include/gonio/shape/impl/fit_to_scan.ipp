@@ -2,6 +2,9 @@
 /// Bodies of shape/fit_to_scan.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/shape_model.hpp>
@@ -9,11 +12,13 @@
 #include <gonio/shape/surface_noise.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -21,16 +26,27 @@ namespace gonio {
 
 GONIO_INLINE point_columns fit_to_scan_result::shape() const {
   Eigen::VectorXd still = fit.weights();
-  still.tail<motions>().setZero();
+  for (Eigen::Index i = still.size() - motions; i < still.size(); ++i) still[i] = 0.0;
   return shape_of(fit.functions(), still);
 }
+
+GONIO_INLINE Eigen::VectorXd fit_to_scan_result::weights() const {
+  const Eigen::VectorXd all = fit.weights();
+  return all.head(all.size() - motions);
+}
+
+GONIO_INLINE double fit_to_scan_result::squared_distance() const {
+  return squared_mahalanobis(fit.functions(), weights());
+}
+
+GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return {fit, places, solver}; }
 
 GONIO_INLINE void require_shown(const known_vertices& places, const shape_model& model) {
   constexpr std::size_t least = 10;
   if (places.vertices.size() < least)
-    throw error("the scan shows " + std::to_string(places.vertices.size()) + " of the model's " +
-                std::to_string(model.vertices()) + " vertices, expected at least " + std::to_string(least) +
-                ": is its pose right?");
+    throw error{"the scan shows ",     places.vertices.size(),          " of the model's ",
+                model.vertices(),      " vertices, expected at least ", least,
+                ": is its pose right?"};
 }
 
 }  // namespace gonio
@@ -38,28 +54,56 @@ GONIO_INLINE void require_shown(const known_vertices& places, const shape_model&
 namespace gonio::detail {
 
 GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement) {
-  const Eigen::VectorXd distances =
-      (places.positions - shape(Eigen::all, places.vertices)).colwise().norm().transpose();
-  std::vector<double> sorted(distances.begin(), distances.end());
+  std::vector<double> distances;
+  distances.reserve(places.vertices.size());
+  for (const Eigen::Index vertex : places.vertices) {
+    const Eigen::Vector3d off = places.positions.col(std::ssize(distances)) - shape.col(vertex);
+    distances.push_back(off.norm());
+  }
+  std::vector<double> sorted = distances;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
   const double usual = 3.0 * std::max(misplacement, *middle);
-  return (1.0 + (distances.array() / usual).square()).square().inverse();
+  Eigen::VectorXd trust(places.positions.cols());
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;
+    trust[static_cast<Eigen::Index>(i)] = 1.0 / (root * root);
+  }
+  return trust;
 }
 
-GONIO_INLINE Eigen::RowVectorXd trust_in_surface(const surface_index& scan, double misplacement) {
-  const Eigen::RowVectorXd noise = noise_variances(scan.mesh(), scan.topology());
-  return (1.0 + noise.array() / (misplacement * misplacement)).inverse();
+/// Where a scan is noisy, vertices are off by its noise besides their misplacement.
+[[nodiscard]] GONIO_INLINE Eigen::RowVectorXd trust_in_surface(const surface_index& scan, double misplacement) {
+  Eigen::RowVectorXd trust = noise_variances(scan.mesh(), scan.topology());
+  for (double& noise : trust) noise = 1.0 / (1.0 + noise / (misplacement * misplacement));
+  return trust;
 }
 
-GONIO_INLINE similarity_transform motion_of(const Eigen::VectorXd& weights, const point_columns& shape,
-                                            double freedom) {
-  const Eigen::Vector3d centroid = shape.rowwise().mean();
-  const Eigen::Vector3d turn = freedom * weights.tail<6>().head<3>(), shift = freedom * weights.tail<3>();
+/// The rigid motion that the last weights of a basis `with_motion` of a shape stand for.
+[[nodiscard]] GONIO_INLINE similarity_transform motion_of(const Eigen::VectorXd& weights, const point_columns& shape,
+                                                          double freedom) {
+  const Eigen::Index first = weights.size() - motions;
+  Eigen::Vector3d turn, shift;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    turn[axis] = freedom * weights[first + axis];
+    shift[axis] = freedom * weights[first + 3 + axis];
+  }
   const double angle = turn.norm();
-  const Eigen::Matrix3d rotation = angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix()
-                                               : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-  return {1.0, rotation, centroid + shift - rotation * centroid};
+  similarity_transform motion;
+  if (angle > 0.0) motion.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  const Eigen::Vector3d centroid = centroid_of(shape);
+  motion.translation = centroid + shift - motion.rotation * centroid;
+  return motion;
+}
+
+/// The places of a posed scan that a shape has, and how far to trust them.
+[[nodiscard]] GONIO_INLINE known_vertices trusted_places(const posed_scan& scan, const triangle_mesh& shape,
+                                                         const fit_to_scan_options& options, thread_count threads) {
+  known_vertices places = closest_places(scan, shape, options.correspondence, threads);
+  if (!options.robust || places.vertices.empty()) return places;
+  const Eigen::VectorXd trust = trust_in(places, shape.vertices, options.misplacement);
+  for (Eigen::Index i = 0; i < trust.size(); ++i) places.trust[i] *= trust[i];
+  return places;
 }
 
 }  // namespace gonio::detail
@@ -77,9 +121,8 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
   posed_scan posed{scan, pose, detail::trust_in_surface(scan, options.misplacement)};
   for (int iteration = 1;; ++iteration) {
-    known_vertices places = closest_places(posed, shape, options.correspondence, threads);
+    known_vertices places = detail::trusted_places(posed, shape, options, threads);
     require_shown(places, part);
-    if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
     fitted_shape fit = decomposition{with_motion(part.basis(), shape.vertices, freedom), solver, threads}.fit(places);
     // The scan moves, not the shape.
     posed.pose = detail::motion_of(fit.weights(), shape.vertices, freedom).inverse() * posed.pose;
@@ -87,8 +130,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
     const double change = (vertices - shape.vertices).norm();
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
-    places = closest_places(posed, shape, options.correspondence, threads);
-    if (options.robust) places.trust.array() *= detail::trust_in(places, shape.vertices, options.misplacement).array();
+    places = detail::trusted_places(posed, shape, options, threads);
     return {posed.pose, std::move(fit), std::move(places), solver, iteration};
   }
 }

@@ -2,15 +2,17 @@
 /// Bodies of shape/fitted_shape.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/estimate/decomposition.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/shape_basis.hpp>
+#include <gonio/table/location.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,7 +22,7 @@ GONIO_INLINE known_vertices known_vertices::marked(const point_columns& shape, c
   known_vertices found;
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v]) found.vertices.push_back(static_cast<Eigen::Index>(v));
-  found.positions = shape(Eigen::all, found.vertices);
+  found.positions = chosen_columns(shape, found.vertices);
   return found;
 }
 
@@ -34,19 +36,21 @@ GONIO_INLINE std::vector<bool> marks_of(const known_vertices& known, Eigen::Inde
 
 namespace gonio::detail {
 
+/// x, y and z of a vertex as an estimator reads them, one in each direction; `axes` has a unit vector in each column.
 GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at) {
-  for (const auto& axis : axes.colwise()) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
     location along;
     along.count = 3;
     for (int i = 0; i < 3; ++i) {
       along.cell[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(3 * vertex + i);
-      along.weight[static_cast<std::size_t>(i)] = axis[i];
+      along.weight[static_cast<std::size_t>(i)] = axes(i, axis);
     }
     at.push_back(along);
   }
 }
 
-GONIO_INLINE Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal) {
+/// The normal and two directions across it.
+[[nodiscard]] GONIO_INLINE Eigen::Matrix3d axes_about(const Eigen::Vector3d& normal) {
   Eigen::Matrix3d axes;
   axes.col(0) = normal;
   axes.col(1) = normal.unitOrthogonal();
@@ -59,18 +63,21 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const kno
   if (count == 0) throw error("no vertex is known: there is nothing to predict a shape from");
   const auto none_or_all = [&](Eigen::Index size) { return size == 0 || size == count; };
   if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.trust.size()))
-    throw error(std::to_string(count) + " known vertices have " + std::to_string(known.positions.cols()) +
-                " positions, " + std::to_string(known.normals.cols()) + " normals and " +
-                std::to_string(known.trust.size()) + " weights");
+    throw error{count,
+                " known vertices have ",
+                known.positions.cols(),
+                " positions, ",
+                known.normals.cols(),
+                " normals and ",
+                known.trust.size(),
+                " weights"};
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index vertex = known.vertices[static_cast<std::size_t>(i)];
     if (vertex < 0 || vertex >= static_cast<Eigen::Index>(coordinates.vertices))
-      throw error("vertex " + std::to_string(vertex) + " is known of shapes of " +
-                  std::to_string(coordinates.vertices) + " vertices");
-    if (!known.positions.col(i).allFinite())
-      throw error("the position of known vertex " + std::to_string(vertex) + " is not finite");
+      throw error{"vertex ", vertex, " is known of shapes of ", coordinates.vertices, " vertices"};
+    if (!known.positions.col(i).allFinite()) throw error{"the position of known vertex ", vertex, " is not finite"};
     if (known.normals.cols() != 0 && !(std::abs(known.normals.col(i).norm() - 1.0) < 1e-6))
-      throw error("the normal at known vertex " + std::to_string(vertex) + " does not have length 1");
+      throw error{"the normal at known vertex ", vertex, " does not have length 1"};
   }
 }
 
@@ -90,11 +97,13 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     if (known.normals.cols() != 0) {
       axes = detail::axes_about(known.normals.col(column));
-      found.weights.segment<2>(3 * column + 1).setConstant(known.tangential);
+      found.weights[3 * column + 1] = found.weights[3 * column + 2] = known.tangential;
     }
-    if (known.trust.size() != 0) found.weights.segment<3>(3 * column) *= known.trust[column];
     detail::locate_along(axes, known.vertices[i], found.at);
-    found.values.col(0).segment<3>(3 * column) = axes.transpose() * known.positions.col(column);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      if (known.trust.size() != 0) found.weights[3 * column + axis] *= known.trust[column];
+      found.values(3 * column + axis, 0) = axes.col(axis).dot(known.positions.col(column));
+    }
   }
   return found;
 }
@@ -102,15 +111,16 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
 GONIO_INLINE fitted_shape::fitted_shape(shape_basis basis, solution found)
     : basis_(std::move(basis)), found_(std::move(found)) {
   if (found_.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found_.weights.cols() != 1)
-    throw error("a shape of " + std::to_string(basis_.size()) + " functions needs as many weights");
+    throw error{"a shape of ", basis_.size(), " functions needs as many weights"};
 }
 
 GONIO_INLINE Eigen::Vector3d fitted_shape::vertex(Eigen::Index number) const {
   Eigen::Vector3d position;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Eigen::Index coordinate = 3 * number + axis;
-    position[axis] = basis_.offset(static_cast<std::size_t>(coordinate)) +
-                     basis_.components().row(coordinate).cast<double>().dot(found_.weights.col(0));
+    position[axis] = basis_.offset(static_cast<std::size_t>(coordinate));
+    for (Eigen::Index i = 0; i < found_.weights.rows(); ++i)
+      position[axis] += basis_.components()(coordinate, i) * found_.weights(i, 0);
   }
   return position;
 }

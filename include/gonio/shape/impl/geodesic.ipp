@@ -2,17 +2,50 @@
 /// Bodies of shape/geodesic.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/geodesic.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 
 #include <algorithm>
-#include <concepts>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <queue>
-#include <string>
 #include <utility>
 #include <vector>
+
+namespace gonio::detail {
+
+/// Calls `arrive(vertex, distance)` once for each vertex that can be reached from the source, in the order of
+/// distances, until it returns false.
+GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& topology, Eigen::Index source,
+                             const std::function<bool(Eigen::Index vertex, double distance)>& arrive) {
+  if (mesh.vertices.cols() != topology.vertices())
+    throw error{"a mesh of ", mesh.vertices.cols(), " vertices has a topology of ", topology.vertices()};
+  if (source < 0 || source >= topology.vertices())
+    throw error{"vertex ", source, " to walk from is none of a mesh of ", topology.vertices()};
+  if (!mesh.vertices.allFinite()) throw error("a mesh to walk on has a vertex that is not finite");
+  using step = std::pair<double, Eigen::Index>;
+  std::priority_queue<step, std::vector<step>, std::greater<>> pending;
+  Eigen::VectorXd distances = Eigen::VectorXd::Constant(topology.vertices(), std::numeric_limits<double>::infinity());
+  distances[source] = 0.0;
+  pending.emplace(0.0, source);
+  while (!pending.empty()) {
+    const auto [distance, vertex] = pending.top();
+    pending.pop();
+    if (distance > distances[vertex]) continue;  // was reached by a shorter path
+    if (!arrive(vertex, distance)) return;
+    for (const int neighbour : topology.neighbours(vertex)) {
+      const Eigen::Vector3d edge = mesh.vertices.col(neighbour) - mesh.vertices.col(vertex);
+      const double further = distance + edge.norm();
+      if (!(further < distances[neighbour])) continue;
+      distances[neighbour] = further;
+      pending.emplace(further, neighbour);
+    }
+  }
+}
+
+}  // namespace gonio::detail
 
 namespace gonio {
 
@@ -24,6 +57,25 @@ GONIO_INLINE Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const
     return true;
   });
   return distances;
+}
+
+GONIO_INLINE std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh& mesh, const mesh_topology& topology,
+                                                             Eigen::Index source,
+                                                             const std::function<bool(Eigen::Index)>& is_candidate,
+                                                             std::size_t count) {
+  std::vector<std::pair<double, Eigen::Index>> found;
+  detail::walk_edges(mesh, topology, source, [&](Eigen::Index vertex, double distance) {
+    // All as far as the last one, which may have lower numbers.
+    if (found.size() >= count && (count == 0 || distance > found[count - 1].first)) return false;
+    if (is_candidate(vertex)) found.emplace_back(distance, vertex);
+    return true;
+  });
+  std::ranges::sort(found);
+  found.resize(std::min(found.size(), count));
+  std::vector<Eigen::Index> nearest;
+  nearest.reserve(found.size());
+  for (const auto& [distance, vertex] : found) nearest.push_back(vertex);
+  return nearest;
 }
 
 }  // namespace gonio

@@ -2,21 +2,25 @@
 /// Bodies of shape/hole_filling.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/shape/hole_filling.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
-GONIO_INLINE std::vector<int> along_border(const mesh_topology& topology, Eigen::Index vertex) {
+/// The neighbours along the border of a vertex on it: there are two. All its neighbours if that does not come out,
+/// where three edges are a ring but no triangle.
+[[nodiscard]] GONIO_INLINE std::vector<int> along_border(const mesh_topology& topology, Eigen::Index vertex) {
   const auto neighbours = topology.neighbours(vertex);
   std::vector<int> along, common;
   for (const int other : neighbours) {
@@ -29,38 +33,41 @@ GONIO_INLINE std::vector<int> along_border(const mesh_topology& topology, Eigen:
   return {neighbours.begin(), neighbours.end()};
 }
 
-GONIO_INLINE Eigen::SparseMatrix<double> umbrella_rows(const mesh_topology& topology) {
-  std::vector<Eigen::Triplet<double>> entries;
+/// A vertex and what its position is multiplied by.
+struct vertex_share {
+  int vertex;
+  double share;
+};
+
+/// The vertices' shares in a vector that should be short: the energy is the sum of its square over all terms.
+using energy_term = std::vector<vertex_share>;
+
+/// How far the middle of each vertex's neighbours is from it. On a border the neighbours are those along it: the middle
+/// of all is inwards even of a plane, which would hold back surfaces that are continued to their end.
+[[nodiscard]] GONIO_INLINE std::vector<energy_term> umbrella_terms(const mesh_topology& topology) {
+  std::vector<energy_term> terms;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v) {
     const auto all = topology.neighbours(v);
     const std::vector<int> around =
         topology.on_border(v) ? along_border(topology, v) : std::vector<int>(all.begin(), all.end());
     if (around.empty()) continue;  // in no triangle
-    entries.emplace_back(static_cast<int>(v), static_cast<int>(v), -1.0);
-    for (const int other : around)
-      entries.emplace_back(static_cast<int>(v), other, 1.0 / static_cast<double>(around.size()));
+    energy_term term{{static_cast<int>(v), -1.0}};
+    for (const int other : around) term.push_back({other, 1.0 / static_cast<double>(around.size())});
+    terms.push_back(std::move(term));
   }
-  Eigen::SparseMatrix<double> rows(topology.vertices(), topology.vertices());
-  rows.setFromTriplets(entries.begin(), entries.end());
-  return rows;
+  return terms;
 }
 
-GONIO_INLINE Eigen::SparseMatrix<double> energy_matrix(const mesh_topology& topology, smoothness kind) {
-  if (kind == smoothness::thin_plate) {
-    const Eigen::SparseMatrix<double> rows = umbrella_rows(topology);
-    return rows.transpose() * rows;
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index v = 0; v < topology.vertices(); ++v) {
-    const auto around = topology.neighbours(v);
-    entries.emplace_back(static_cast<int>(v), static_cast<int>(v), static_cast<double>(around.size()));
-    for (const int other : around) entries.emplace_back(static_cast<int>(v), other, -1.0);
-  }
-  Eigen::SparseMatrix<double> laplacian(topology.vertices(), topology.vertices());
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  return laplacian;
+/// How far each vertex is from each of its neighbours with a higher number.
+[[nodiscard]] GONIO_INLINE std::vector<energy_term> edge_terms(const mesh_topology& topology) {
+  std::vector<energy_term> terms;
+  for (Eigen::Index v = 0; v < topology.vertices(); ++v)
+    for (const int other : topology.neighbours(v))
+      if (other > v) terms.push_back({{static_cast<int>(v), 1.0}, {other, -1.0}});
+  return terms;
 }
 
+/// Throws gonio::error at the first vertex that no known one is joined to by edges.
 GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<bool> reached) {
   std::vector<Eigen::Index> pending;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v)
@@ -77,18 +84,38 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
   }
   const auto lost = std::ranges::find(reached, false);
   if (lost != reached.end())
-    throw error("vertex " + std::to_string(lost - reached.begin()) +
-                " cannot be filled in: no known vertex is in its part of the mesh");
+    throw error{"vertex ", lost - reached.begin(), " cannot be filled in: no known vertex is in its part of the mesh"};
 }
 
-GONIO_INLINE Eigen::SparseMatrix<double> columns_at(const Eigen::SparseMatrix<double>& matrix,
-                                                    const std::vector<Eigen::Index>& places) {
-  Eigen::SparseMatrix<double> chosen(matrix.cols(), static_cast<Eigen::Index>(places.size()));
-  std::vector<Eigen::Triplet<double>> ones;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    ones.emplace_back(static_cast<int>(places[i]), static_cast<int>(i), 1.0);
-  chosen.setFromTriplets(ones.begin(), ones.end());
-  return matrix * chosen;
+/// The linear system of the missing vertices, numbered in their order: the lower triangle of a symmetric matrix, and
+/// what the known vertices pull by, x, y and z of each missing one in a row.
+struct filling_system {
+  Eigen::SparseMatrix<double> matrix;
+  Eigen::MatrixXd rhs;
+};
+
+[[nodiscard]] GONIO_INLINE filling_system system_of(const std::vector<energy_term>& terms, const point_columns& points,
+                                                    const std::vector<Eigen::Index>& missing) {
+  std::vector<int> number(static_cast<std::size_t>(points.cols()), -1);  // among the missing
+  for (std::size_t i = 0; i < missing.size(); ++i) number[static_cast<std::size_t>(missing[i])] = static_cast<int>(i);
+  const auto count = static_cast<Eigen::Index>(missing.size());
+  filling_system system{Eigen::SparseMatrix<double>(count, count), Eigen::MatrixXd::Zero(count, 3)};
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const energy_term& term : terms)
+    for (const vertex_share& one : term) {
+      const int row = number[static_cast<std::size_t>(one.vertex)];
+      if (row < 0) continue;
+      for (const vertex_share& other : term) {
+        const int column = number[static_cast<std::size_t>(other.vertex)];
+        const double product = one.share * other.share;
+        if (column < 0)
+          for (Eigen::Index axis = 0; axis < 3; ++axis) system.rhs(row, axis) -= product * points(axis, other.vertex);
+        else if (column <= row)
+          entries.emplace_back(row, column, product);
+      }
+    }
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
 }
 
 }  // namespace gonio::detail
@@ -99,30 +126,27 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
                                          const std::vector<bool>& known, smoothness kind) {
   const Eigen::Index vertices = topology.vertices();
   if (points.cols() != vertices || static_cast<Eigen::Index>(known.size()) != vertices)
-    throw error("a mesh of " + std::to_string(vertices) + " vertices has " + std::to_string(points.cols()) +
-                " points and " + std::to_string(known.size()) + " marks of known ones");
+    throw error{"a mesh of ",   vertices,     " vertices has ",      points.cols(),
+                " points and ", known.size(), " marks of known ones"};
   detail::require_reached(topology, known);
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < vertices; ++v) {
     const bool is_known = known[static_cast<std::size_t>(v)];
-    if (is_known && !points.col(v).allFinite())
-      throw error("the position of known vertex " + std::to_string(v) + " is not finite");
-    if (is_known) continue;
-    missing.push_back(v);
-    points.col(v).setZero();  // and leaves the right-hand side to the known ones
+    if (is_known && !points.col(v).allFinite()) throw error{"the position of known vertex ", v, " is not finite"};
+    if (!is_known) missing.push_back(v);
   }
   if (missing.empty()) return points;
 
-  const Eigen::SparseMatrix<double> energy = detail::energy_matrix(topology, kind),
-                                    columns = detail::columns_at(energy, missing), rows = columns.transpose(),
-                                    system = detail::columns_at(rows, missing);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(system);
+  const auto [matrix, rhs] = detail::system_of(
+      kind == smoothness::thin_plate ? detail::umbrella_terms(topology) : detail::edge_terms(topology), points,
+      missing);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
   const bool determined =
       factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 1e-12 * factors.vectorD().maxCoeff();
   if (!determined) throw error("the known vertices do not determine where the missing ones are");
-  const Eigen::MatrixXd right = -(rows * points.transpose()), filled = factors.solve(right);
+  const Eigen::MatrixXd filled = factors.solve(rhs);
   for (std::size_t i = 0; i < missing.size(); ++i)
-    points.col(missing[i]) = filled.row(static_cast<Eigen::Index>(i)).transpose();
+    for (Eigen::Index axis = 0; axis < 3; ++axis) points(axis, missing[i]) = filled(static_cast<Eigen::Index>(i), axis);
   return points;
 }
 

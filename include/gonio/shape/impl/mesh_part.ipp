@@ -10,11 +10,24 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
+
+/// The corners of triangles, three for each, in groups that are one vertex: those that an edge of two triangles joins.
+class joined_corners {
+ public:
+  explicit joined_corners(const triangle_columns& triangles);
+
+  [[nodiscard]] std::size_t group_of(std::size_t corner) const;
+
+ private:
+  [[nodiscard]] static std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+  void join(std::size_t first, std::size_t second) { parent_[group_of(first)] = group_of(second); }
+
+  std::vector<std::size_t> parent_;
+};
 
 GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles)
     : parent_(static_cast<std::size_t>(triangles.size())) {
@@ -42,14 +55,15 @@ namespace gonio {
 
 GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked) {
   if (marked.size() != static_cast<std::size_t>(mesh.vertices.cols()))
-    throw error(std::to_string(marked.size()) + " marks for the " + std::to_string(mesh.vertices.cols()) +
-                " vertices of a mesh");
+    throw error{marked.size(), " marks for the ", mesh.vertices.cols(), " vertices of a mesh"};
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[static_cast<std::size_t>(v)]}; }))
       kept.push_back(t);
   if (kept.empty()) throw error("no triangle has three marked corners: nothing of the surface is left");
-  const triangle_columns triangles = mesh.triangles(Eigen::all, kept);
+  triangle_columns triangles(3, static_cast<Eigen::Index>(kept.size()));
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    triangles.col(static_cast<Eigen::Index>(i)) = mesh.triangles.col(kept[i]);
   const detail::joined_corners corners(triangles);
   std::map<std::size_t, int> numbers;
   std::vector<Eigen::Index> former;
@@ -60,7 +74,7 @@ GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<
     if (is_new) former.push_back(triangles(corner % 3, corner / 3));
     part.triangles(corner % 3, corner / 3) = place->second;
   }
-  part.vertices = mesh.vertices(Eigen::all, former);
+  part.vertices = chosen_columns(mesh.vertices, former);
   return part;
 }
 

@@ -7,14 +7,15 @@
 #include <gonio/shape/triangle_mesh.hpp>
 #include <gonio/table/image.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,20 @@ namespace gonio {
 GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vector3d& towards,
                                      const Eigen::Vector3d& up) {
   mesh_view view{towards, up};
-  view.centre = 0.5 * (mesh.vertices.rowwise().minCoeff() + mesh.vertices.rowwise().maxCoeff());
-  view.radius = 1.02 * (mesh.vertices.colwise() - view.centre).colwise().norm().maxCoeff();
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    double low = mesh.vertices(axis, 0), high = low;
+    for (Eigen::Index v = 1; v < mesh.vertices.cols(); ++v) {
+      low = std::min(low, mesh.vertices(axis, v));
+      high = std::max(high, mesh.vertices(axis, v));
+    }
+    view.centre[axis] = 0.5 * (low + high);
+  }
+  double farthest = 0.0;
+  for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
+    const Eigen::Vector3d away = mesh.vertices.col(v) - view.centre;
+    farthest = std::max(farthest, away.norm());
+  }
+  view.radius = 1.02 * farthest;
   return view;
 }
 
@@ -32,29 +45,36 @@ GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vec
 
 namespace gonio::detail {
 
+/// A picture and how near what it shows is.
+struct depth_picture {
+  image picture;
+  std::vector<double> nearest;
+};
+
+/// Draws one triangle, whose corners are (column, row, depth) with colours as columns.
 GONIO_INLINE void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
   const std::size_t pixels = onto.picture.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;
-  const Eigen::Vector2d low = corners.topRows<2>().rowwise().minCoeff(),
-                        high = corners.topRows<2>().rowwise().maxCoeff();
-  if (!(high.minCoeff() >= 0.0 && low.maxCoeff() <= last + 1.0)) return;
-  Eigen::Matrix3d edges;
-  edges << corners.topRows<2>(), Eigen::RowVector3d::Ones();
+  const auto [left, right] = std::minmax({corners(0, 0), corners(0, 1), corners(0, 2)});
+  const auto [top, bottom] = std::minmax({corners(1, 0), corners(1, 1), corners(1, 2)});
+  if (!(right >= 0.0 && bottom >= 0.0 && left <= last + 1.0 && top <= last + 1.0)) return;
+  Eigen::Matrix3d edges = corners;
+  for (Eigen::Index corner = 0; corner < 3; ++corner) edges(2, corner) = 1.0;
   if (!(std::abs(edges.determinant()) > 1e-12)) return;  // seen edge-on
   const Eigen::Matrix3d shares_of = edges.inverse();
-  const auto first_row = static_cast<std::size_t>(std::max(0.0, std::ceil(low.y() - 0.5)));
-  const auto first_column = static_cast<std::size_t>(std::max(0.0, std::ceil(low.x() - 0.5)));
-  for (std::size_t row = first_row; row < pixels && static_cast<double>(row) + 0.5 <= high.y(); ++row)
-    for (std::size_t column = first_column; column < pixels && static_cast<double>(column) + 0.5 <= high.x();
-         ++column) {
-      const Eigen::Vector3d shares =
-          shares_of * Eigen::Vector3d(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, 1.0);
+  const auto first_row = static_cast<std::size_t>(std::max(0.0, std::ceil(top - 0.5)));
+  const auto first_column = static_cast<std::size_t>(std::max(0.0, std::ceil(left - 0.5)));
+  for (std::size_t row = first_row; row < pixels && static_cast<double>(row) + 0.5 <= bottom; ++row)
+    for (std::size_t column = first_column; column < pixels && static_cast<double>(column) + 0.5 <= right; ++column) {
+      const Eigen::Vector3d middle(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5, 1.0),
+          shares = shares_of * middle;
       if (shares.minCoeff() < -1e-9) continue;
-      const double depth = corners.row(2).dot(shares);
+      const double depth = corners(2, 0) * shares[0] + corners(2, 1) * shares[1] + corners(2, 2) * shares[2];
       double& nearest = onto.nearest[row * pixels + column];
       if (!(depth < nearest)) continue;
       nearest = depth;
-      set_pixel(onto.picture, row, column, (colours * shares).array());
+      const Eigen::Vector3d colour = colours * shares;
+      set_pixel(onto.picture, row, column, colour.array());
     }
 }
 
@@ -64,29 +84,33 @@ namespace gonio {
 
 GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
   if (static_cast<Eigen::Index>(colours.size()) != mesh.vertices.cols())
-    throw error("a picture of " + std::to_string(mesh.vertices.cols()) + " vertices is given " +
-                std::to_string(colours.size()) + " colours");
+    throw error{"a picture of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"};
   const Eigen::Vector3d right = view.towards.cross(view.up);
   if (!(view.radius > 0.0 && view.pixels > 0 && right.norm() > 0.0))
     throw error("a picture of a mesh needs pixels, a radius and a direction that is not that of up");
-  Eigen::Matrix3d frame;  // right, down, away
-  frame.row(0) = right.normalized();
-  frame.row(2) = view.towards.normalized();
-  frame.row(1) = frame.row(2).cross(frame.row(0));
-  const auto pixels = static_cast<double>(view.pixels);
-  Eigen::Matrix3Xd seen = frame * (mesh.vertices.colwise() - view.centre) * (0.5 * pixels / view.radius);
-  seen.topRows<2>().array() += 0.5 * pixels;
-
+  const Eigen::Vector3d across = right / right.norm(), away = view.towards / view.towards.norm(),
+                        down = away.cross(across);
+  const double pixels = static_cast<double>(view.pixels), scale = 0.5 * pixels / view.radius;
   const point_columns normals = vertex_normals(mesh);
-  Eigen::Matrix3Xd lit(3, mesh.vertices.cols());
-  for (Eigen::Index v = 0; v < lit.cols(); ++v) {
-    const double facing = -frame.row(2).dot(normals.col(v));
-    lit.col(v) = colours[static_cast<std::size_t>(v)] * (facing >= 0.0 ? 0.15 + 0.85 * facing : 0.1 - 0.2 * facing);
+  point_columns seen(3, mesh.vertices.cols()), lit(3, mesh.vertices.cols());
+  for (Eigen::Index v = 0; v < seen.cols(); ++v) {
+    const Eigen::Vector3d from_centre = mesh.vertices.col(v) - view.centre, normal = normals.col(v);
+    seen(0, v) = scale * across.dot(from_centre) + 0.5 * pixels;
+    seen(1, v) = scale * down.dot(from_centre) + 0.5 * pixels;
+    seen(2, v) = scale * away.dot(from_centre);
+    const double facing = -away.dot(normal), light = facing >= 0.0 ? 0.15 + 0.85 * facing : 0.1 - 0.2 * facing;
+    for (Eigen::Index c = 0; c < 3; ++c) lit(c, v) = light * colours[static_cast<std::size_t>(v)][c];
   }
   detail::depth_picture drawn{uniform_image(view.pixels, view.pixels, view.background),
                               std::vector<double>(view.pixels * view.pixels, std::numeric_limits<double>::infinity())};
-  for (const auto& corners : mesh.triangles.colwise())
-    detail::draw_triangle(drawn, seen(Eigen::all, corners), lit(Eigen::all, corners));
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+    Eigen::Matrix3d corners, corner_colours;
+    for (Eigen::Index corner = 0; corner < 3; ++corner) {
+      corners.col(corner) = seen.col(mesh.triangles(corner, t));
+      corner_colours.col(corner) = lit.col(mesh.triangles(corner, t));
+    }
+    detail::draw_triangle(drawn, corners, corner_colours);
+  }
   return std::move(drawn.picture);
 }
 

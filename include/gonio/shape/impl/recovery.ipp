@@ -2,29 +2,41 @@
 /// Bodies of shape/recovery.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/shape/alignment.hpp>
 #include <gonio/shape/confidence.hpp>
+#include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/geodesic.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/solve/truncated_svd.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <string>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
+/// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
 GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
   const Eigen::Index weights = fit.weights().size();
   const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
   if (fit.squared_distance() <= limit) return;
-  throw error("the scan is not of the model's family: its Mahalanobis distance from the mean shape is " +
-              std::to_string(std::sqrt(fit.squared_distance())) + ", expected at most " +
-              std::to_string(std::sqrt(limit)) + " with " + std::to_string(weights) + " components of " +
-              std::to_string(model.shapes()) + " shapes");
+  throw error{"the scan is not of the model's family: its Mahalanobis distance from the mean shape is ",
+              std::sqrt(fit.squared_distance()),
+              ", expected at most ",
+              std::sqrt(limit),
+              " with ",
+              weights,
+              " components of ",
+              model.shapes(),
+              " shapes"};
 }
 
 }  // namespace gonio::detail
@@ -45,9 +57,11 @@ GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_ind
 
 namespace gonio::detail {
 
-GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
-                                           const known_vertices& known, const published_recovery_options& options,
-                                           thread_count threads) {
+/// Every vertex predicted from the known ones nearest to it along the mean shape.
+[[nodiscard]] GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
+                                                         const known_vertices& known,
+                                                         const published_recovery_options& options,
+                                                         thread_count threads) {
   const truncated_svd solver{options.last_explained_variance};
   const std::vector<bool> marks = marks_of(known, model.vertices());
   std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
@@ -64,8 +78,8 @@ GONIO_INLINE point_columns predict_locally(const shape_model& model, const trian
           std::vector<Eigen::Index> columns;
           for (const Eigen::Index neighbour : near.vertices)
             columns.push_back(place[static_cast<std::size_t>(neighbour)]);
-          near.positions = known.positions(Eigen::all, columns);
-          near.normals = known.normals(Eigen::all, columns);
+          near.positions = chosen_columns(known.positions, columns);
+          near.normals = chosen_columns(known.normals, columns);
           near.tangential = known.tangential;
           predicted.col(vertex) = decomposition{model.basis(), solver, thread_count{1}}.fit(near).vertex(vertex);
         }
@@ -95,11 +109,12 @@ GONIO_INLINE recovered_shape recover_as_published(const shape_model& model, cons
   for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
     // Procrustes alignment of the shape to the mean, and of the scan with it.
     point_columns whole = shape.vertices;
-    whole(Eigen::all, known.vertices) = known.positions;
+    for (std::size_t i = 0; i < known.vertices.size(); ++i)
+      whole.col(known.vertices[i]) = known.positions.col(static_cast<Eigen::Index>(i));
     const similarity_transform step = align(whole, mean.vertices);
     posed.pose = step * posed.pose;
     known.positions = step(known.positions);
-    known.normals = step.rotation * known.normals;
+    known.normals = similarity_transform{1.0, step.rotation}(known.normals);
     // Predict what is missing, and what is known.
     if (round < options.rounds) {
       const truncated_svd solver{detail::explained_variance_in(round, options)};

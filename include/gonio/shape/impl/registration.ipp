@@ -2,12 +2,19 @@
 /// Bodies of shape/registration.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/shape/confidence.hpp>
+#include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/registration.hpp>
 #include <gonio/shape/surface_noise.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,14 +24,7 @@ namespace gonio {
 GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double share) {
   std::vector<double> smallest;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
-    const Eigen::Matrix3d corners = mesh.corners(t);
-    double least = 180.0;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const Eigen::Vector3d next = corners.col((c + 1) % 3) - corners.col(c),
-                            last = corners.col((c + 2) % 3) - corners.col(c);
-      least = std::min(least, degrees(std::atan2(next.cross(last).norm(), next.dot(last))));
-    }
-    smallest.push_back(least);
+    smallest.push_back(degrees(std::min({mesh.angle(t, 0), mesh.angle(t, 1), mesh.angle(t, 2)})));
   }
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
   std::ranges::nth_element(smallest, smallest.begin() + place);
@@ -35,9 +35,11 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
 
 namespace gonio::detail {
 
-GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
-                                                 const triangle_mesh& shape, const registration_options& options,
-                                                 thread_count threads) {
+/// Where lines along the smoothed normals of a shape meet the scan.
+[[nodiscard]] GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
+                                                               const triangle_mesh& shape,
+                                                               const registration_options& options,
+                                                               thread_count threads) {
   const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
   point_columns places(3, shape.vertices.cols());
@@ -59,8 +61,9 @@ GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const s
   return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
 }
 
-GONIO_INLINE std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
-                                    const registration_options& options) {
+/// The sentence of the first test that fails.
+[[nodiscard]] GONIO_INLINE std::string refusal_of(const registration& found, const fit_to_scan_result& fit,
+                                                  const registration_options& options) {
   const auto weights = static_cast<double>(fit.weights().size());
   const double limit = chi_square_quantile(options.confidence, weights);
   if (found.squared_distance > limit)
@@ -96,7 +99,8 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
     const known_vertices places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
     require_shown(places, model);
     point_columns next = smoothed.vertices;
-    next(Eigen::all, places.vertices) = places.positions;
+    for (std::size_t i = 0; i < places.vertices.size(); ++i)
+      next.col(places.vertices[i]) = places.positions.col(static_cast<Eigen::Index>(i));
     found.missing = 1.0 - static_cast<double>(places.vertices.size()) / static_cast<double>(model.vertices());
     const double change = (next - found.vertices).norm();
     found.vertices = std::move(next);
@@ -104,8 +108,9 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
   }
   const triangle_mesh registered = model.mesh(found.vertices);
   found.angle = smallest_angle_percentile(registered, 0.2);
-  found.normal_agreement =
-      vertex_normals(registered).cwiseProduct(vertex_normals(model.mesh(fit.shape()))).colwise().sum().mean();
+  const point_columns normals = vertex_normals(registered), fitted = vertex_normals(model.mesh(fit.shape()));
+  for (Eigen::Index v = 0; v < normals.cols(); ++v)
+    found.normal_agreement += normals.col(v).dot(fitted.col(v)) / static_cast<double>(normals.cols());
   found.refusal = detail::refusal_of(found, fit, options);
   return found;
 }

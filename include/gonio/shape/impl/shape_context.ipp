@@ -3,11 +3,13 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/assignment.hpp>
 #include <gonio/shape/shape_context.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <nanoflann.hpp>
 
@@ -16,9 +18,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -29,35 +31,73 @@ GONIO_INLINE void require_context(const shape_context_options& options) {
   if (options.radial_bins < 1 || options.polar_bins < 1 || options.azimuthal_bins < 1)
     throw error("a shape context needs at least one bin for each of its three coordinates");
   if (!(options.radius > 0.0 && std::isfinite(options.radius)))
-    throw error("the radius of a shape context must be positive and finite, not " + std::to_string(options.radius));
-  if (!options.vertical.allFinite() || !(options.vertical.stableNorm() > 0.0))
+    throw error{"the radius of a shape context must be positive and finite, not ", options.radius};
+  if (!options.vertical.allFinite() || !(options.vertical.cwiseAbs().maxCoeff() > 0.0))
     throw error("the vertical axis of a shape context must be finite and not zero");
   if (!(options.least_inclination > 0.0 && options.least_inclination < std::numbers::pi / 2.0))
-    throw error("the least inclination of a shape context's normals must be between 0 and pi/2, not " +
-                std::to_string(options.least_inclination));
+    throw error{"the least inclination of a shape context's normals must be between 0 and pi/2, not ",
+                options.least_inclination};
 }
 
+/// What sampling and describing need of a mesh, which may be less than a surface.
 GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   if (!mesh.vertices.allFinite()) throw error("the vertices of a mesh to describe must be finite");
   if (mesh.triangles.cols() == 0) throw error("a mesh to describe has no triangles");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
-    throw error("a triangle of a mesh to describe names a vertex that is not among its " +
-                std::to_string(mesh.vertices.cols()));
+    throw error{"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()};
 }
 
-GONIO_INLINE Eigen::VectorXd vertex_areas(const triangle_mesh& mesh) {
-  const Eigen::RowVectorXd doubled = area_normals(mesh).colwise().norm();
+/// A third of the area of the triangles around each vertex.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd vertex_areas(const triangle_mesh& mesh) {
+  const point_columns normals = area_normals(mesh);  // as long as twice the area
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(mesh.vertices.cols());
-  for (Eigen::Index t = 0; t < doubled.size(); ++t)
-    for (Eigen::Index corner = 0; corner < 3; ++corner) areas[mesh.triangles(corner, t)] += doubled[t] / 6.0;
+  for (Eigen::Index t = 0; t < normals.cols(); ++t) {
+    const double share = normals.col(t).norm() / 6.0;
+    for (Eigen::Index corner = 0; corner < 3; ++corner) areas[mesh.triangles(corner, t)] += share;
+  }
   return areas;
 }
+
+struct point_tree::built_tree {
+  /// What nanoflann asks for.
+  struct adaptor {
+    const point_columns& points;
+
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.cols()); }
+    [[nodiscard]] double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+      return points(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(index));
+    }
+    template <class Box>
+    [[nodiscard]] bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+  using metric = nanoflann::L2_Simple_Adaptor<double, adaptor>;
+
+  static constexpr std::size_t leaf_size = 16;
+
+  explicit built_tree(const point_columns& of) : points{of}, tree(3, points, {leaf_size}) {}
+
+  adaptor points;
+  nanoflann::KDTreeSingleIndexAdaptor<metric, adaptor, 3> tree;
+};
+
+GONIO_INLINE point_tree::point_tree(const point_columns& points) : tree_(std::make_shared<const built_tree>(points)) {}
 
 GONIO_INLINE double point_tree::squared_distance(const Eigen::Vector3d& place) const {
   std::uint32_t index = 0;
   double squared = 0.0;
-  tree_.knnSearch(place.data(), 1, &index, &squared);
+  tree_->tree.knnSearch(place.data(), 1, &index, &squared);
   return squared;
+}
+
+GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const Eigen::Vector3d& place) const {
+  std::vector<std::pair<std::uint32_t, double>> found;
+  tree_->tree.radiusSearch(place.data(), radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
+  std::vector<Eigen::Index> numbers;
+  numbers.reserve(found.size());
+  for (const auto& [number, squared] : found) numbers.push_back(static_cast<Eigen::Index>(number));
+  return numbers;
 }
 
 }  // namespace gonio::detail
@@ -66,11 +106,13 @@ namespace gonio {
 
 GONIO_INLINE std::optional<Eigen::Matrix3d> context_frame(const Eigen::Vector3d& normal,
                                                           const shape_context_options& options) {
-  const Eigen::Vector3d vertical = options.vertical.stableNormalized();
+  const Eigen::Vector3d vertical = unit_vector(options.vertical);
   const Eigen::Vector3d across = vertical - vertical.dot(normal) * normal;
   if (!(normal.squaredNorm() > 0.0 && across.norm() >= std::sin(options.least_inclination))) return {};
   Eigen::Matrix3d frame;
-  frame << across.normalized(), normal.cross(across).normalized(), normal;
+  frame.col(0) = unit_vector(across);
+  frame.col(1) = unit_vector(normal.cross(across));
+  frame.col(2) = normal;
   return frame;
 }
 
@@ -89,18 +131,28 @@ GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_
 GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count) {
   detail::require_finite_mesh(mesh);
   if (count < 0) throw error("the number of vertices to choose must not be negative");
-  // Of squared distances from what was chosen; vertices of no triangle are as near as those chosen.
-  Eigen::RowVectorXd nearest = Eigen::RowVectorXd::Zero(mesh.vertices.cols());
-  for (const int vertex : mesh.triangles.reshaped()) nearest[vertex] = std::numeric_limits<double>::infinity();
-  const Eigen::Vector3d centroid = mesh.vertices.rowwise().mean();
-  Eigen::RowVectorXd key = nearest.cwiseMin((mesh.vertices.colwise() - centroid).colwise().squaredNorm());
+  // Squared distances from what was chosen; vertices of no triangle are as near as those chosen.
+  const std::ptrdiff_t vertices = mesh.vertices.cols();
+  std::vector<double> nearest(static_cast<std::size_t>(vertices), 0.0);
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (Eigen::Index corner = 0; corner < 3; ++corner)
+      nearest[static_cast<std::size_t>(mesh.triangles(corner, t))] = std::numeric_limits<double>::infinity();
+  const auto nearer_of = [&](const Eigen::Vector3d& place) {
+    std::vector<double> nearer = nearest;
+    for (Eigen::Index v = 0; v < vertices; ++v) {
+      double& square = nearer[static_cast<std::size_t>(v)];
+      const Eigen::Vector3d away = mesh.vertices.col(v) - place;
+      square = std::min(square, away.squaredNorm());
+    }
+    return nearer;
+  };
+  std::vector<double> key = nearer_of(centroid_of(mesh.vertices));
   std::vector<Eigen::Index> chosen;
   while (static_cast<Eigen::Index>(chosen.size()) < count) {
-    Eigen::Index farthest = 0;
-    if (!(key.maxCoeff(&farthest) > 0.0)) break;
-    chosen.push_back(farthest);
-    const Eigen::Vector3d place = mesh.vertices.col(farthest);
-    nearest = nearest.cwiseMin((mesh.vertices.colwise() - place).colwise().squaredNorm());
+    const auto farthest = std::ranges::max_element(key);
+    if (!(*farthest > 0.0)) break;
+    chosen.push_back(farthest - key.begin());
+    nearest = nearer_of(mesh.vertices.col(chosen.back()));
     key = nearest;
   }
   return chosen;
@@ -112,8 +164,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
     if (vertex < 0 || vertex >= mesh.vertices.cols())
-      throw error("vertex " + std::to_string(vertex) + " of a mesh of " + std::to_string(mesh.vertices.cols()) +
-                  " cannot be described");
+      throw error{"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"};
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
@@ -123,10 +174,11 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
     const Eigen::Vector3d origin = mesh.vertices.col(vertex);
     const std::optional<Eigen::Matrix3d> frame = context_frame(normals.col(vertex), options);
     if (!frame) return;
-    tree.for_each_within(options.radius, origin, [&](Eigen::Index neighbour) {
-      const Eigen::Vector3d place = frame->transpose() * (mesh.vertices.col(neighbour) - origin);
+    for (const Eigen::Index neighbour : tree.within(options.radius, origin)) {
+      const Eigen::Vector3d away = mesh.vertices.col(neighbour) - origin,
+                            place(frame->col(0).dot(away), frame->col(1).dot(away), frame->col(2).dot(away));
       if (place.squaredNorm() > 0.0) histograms(context_bin(place, options), point) += areas[neighbour];
-    });
+    }
   };
   for_each_block(
       chosen.size(), 8,
@@ -144,15 +196,16 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
     filled.push_back(point);
     found.vertex.push_back(chosen[static_cast<std::size_t>(point)]);
   }
-  found.histograms = histograms(Eigen::all, filled).cast<float>();
+  found.histograms.resize(histograms.rows(), static_cast<Eigen::Index>(filled.size()));
+  for (std::size_t i = 0; i < filled.size(); ++i)
+    found.histograms.col(static_cast<Eigen::Index>(i)) = histograms.col(filled[i]).cast<float>();
   return found;
 }
 
 GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, const shape_descriptors& onto,
                                               thread_count threads) {
   if (from.histograms.rows() != onto.histograms.rows())
-    throw error("descriptors of " + std::to_string(from.histograms.rows()) + " and " +
-                std::to_string(onto.histograms.rows()) + " bins cannot be compared");
+    throw error{"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"};
   Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
   // Empty in both: 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();

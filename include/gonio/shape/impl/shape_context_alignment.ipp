@@ -2,23 +2,30 @@
 /// Bodies of shape/shape_context_alignment.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/shape_context.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
 GONIO_INLINE Eigen::VectorXd matched_points::squared_distances(const similarity_transform& pose) const {
-  return (pose(from) - onto).colwise().squaredNorm().transpose();
+  Eigen::VectorXd squares(from.cols());
+  for (Eigen::Index i = 0; i < from.cols(); ++i) {
+    const Eigen::Vector3d off = onto.col(i) - pose(from.col(i));
+    squares[i] = off.squaredNorm();
+  }
+  return squares;
 }
 
 GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matched_points& points, Eigen::Index first,
@@ -32,29 +39,41 @@ GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matc
   if (std::isinf(tolerance)) return {pose, used};
   for (int step = 0; step < most_steps; ++step) {
     limit = std::max(narrowing * limit, tolerance);
-    const Eigen::VectorXd weights = (1.0 - points.squared_distances(pose).array() / (limit * limit)).max(0.0).matrix();
-    const Eigen::Index left = (weights.array() > 0.0).count();
+    Eigen::VectorXd weights = points.squared_distances(pose);
+    Eigen::Index left = 0;
+    for (double& weight : weights) {
+      weight = std::max(1.0 - weight / (limit * limit), 0.0);
+      left += weight > 0.0 ? 1 : 0;
+    }
     if (left < fewest) break;
     used = static_cast<std::size_t>(left);
     const similarity_transform next = align(points.from, points.onto, alignment_kind::rigid, weights);
-    const double moved = (next(points.from) - pose(points.from)).colwise().norm().maxCoeff();
+    double moved = 0.0;
+    for (Eigen::Index i = 0; i < points.from.cols(); ++i) {
+      const Eigen::Vector3d step_of_point = next(points.from.col(i)) - pose(points.from.col(i));
+      moved = std::max(moved, step_of_point.norm());
+    }
     pose = next;
     if (limit == tolerance && moved <= 1e-6 * tolerance) break;
   }
   return {pose, used};
 }
 
-GONIO_INLINE point_columns surface_vertices(const triangle_mesh& mesh) {
+/// The vertices that triangles have.
+[[nodiscard]] GONIO_INLINE point_columns surface_vertices(const triangle_mesh& mesh) {
   std::vector<bool> in_use(static_cast<std::size_t>(mesh.vertices.cols()), false);
-  for (const int vertex : mesh.triangles.reshaped()) in_use[static_cast<std::size_t>(vertex)] = true;
+  for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
+    for (Eigen::Index corner = 0; corner < 3; ++corner)
+      in_use[static_cast<std::size_t>(mesh.triangles(corner, t))] = true;
   std::vector<Eigen::Index> kept;
   for (std::size_t v = 0; v < in_use.size(); ++v)
     if (in_use[v]) kept.push_back(static_cast<Eigen::Index>(v));
-  return mesh.vertices(Eigen::all, kept);
+  return chosen_columns(mesh.vertices, kept);
 }
 
-GONIO_INLINE double mean_distance(const similarity_transform& pose, const point_columns& points, const point_tree& tree,
-                                  thread_count threads) {
+/// Of points in a pose to those of a tree.
+[[nodiscard]] GONIO_INLINE double mean_distance(const similarity_transform& pose, const point_columns& points,
+                                                const point_tree& tree, thread_count threads) {
   const auto add = [&](double& sum, block some) {
     for (auto i = static_cast<Eigen::Index>(some.begin); i < static_cast<Eigen::Index>(some.end); ++i)
       sum += std::sqrt(tree.squared_distance(pose(points.col(i))));
@@ -63,28 +82,55 @@ GONIO_INLINE double mean_distance(const similarity_transform& pose, const point_
          static_cast<double>(points.cols());
 }
 
+/// What looks alike is looked for among these.
+struct described_points {
+  shape_descriptors descriptors;
+  point_columns places;
+};
+
+[[nodiscard]] GONIO_INLINE described_points described(const triangle_mesh& mesh,
+                                                      const shape_context_alignment_options& options,
+                                                      thread_count threads) {
+  shape_descriptors found = describe(mesh, spread_vertices(mesh, options.points), options.context, threads);
+  point_columns places = chosen_columns(mesh.vertices, found.vertex);
+  return {std::move(found), std::move(places)};
+}
+
+GONIO_INLINE void require_points(const shape_descriptors& descriptors, const char* what) {
+  if (descriptors.vertex.size() < 3)
+    throw error{"a ", what, " to be aligned by shape contexts has ", descriptors.vertex.size(),
+                " points that can be described, not three: are all normals along the vertical axis?"};
+}
+
 }  // namespace gonio::detail
 
 namespace gonio {
+
+struct shape_context_matcher::described_model {
+  described_model(const triangle_mesh& mesh, detail::described_points some)
+      : points(std::move(some)), vertices(detail::surface_vertices(mesh)), tree(vertices) {}
+
+  detail::described_points points;
+  point_columns vertices;
+  detail::point_tree tree;
+};
 
 GONIO_INLINE shape_context_matcher::shape_context_matcher(const triangle_mesh& model,
                                                           const shape_context_alignment_options& options,
                                                           thread_count threads)
     : options_(options) {
   if (options.points < 3)
-    throw error("an alignment by shape contexts needs at least three points, not " + std::to_string(options.points));
+    throw error{"an alignment by shape contexts needs at least three points, not ", options.points};
   if (!(options.significant > 0.0 && options.significant <= 1.0))
-    throw error("the share of significant matches must be above 0 and at most 1, not " +
-                std::to_string(options.significant));
-  if (!(options.tolerance > 0.0))
-    throw error("the tolerance of matches must be positive, not " + std::to_string(options.tolerance));
-  model_ = std::make_shared<const described_model>(model, described(model, threads));
-  require_points(model_->points.descriptors, "model");
+    throw error{"the share of significant matches must be above 0 and at most 1, not ", options.significant};
+  if (!(options.tolerance > 0.0)) throw error{"the tolerance of matches must be positive, not ", options.tolerance};
+  model_ = std::make_shared<const described_model>(model, detail::described(model, options_, threads));
+  detail::require_points(model_->points.descriptors, "model");
 }
 
 GONIO_INLINE pre_alignment shape_context_matcher::align(const triangle_mesh& scan, thread_count threads) const {
-  const described_points found = described(scan, threads);
-  require_points(found.descriptors, "scan");
+  const detail::described_points found = detail::described(scan, options_, threads);
+  detail::require_points(found.descriptors, "scan");
   const std::vector<shape_match> matches = match(found.descriptors, model_->points.descriptors, threads);
   detail::matched_points pairs{point_columns(3, static_cast<Eigen::Index>(matches.size())), {}};
   pairs.onto.resizeLike(pairs.from);
@@ -101,18 +147,10 @@ GONIO_INLINE pre_alignment shape_context_matcher::align(const triangle_mesh& sca
           detail::mean_distance(pose, scanned, model_->tree, threads), used};
 }
 
-GONIO_INLINE shape_context_matcher::described_points shape_context_matcher::described(const triangle_mesh& mesh,
-                                                                                      thread_count threads) const {
-  shape_descriptors found = describe(mesh, spread_vertices(mesh, options_.points), options_.context, threads);
-  point_columns places = mesh.vertices(Eigen::all, found.vertex);
-  return {std::move(found), std::move(places)};
-}
-
-GONIO_INLINE void shape_context_matcher::require_points(const shape_descriptors& descriptors, const char* what) {
-  if (descriptors.vertex.size() < 3)
-    throw error("a " + std::string(what) + " to be aligned by shape contexts has " +
-                std::to_string(descriptors.vertex.size()) +
-                " points that can be described, not three: are all normals along the vertical axis?");
+GONIO_INLINE pre_alignment align_by_shape_context(const triangle_mesh& scan, const triangle_mesh& model,
+                                                  const shape_context_alignment_options& options,
+                                                  thread_count threads) {
+  return shape_context_matcher(model, options, threads).align(scan, threads);
 }
 
 }  // namespace gonio

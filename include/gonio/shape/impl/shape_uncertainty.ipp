@@ -2,15 +2,35 @@
 /// Bodies of shape/shape_uncertainty.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/estimate/basis_equations.hpp>
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/solve/any_solver.hpp>
+#include <gonio/solve/dense.hpp>
+#include <gonio/solve/least_squares_problem.hpp>
+
+#include <Eigen/Core>
 
 #include <algorithm>
-#include <string>
-#include <utility>
 
 namespace gonio {
+
+GONIO_INLINE shape_uncertainty::shape_uncertainty(const fitted_shape& fit, const known_vertices& known,
+                                                  const any_solver& solver)
+    : basis_(fit.functions()) {
+  const least_squares_problem problem = basis_equations<shape_basis>(basis_, known).problem();
+  const row_matrix rows = problem.rows();
+  const Eigen::MatrixXd seen = solver.solve(least_squares_problem(rows, rows, problem.weights())).weights;
+  const Eigen::MatrixXd transposed = seen.transpose();
+  unseen_ = -0.5 * (seen + transposed);
+  for (Eigen::Index i = 0; i < unseen_.rows(); ++i) unseen_(i, i) += 1.0;
+  const auto m = static_cast<double>(basis_.names().size());
+  published_scale_ = 1.0 / m;
+  // Where as many directions are kept as there are shapes nothing is left to tell their own uncertainty from.
+  degrees_of_freedom_ = std::max(m - 1.0 - seen.trace(), 3.0);
+  scale_ = (1.0 + 1.0 / m + fit.weights().squaredNorm()) / degrees_of_freedom_;
+}
 
 GONIO_INLINE double shape_uncertainty::squared_radius(double share) const {
   const double left = degrees_of_freedom_ - 2.0;
@@ -18,8 +38,12 @@ GONIO_INLINE double shape_uncertainty::squared_radius(double share) const {
 }
 
 GONIO_INLINE Eigen::Matrix3d shape_uncertainty::unscaled(Eigen::Index vertex) const {
-  const Eigen::MatrixXd rows = basis_.components().middleRows(3 * vertex, 3).cast<double>();
-  return rows * unseen_ * rows.transpose();
+  const Eigen::MatrixXd columns = basis_.components().middleRows(3 * vertex, 3).cast<double>().transpose(),
+                        unseen = product(unseen_, columns);
+  Eigen::Matrix3d covariance;
+  for (Eigen::Index j = 0; j < 3; ++j)
+    for (Eigen::Index i = 0; i < 3; ++i) covariance(i, j) = columns.col(i).dot(unseen.col(j));
+  return covariance;
 }
 
 }  // namespace gonio

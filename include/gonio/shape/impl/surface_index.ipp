@@ -2,10 +2,12 @@
 /// Bodies of shape/surface_index.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/surface_index.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -16,97 +18,191 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 namespace gonio::detail {
 
-GONIO_INLINE Eigen::Vector3d closest_barycentric(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d first = corners.col(1) - corners.col(0), second = corners.col(2) - corners.col(0),
-                        towards = point - corners.col(0), normal = first.cross(second);
+/// Shares of a triangle's corners below which a point is on the opposite side.
+inline constexpr double on_side = 1e-9;
+
+/// The shares of the corners in the point of a triangle that is closest to `point`: where it projects to or, if that is
+/// outside, the closest point of a side. Triangles without area consist of their sides.
+[[nodiscard]] GONIO_INLINE Eigen::Vector3d closest_barycentric(const Eigen::Matrix3d& corners,
+                                                               const Eigen::Vector3d& point) {
+  const std::array<Eigen::Vector3d, 3> corner{corners.col(0), corners.col(1), corners.col(2)};
+  const Eigen::Vector3d first = corner[1] - corner[0], second = corner[2] - corner[0], towards = point - corner[0],
+                        normal = first.cross(second);
   // Below this sine of an angle, 1e-10, rounding decides about the projection.
   if (normal.squaredNorm() > 1e-20 * first.squaredNorm() * second.squaredNorm()) {
-    const double of_second = first.cross(towards).dot(normal) / normal.squaredNorm(),
-                 of_first = towards.cross(second).dot(normal) / normal.squaredNorm();
-    const Eigen::Vector3d inside(1.0 - of_first - of_second, of_first, of_second);
-    if (inside.minCoeff() >= 0.0) return inside;
+    const Eigen::Vector3d beside_first = first.cross(towards), beside_second = towards.cross(second);
+    const double of_second = beside_first.dot(normal) / normal.squaredNorm(),
+                 of_first = beside_second.dot(normal) / normal.squaredNorm(), of_origin = 1.0 - of_first - of_second;
+    if (of_origin >= 0.0 && of_first >= 0.0 && of_second >= 0.0) return {of_origin, of_first, of_second};
   }
-  Eigen::Vector3d best = Eigen::Vector3d::UnitX();
+  Eigen::Vector3d best(1.0, 0.0, 0.0);
   double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index from = 0; from < 3; ++from) {
-    const Eigen::Index to = (from + 1) % 3;
-    const Eigen::Vector3d side = corners.col(to) - corners.col(from);
+  for (std::size_t from = 0; from < 3; ++from) {
+    const std::size_t to = (from + 1) % 3;
+    const Eigen::Vector3d side = corner[to] - corner[from], away = point - corner[from];
     const double square = side.squaredNorm(),
-                 along = square > 0.0 ? std::clamp((point - corners.col(from)).dot(side) / square, 0.0, 1.0) : 0.0;
-    const double distance = (corners.col(from) + along * side - point).squaredNorm();
+                 along = square > 0.0 ? std::clamp(away.dot(side) / square, 0.0, 1.0) : 0.0;
+    const Eigen::Vector3d apart = away - along * side;
+    const double distance = apart.squaredNorm();
     if (!(distance < least)) continue;
     least = distance;
     best.setZero();
-    best[from] = 1.0 - along;
-    best[to] = along;
+    best[static_cast<Eigen::Index>(from)] = 1.0 - along;
+    best[static_cast<Eigen::Index>(to)] = along;
   }
   return best;
 }
 
-GONIO_INLINE std::optional<line_hit> meet(const Eigen::Matrix3d& corners, const Eigen::Vector3d& origin,
-                                          const Eigen::Vector3d& line) {
-  const Eigen::Vector3d first = corners.col(1) - corners.col(0), second = corners.col(2) - corners.col(0),
-                        across = line.cross(second);
+/// Where a line meets a triangle.
+struct line_hit {
+  double along;  ///< from where the line begins, in lengths of its direction
+  Eigen::Vector3d barycentric;
+};
+
+/// Moeller and Trumbore's test. Sides belong to the triangle with a little slack, so that no line slips between two
+/// triangles. A triangle seen edge-on is not met.
+[[nodiscard]] GONIO_INLINE std::optional<line_hit> meet(const Eigen::Matrix3d& corners, const Eigen::Vector3d& origin,
+                                                        const Eigen::Vector3d& line) {
+  const Eigen::Vector3d corner = corners.col(0), next = corners.col(1), last = corners.col(2), first = next - corner,
+                        second = last - corner, across = line.cross(second);
   const double volume = first.dot(across);
   if (!(std::abs(volume) > 1e-12 * first.norm() * second.norm())) return {};
-  const Eigen::Vector3d towards = origin - corners.col(0), turned = towards.cross(first);
-  const double of_first = towards.dot(across) / volume, of_second = line.dot(turned) / volume;
-  Eigen::Vector3d barycentric(1.0 - of_first - of_second, of_first, of_second);
-  if (!(barycentric.minCoeff() >= -on_side)) return {};
-  barycentric = barycentric.cwiseMax(0.0);
-  return line_hit{second.dot(turned) / volume, barycentric / barycentric.sum()};
+  const Eigen::Vector3d towards = origin - corner, turned = towards.cross(first);
+  const double of_first = towards.dot(across) / volume, of_second = line.dot(turned) / volume,
+               of_origin = 1.0 - of_first - of_second;
+  if (!(of_origin >= -on_side && of_first >= -on_side && of_second >= -on_side)) return {};
+  Eigen::Vector3d shares(std::max(of_origin, 0.0), std::max(of_first, 0.0), std::max(of_second, 0.0));
+  shares /= shares.sum();
+  return line_hit{second.dot(turned) / volume, shares};
 }
 
-GONIO_INLINE centred_box::centred_box(const Eigen::AlignedBox3d& box)
-    : centre(box.center()), half_size(0.5 * box.sizes() + slack * (box.sizes() + centre.cwiseAbs())) {}
+/// How far points reach along the axes.
+struct extent {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
 
-GONIO_INLINE double centred_box::squared_distance(const Eigen::Vector3d& point) const {
-  return (1.0 - slack) * ((point - centre).cwiseAbs() - half_size).cwiseMax(0.0).squaredNorm();
-}
+  void include(const Eigen::Vector3d& point) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  [[nodiscard]] Eigen::Vector3d centre() const { return 0.5 * (low + high); }
+};
 
-GONIO_INLINE bool centred_box::meets_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& line) const {
-  const Eigen::Vector3d between = origin - centre, size = line.cwiseAbs();
-  const Eigen::Vector3d reach(half_size.y() * size.z() + half_size.z() * size.y(),
-                              half_size.z() * size.x() + half_size.x() * size.z(),
-                              half_size.x() * size.y() + half_size.y() * size.x());
-  return (between.cross(line).cwiseAbs() - reach).maxCoeff() <= slack * between.cwiseAbs().maxCoeff();
-}
+/// A box along the axes, by its middle; a little larger than asked for, so that its bounds hold after rounding.
+struct centred_box {
+  static constexpr double slack = 1e-12;
+
+  explicit centred_box(const extent& points) : centre(points.centre()) {
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double size = points.high[axis] - points.low[axis];
+      half_size[axis] = 0.5 * size + slack * (size + std::abs(centre[axis]));
+    }
+  }
+
+  Eigen::Vector3d centre, half_size;
+
+  [[nodiscard]] double squared_distance(const Eigen::Vector3d& point) const {
+    double sum = 0.0;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const double outside = std::max(std::abs(point[axis] - centre[axis]) - half_size[axis], 0.0);
+      sum += outside * outside;
+    }
+    return (1.0 - slack) * sum;
+  }
+
+  /// Does a line of a direction of length 1 pass through it? None of the three axes across the line and an axis of
+  /// space separates them.
+  [[nodiscard]] bool meets_line(const Eigen::Vector3d& origin, const Eigen::Vector3d& line) const {
+    const Eigen::Vector3d between = origin - centre;
+    double apart = -std::numeric_limits<double>::infinity(), farthest = 0.0;
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      const Eigen::Index next = (axis + 1) % 3, last = (axis + 2) % 3;
+      const double reach = half_size[next] * std::abs(line[last]) + half_size[last] * std::abs(line[next]);
+      apart = std::max(apart, std::abs(between[next] * line[last] - between[last] * line[next]) - reach);
+      farthest = std::max(farthest, std::abs(between[axis]));
+    }
+    return apart <= slack * farthest;
+  }
+};
+
+/// Boxes around the triangles of a mesh, in a binary tree.
+class box_tree {
+ public:
+  /// O(n log n) for n triangles.
+  explicit box_tree(const triangle_mesh& mesh);
+
+  /// Calls `visit` with the number of each triangle in a box whose `bound` is at most `limit`, near ones first. `visit`
+  /// returns the limit from then on.
+  template <class Bound, class Visit>
+  void search(double limit, const Bound& bound, const Visit& visit) const {
+    std::array<std::pair<double, std::size_t>, 64> pending;  // one for each halving of the triangles
+    std::size_t size = 0;
+    pending[size++] = {bound(nodes_[0].box), 0};
+    while (size > 0) {
+      const auto [least, place] = pending[--size];
+      if (least > limit) continue;
+      const node& here = nodes_[place];
+      if (here.second == 0) {
+        for (std::size_t i = here.begin; i < here.end; ++i) limit = visit(order_[i]);
+        continue;
+      }
+      pending[size] = {bound(nodes_[here.second].box), here.second};
+      pending[size + 1] = {bound(nodes_[place + 1].box), place + 1};
+      if (pending[size].first < pending[size + 1].first) std::swap(pending[size], pending[size + 1]);
+      size += 2;
+    }
+  }
+
+ private:
+  /// The first child follows its parent; `second` is 0 for a leaf.
+  struct node {
+    centred_box box;
+    std::size_t begin, end, second;
+  };
+
+  static constexpr std::size_t leaf_size = 4;
+
+  std::size_t build(const std::vector<extent>& boxes, std::size_t begin, std::size_t end);
+
+  std::vector<Eigen::Index> order_;
+  std::vector<node> nodes_;
+};
 
 GONIO_INLINE box_tree::box_tree(const triangle_mesh& mesh) : order_(static_cast<std::size_t>(mesh.triangles.cols())) {
   std::iota(order_.begin(), order_.end(), Eigen::Index{0});
-  std::vector<Eigen::AlignedBox3d> boxes;
-  boxes.reserve(order_.size());
-  for (const Eigen::Index t : order_) {
-    const Eigen::Matrix3d corners = mesh.corners(t);
-    boxes.emplace_back(corners.rowwise().minCoeff(), corners.rowwise().maxCoeff());
-  }
+  std::vector<extent> boxes(order_.size());
+  for (const Eigen::Index t : order_)
+    for (Eigen::Index corner = 0; corner < 3; ++corner)
+      boxes[static_cast<std::size_t>(t)].include(mesh.vertices.col(mesh.triangles(corner, t)));
   nodes_.reserve(order_.size());
   build(boxes, 0, order_.size());
 }
 
-GONIO_INLINE std::size_t box_tree::build(const std::vector<Eigen::AlignedBox3d>& boxes, std::size_t begin,
-                                         std::size_t end) {
-  Eigen::AlignedBox3d all, centres;
+GONIO_INLINE std::size_t box_tree::build(const std::vector<extent>& boxes, std::size_t begin, std::size_t end) {
+  extent all, centres;
   for (std::size_t i = begin; i < end; ++i) {
-    const auto& box = boxes[static_cast<std::size_t>(order_[i])];
-    all.extend(box);
-    centres.extend(box.center());
+    const extent& box = boxes[static_cast<std::size_t>(order_[i])];
+    all.include(box.low);
+    all.include(box.high);
+    centres.include(box.centre());
   }
   const std::size_t place = nodes_.size(), middle = begin + (end - begin) / 2;
   nodes_.push_back({centred_box(all), begin, end, 0});
   if (end - begin <= leaf_size) return place;
   Eigen::Index axis = 0;
-  centres.sizes().maxCoeff(&axis);
+  for (const Eigen::Index other : {Eigen::Index{1}, Eigen::Index{2}})
+    if (centres.high[other] - centres.low[other] > centres.high[axis] - centres.low[axis]) axis = other;
   const auto key = [&](Eigen::Index t) {
-    const auto& box = boxes[static_cast<std::size_t>(t)];
-    return std::pair(box.min()[axis] + box.max()[axis], t);
+    const extent& box = boxes[static_cast<std::size_t>(t)];
+    return std::pair(box.low[axis] + box.high[axis], t);
   };
   const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::ranges::nth_element(at(begin), at(middle), at(end), {}, key);
@@ -116,19 +212,98 @@ GONIO_INLINE std::size_t box_tree::build(const std::vector<Eigen::AlignedBox3d>&
   return place;
 }
 
+/// A corner, or the side that begins at a corner, or neither: inside.
+struct triangle_feature {
+  std::optional<Eigen::Index> corner, side;
+};
+
+[[nodiscard]] GONIO_INLINE triangle_feature feature_of(const Eigen::Vector3d& barycentric) {
+  for (Eigen::Index corner = 0; corner < 3; ++corner) {
+    const Eigen::Index next = (corner + 1) % 3, last = (corner + 2) % 3;
+    if (barycentric[last] > on_side) continue;
+    if (barycentric[next] <= on_side) return {corner, {}};
+    if (barycentric[corner] <= on_side) return {next, {}};
+    return {{}, corner};
+  }
+  return {};
+}
+
+/// The triangle beyond the side from each corner to the next, or -1.
+[[nodiscard]] GONIO_INLINE triangle_columns across_sides(const triangle_columns& triangles) {
+  using side_of = std::tuple<int, int, int>;  // from, to, triangle
+  std::vector<side_of> sides;
+  sides.reserve(static_cast<std::size_t>(triangles.size()));
+  const auto count = static_cast<int>(triangles.cols());
+  for (int t = 0; t < count; ++t)
+    for (int side = 0; side < 3; ++side) sides.emplace_back(triangles(side, t), triangles((side + 1) % 3, t), t);
+  std::ranges::sort(sides);
+  triangle_columns across(3, count);
+  for (int t = 0; t < count; ++t)
+    for (int side = 0; side < 3; ++side) {
+      const int from = triangles(side, t), to = triangles((side + 1) % 3, t);
+      const auto back = std::ranges::lower_bound(sides, side_of{to, from, 0});
+      const bool shared = back != sides.end() && std::get<0>(*back) == to && std::get<1>(*back) == from;
+      across(side, t) = shared ? std::get<2>(*back) : -1;
+    }
+  return across;
+}
+
+/// At each vertex the mean of its triangles' normals by their angles there.
+[[nodiscard]] GONIO_INLINE point_columns angle_weighted(const triangle_mesh& mesh, const point_columns& normals) {
+  point_columns sums = point_columns::Zero(3, mesh.vertices.cols());
+  for (Eigen::Index t = 0; t < normals.cols(); ++t)
+    for (Eigen::Index corner = 0; corner < 3; ++corner)
+      sums.col(mesh.triangles(corner, t)) += mesh.angle(t, corner) * normals.col(t);
+  return unit_columns(std::move(sums));
+}
+
+GONIO_INLINE void require_finite_vector(const Eigen::Vector3d& vector, const char* what) {
+  if (!vector.allFinite()) throw error{what, " is not finite"};
+}
+
 }  // namespace gonio::detail
 
 namespace gonio {
 
+struct surface_index::built_surface {
+  explicit built_surface(triangle_mesh of)
+      : mesh(std::move(of)),
+        topology(mesh),
+        tree(mesh),
+        across(detail::across_sides(mesh.triangles)),
+        triangle_normals(unit_columns(area_normals(mesh))),
+        vertex_normals(detail::angle_weighted(mesh, triangle_normals)) {}
+
+  [[nodiscard]] bool is_on_border(const surface_point& place) const {
+    const auto [corner, side] = detail::feature_of(place.barycentric);
+    if (corner) return topology.on_border(mesh.triangles(*corner, place.triangle));
+    return side && across(*side, place.triangle) < 0;
+  }
+
+  triangle_mesh mesh;
+  mesh_topology topology;
+  detail::box_tree tree;
+  triangle_columns across;
+  point_columns triangle_normals, vertex_normals;
+};
+
+GONIO_INLINE surface_index::surface_index(triangle_mesh mesh)
+    : surface_(std::make_shared<const built_surface>(std::move(mesh))) {}
+
+GONIO_INLINE const triangle_mesh& surface_index::mesh() const noexcept { return surface_->mesh; }
+
+GONIO_INLINE const mesh_topology& surface_index::topology() const noexcept { return surface_->topology; }
+
 GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) const {
-  require_finite(point, "a point to find the closest point of a surface to");
+  detail::require_finite_vector(point, "a point to find the closest point of a surface to");
   surface_point best;
   double least = std::numeric_limits<double>::infinity();
   const auto bound = [&](const detail::centred_box& box) { return box.squared_distance(point); };
   surface_->tree.search(least, bound, [&](Eigen::Index t) {
     const Eigen::Matrix3d corners = mesh().corners(t);
     const Eigen::Vector3d barycentric = detail::closest_barycentric(corners, point), position = corners * barycentric;
-    const double distance = (position - point).squaredNorm();
+    const Eigen::Vector3d apart = position - point;
+    const double distance = apart.squaredNorm();
     if (std::tie(distance, t) < std::tie(least, best.triangle)) {
       least = distance;
       best.position = position;
@@ -139,19 +314,19 @@ GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) 
   });
   if (!(least < std::numeric_limits<double>::infinity()))
     throw error("a point is so far from a surface that the square of the distance is no number");
-  best.on_border = is_on_border(best);
+  best.on_border = surface_->is_on_border(best);
   best.distance = std::sqrt(least);
   return best;
 }
 
 GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vector3d& origin,
                                                                const Eigen::Vector3d& line, double reach) const {
-  require_finite(origin, "the origin of a line");
-  require_finite(line, "the direction of a line");
-  if (!(line.stableNorm() > 0.0)) throw error("the direction of a line that is to meet a surface is zero");
+  detail::require_finite_vector(origin, "the origin of a line");
+  detail::require_finite_vector(line, "the direction of a line");
+  if (!(line.cwiseAbs().maxCoeff() > 0.0)) throw error("the direction of a line that is to meet a surface is zero");
   if (!(reach >= 0.0))
-    throw error("the reach of a line that is to meet a surface must not be negative, and is " + std::to_string(reach));
-  const Eigen::Vector3d unit = line.stableNormalized();
+    throw error{"the reach of a line that is to meet a surface must not be negative, and is ", reach};
+  const Eigen::Vector3d unit = unit_vector(line);
   std::optional<surface_point> best;
   // Boxes that the line misses are infinitely far, so the limit is finite.
   const auto squared = [](double distance) {
@@ -168,84 +343,23 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
     best = surface_point{corners * hit->barycentric, t, hit->barycentric, false, distance};
     return squared(distance);
   });
-  if (best) best->on_border = is_on_border(*best);
+  if (best) best->on_border = surface_->is_on_border(*best);
   return best;
 }
 
 GONIO_INLINE Eigen::Vector3d surface_index::pseudonormal(const surface_point& place) const {
-  const auto [corner, side] = feature_of(place.barycentric);
+  const auto [corner, side] = detail::feature_of(place.barycentric);
   if (corner) return surface_->vertex_normals.col(mesh().triangles(*corner, place.triangle));
   const Eigen::Vector3d normal = surface_->triangle_normals.col(place.triangle);
   const int neighbour = side ? surface_->across(*side, place.triangle) : -1;
   if (neighbour < 0) return normal;
-  return (normal + surface_->triangle_normals.col(neighbour)).stableNormalized();
+  return unit_vector(normal + surface_->triangle_normals.col(neighbour));
 }
 
 GONIO_INLINE double surface_index::signed_distance(const Eigen::Vector3d& point) const {
   const surface_point place = closest(point);
-  return (point - place.position).dot(pseudonormal(place)) < 0.0 ? -place.distance : place.distance;
-}
-
-GONIO_INLINE surface_index::built_surface::built_surface(triangle_mesh of)
-    : mesh(std::move(of)),
-      topology(mesh),
-      tree(mesh),
-      across(across_sides(mesh.triangles)),
-      triangle_normals(unit_columns(area_normals(mesh))),
-      vertex_normals(angle_weighted(mesh, triangle_normals)) {}
-
-GONIO_INLINE void surface_index::require_finite(const Eigen::Vector3d& vector, const char* what) {
-  if (!vector.allFinite()) throw error(std::string(what) + " is not finite");
-}
-
-GONIO_INLINE surface_index::feature surface_index::feature_of(const Eigen::Vector3d& barycentric) {
-  for (Eigen::Index corner = 0; corner < 3; ++corner) {
-    const Eigen::Index next = (corner + 1) % 3, last = (corner + 2) % 3;
-    if (barycentric[last] > detail::on_side) continue;
-    if (barycentric[next] <= detail::on_side) return {corner, {}};
-    if (barycentric[corner] <= detail::on_side) return {next, {}};
-    return {{}, corner};
-  }
-  return {};
-}
-
-GONIO_INLINE bool surface_index::is_on_border(const surface_point& place) const {
-  const auto [corner, side] = feature_of(place.barycentric);
-  if (corner) return topology().on_border(mesh().triangles(*corner, place.triangle));
-  return side && surface_->across(*side, place.triangle) < 0;
-}
-
-GONIO_INLINE Eigen::Matrix3Xi surface_index::across_sides(const triangle_columns& triangles) {
-  using side_of = std::tuple<int, int, int>;  // from, to, triangle
-  std::vector<side_of> sides;
-  sides.reserve(static_cast<std::size_t>(triangles.size()));
-  const auto count = static_cast<int>(triangles.cols());
-  for (int t = 0; t < count; ++t)
-    for (int side = 0; side < 3; ++side) sides.emplace_back(triangles(side, t), triangles((side + 1) % 3, t), t);
-  std::ranges::sort(sides);
-  Eigen::Matrix3Xi across(3, count);
-  for (int t = 0; t < count; ++t)
-    for (int side = 0; side < 3; ++side) {
-      const int from = triangles(side, t), to = triangles((side + 1) % 3, t);
-      const auto back = std::ranges::lower_bound(sides, side_of{to, from, 0});
-      const bool shared = back != sides.end() && std::get<0>(*back) == to && std::get<1>(*back) == from;
-      across(side, t) = shared ? std::get<2>(*back) : -1;
-    }
-  return across;
-}
-
-GONIO_INLINE point_columns surface_index::angle_weighted(const triangle_mesh& mesh, const point_columns& normals) {
-  point_columns sums = point_columns::Zero(3, mesh.vertices.cols());
-  for (Eigen::Index t = 0; t < normals.cols(); ++t) {
-    const Eigen::Matrix3d corners = mesh.corners(t);
-    for (Eigen::Index corner = 0; corner < 3; ++corner) {
-      const Eigen::Vector3d next = corners.col((corner + 1) % 3) - corners.col(corner),
-                            last = corners.col((corner + 2) % 3) - corners.col(corner);
-      const double angle = std::atan2(next.cross(last).norm(), next.dot(last));
-      sums.col(mesh.triangles(corner, t)) += angle * normals.col(t);
-    }
-  }
-  return unit_columns(std::move(sums));
+  const Eigen::Vector3d apart = point - place.position;
+  return apart.dot(pseudonormal(place)) < 0.0 ? -place.distance : place.distance;
 }
 
 GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,

@@ -8,12 +8,45 @@
 
 #include <Eigen/Core>
 
+namespace gonio::detail {
+
+template <class Matrix>
+[[nodiscard]] Matrix column_means_over_neighbours(const mesh_topology& topology, const Matrix& values) {
+  Matrix means = values;
+  for (Eigen::Index v = 0; v < values.cols(); ++v) {
+    double count = 1.0;
+    for (const int neighbour : topology.neighbours(v)) {
+      if (topology.on_border(v) && !topology.on_border(neighbour)) continue;
+      means.col(v) += values.col(neighbour);
+      count += 1.0;
+    }
+    means.col(v) /= count;
+  }
+  return means;
+}
+
+}  // namespace gonio::detail
+
 namespace gonio {
+
+GONIO_INLINE point_columns averaged_over_neighbours(const mesh_topology& topology, const point_columns& values) {
+  return detail::column_means_over_neighbours(topology, values);
+}
+
+GONIO_INLINE Eigen::RowVectorXd averaged_over_neighbours(const mesh_topology& topology,
+                                                         const Eigen::RowVectorXd& values) {
+  return detail::column_means_over_neighbours(topology, values);
+}
 
 GONIO_INLINE Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology) {
   point_columns rough = mesh.vertices;
   for (int twice = 0; twice < 2; ++twice) rough -= averaged_over_neighbours(topology, rough);
-  Eigen::RowVectorXd variances = rough.cwiseProduct(vertex_normals(mesh)).colwise().sum().cwiseAbs2();
+  const point_columns normals = vertex_normals(mesh);
+  Eigen::RowVectorXd variances(rough.cols());
+  for (Eigen::Index v = 0; v < rough.cols(); ++v) {
+    const double along = rough.col(v).dot(normals.col(v));
+    variances[v] = along * along;
+  }
   for (int twice = 0; twice < 2; ++twice) variances = averaged_over_neighbours(topology, variances);
   return variances;
 }

@@ -7,6 +7,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 namespace gonio {
@@ -17,14 +20,29 @@ GONIO_INLINE Eigen::Matrix3d triangle_mesh::corners(Eigen::Index triangle) const
   return all;
 }
 
+GONIO_INLINE double triangle_mesh::angle(Eigen::Index triangle, Eigen::Index corner) const {
+  const auto place = [&](Eigen::Index of) -> Eigen::Vector3d { return vertices.col(triangles(of % 3, triangle)); };
+  const Eigen::Vector3d here = place(corner), next = place(corner + 1) - here, last = place(corner + 2) - here;
+  return std::atan2(next.cross(last).norm(), next.dot(last));
+}
+
 GONIO_INLINE point_columns area_normals(const triangle_mesh& mesh) {
   point_columns normals(3, mesh.triangles.cols());
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
-    const Eigen::Matrix3d corners = mesh.corners(t);
-    const Eigen::Vector3d first = corners.col(1) - corners.col(0), second = corners.col(2) - corners.col(0);
+    const auto corner = [&](Eigen::Index number) -> Eigen::Vector3d {
+      return mesh.vertices.col(mesh.triangles(number, t));
+    };
+    const Eigen::Vector3d origin = corner(0), first = corner(1) - origin, second = corner(2) - origin;
     normals.col(t) = first.cross(second);
   }
   return normals;
+}
+
+GONIO_INLINE Eigen::Vector3d unit_vector(const Eigen::Vector3d& vector) {
+  const double largest = vector.cwiseAbs().maxCoeff();
+  if (!(largest > 0.0)) return vector;
+  const Eigen::Vector3d scaled = vector / largest;
+  return scaled / scaled.norm();
 }
 
 GONIO_INLINE point_columns unit_columns(point_columns vectors) {
@@ -33,6 +51,18 @@ GONIO_INLINE point_columns unit_columns(point_columns vectors) {
     if (length > 0.0) vector /= length;
   }
   return vectors;
+}
+
+GONIO_INLINE Eigen::Vector3d centroid_of(const point_columns& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (Eigen::Index v = 0; v < points.cols(); ++v) sum += points.col(v);
+  return sum / static_cast<double>(points.cols());
+}
+
+GONIO_INLINE point_columns chosen_columns(const point_columns& all, std::span<const Eigen::Index> numbers) {
+  point_columns chosen(3, static_cast<Eigen::Index>(numbers.size()));
+  for (std::size_t i = 0; i < numbers.size(); ++i) chosen.col(static_cast<Eigen::Index>(i)) = all.col(numbers[i]);
+  return chosen;
 }
 
 GONIO_INLINE point_columns vertex_normals(const triangle_mesh& mesh) {
