@@ -1,7 +1,8 @@
-// Every template of the heart with the smallest models of its concepts, and the functions beside them: what compiles and
-// links against the headers alone must against gonio::compiled, and give the same.
+// Every template of the heart with the smallest models of its concepts, and the functions beside them: what compiles
+// and links against the headers alone must against gonio::compiled, and give the same.
 
 #include "../archetypes.hpp"
+
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/solve/choose_eta.hpp>
 #include <gonio/solve/lasso.hpp>

@@ -1,6 +1,6 @@
 // A reader's own metric, basis and solver in one program, which knows nothing of the library but the heart. It is built
-// against the headers alone and against gonio::compiled, and cmake/compile_times.cmake measures what it costs a compiler.
-// Returns the number of checks that failed.
+// against the headers alone and against gonio::compiled, and cmake/compile_times.cmake measures what it costs a
+// compiler. Returns the number of checks that failed.
 
 #include <gonio/estimate/decomposition.hpp>
 

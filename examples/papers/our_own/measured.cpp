@@ -12,13 +12,13 @@
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/io/image.hpp>
-#include <gonio/render/image.hpp>
-#include <gonio/render/sphere.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/image.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/render/image.hpp>
+#include <gonio/render/sphere.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <iostream>

@@ -5,8 +5,8 @@
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>
 #include <gonio/solve/quadratic_program.hpp>
-#include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/solver.hpp>
+#include <gonio/solve/thin_product.hpp>
 
 #include <Eigen/Core>
 
