@@ -24,6 +24,7 @@
 #include <gonio/solve/impl/thin_product.ipp>
 #include <gonio/solve/impl/tikhonov.ipp>
 #include <gonio/solve/impl/truncated_svd.ipp>
+#include <gonio/solve/impl/vector_kernels.ipp>
 #include <gonio/solve/impl/working_set.ipp>
 
 namespace gonio {
