@@ -5,3 +5,4 @@
 #include <gonio/solve/impl/semidefinite.ipp>
 #include <gonio/solve/impl/symmetric_eigen.ipp>
 #include <gonio/solve/impl/thin_product.ipp>
+#include <gonio/solve/impl/vector_kernels.ipp>

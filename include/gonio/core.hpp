@@ -7,6 +7,7 @@
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/finite.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/core/progress.hpp>

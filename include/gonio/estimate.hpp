@@ -24,3 +24,4 @@
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
+#include <gonio/estimate/values_at.hpp>

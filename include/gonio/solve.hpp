@@ -33,4 +33,5 @@
 #include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 #include <gonio/solve/working_set.hpp>

@@ -2,6 +2,7 @@
 /// All of `table/`: grids, valid cells, tables, samples.
 
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/cell_matrix.hpp>
 #include <gonio/table/domain.hpp>
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>

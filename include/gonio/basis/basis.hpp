@@ -127,8 +127,20 @@ inline constexpr bool has_arbitrary_sign = requires {
   requires bool(Basis::arbitrary_sign);
 };
 
-/// Writes the values of all functions at a location to a row of size() numbers: interpolated in the metric's domain if
-/// the basis is tabulated, exact if it is computed.
+namespace detail {
+
+/// Adds a weight times the values of a row to `out`, or writes it there if it is the first.
+inline void blend_row(double weight, std::span<const float> values, bool first, double* out) {
+  if (first)
+    for (std::size_t i = 0; i < values.size(); ++i) out[i] = weight * double{values[i]};
+  else
+    for (std::size_t i = 0; i < values.size(); ++i) out[i] += weight * double{values[i]};
+}
+
+}  // namespace detail
+
+/// Writes the values of all functions at a location to a row of size() contiguous numbers: interpolated in the metric's
+/// domain if the basis is tabulated, exact if it is computed.
 template <basis Basis, class Row>
 void read_row_at(const Basis& functions, const location& at, Row&& out) {
   if constexpr (computed_basis<Basis>) {
@@ -136,12 +148,7 @@ void read_row_at(const Basis& functions, const location& at, Row&& out) {
   } else {
     for (int corner = 0; corner < at.count; ++corner) {
       const auto slot = static_cast<std::size_t>(corner);
-      const std::span<const float> values = functions.row(at.cell[slot]);
-      const Eigen::Map<const Eigen::RowVectorXf> part(values.data(), static_cast<Eigen::Index>(values.size()));
-      if (corner == 0)
-        out = at.weight[slot] * part.template cast<double>();
-      else
-        out += at.weight[slot] * part.template cast<double>();
+      detail::blend_row(at.weight[slot], functions.row(at.cell[slot]), corner == 0, out.data());
     }
   }
 }

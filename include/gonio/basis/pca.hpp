@@ -4,8 +4,9 @@
 /// X - mu = U Sigma V', and the basis is the scaled components Q = V Sigma.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/metric/log_relative.hpp>
-#include <gonio/table/material_set.hpp>
+#include <gonio/table/cell_matrix.hpp>
 
 #include <Eigen/Core>
 

@@ -60,10 +60,33 @@ struct cosine_pair {
   return phi > -std::numbers::pi + 1e-12 ? phi : std::numbers::pi;
 }
 
+namespace detail {
+
+// Written out, as is whatever this header has of vectors: each kind of Eigen's expressions would cost every file that
+// includes it.
+
+[[nodiscard]] inline double norm_of(double x, double y, double z) noexcept {
+  return std::sqrt(x * x + (y * y + z * z));
+}
+
+/// a u + b v.
+[[nodiscard]] inline direction combined(double a, const direction& u, double b, const direction& v) noexcept {
+  return {a * u.x() + b * v.x(), a * u.y() + b * v.y(), a * u.z() + b * v.z()};
+}
+
+/// The vector itself if it is zero.
+[[nodiscard]] inline direction normalised(const direction& w) noexcept {
+  const double length = norm_of(w.x(), w.y(), w.z());
+  return length > 0.0 ? direction(w.x() / length, w.y() / length, w.z() / length) : w;
+}
+
+}  // namespace detail
+
 /// The angle in radians between two directions of any length but zero, exact for small ones, too.
 [[nodiscard]] inline double angle_between(const direction& a, const direction& b) noexcept {
-  const direction u = a.normalized(), v = b.normalized();
-  return 2.0 * std::atan2((u - v).norm(), (u + v).norm());
+  const direction u = detail::normalised(a), v = detail::normalised(b);
+  return 2.0 * std::atan2(detail::norm_of(u.x() - v.x(), u.y() - v.y(), u.z() - v.z()),
+                          detail::norm_of(u.x() + v.x(), u.y() + v.y(), u.z() + v.z()));
 }
 
 /// A direction turned about the normal by an azimuth, in radians.
@@ -84,10 +107,10 @@ namespace detail {
 /// A direction turned by an angle towards one of its sides, which `side` counts round it: 0 is a side parallel to the
 /// surface, unless the direction is near the normal. All in radians.
 [[nodiscard]] inline direction turned(const direction& w, double angle, double side) noexcept {
-  const direction beside =
-      detail::cross_product(w, std::abs(w.z()) < 0.9 ? direction::UnitZ() : direction::UnitX()).normalized();
-  const direction towards = std::cos(side) * beside + std::sin(side) * detail::cross_product(w, beside);
-  return std::cos(angle) * w + std::sin(angle) * towards;
+  const direction across = std::abs(w.z()) < 0.9 ? direction(0.0, 0.0, 1.0) : direction(1.0, 0.0, 0.0);
+  const direction beside = detail::normalised(detail::cross_product(w, across));
+  const direction towards = detail::combined(std::cos(side), beside, std::sin(side), detail::cross_product(w, beside));
+  return detail::combined(std::cos(angle), w, std::sin(angle), towards);
 }
 
 /// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
@@ -103,10 +126,11 @@ namespace detail {
 /// have no half vector, get the normal.
 [[nodiscard]] inline half_difference to_half_difference(const direction& wi, const direction& wo) noexcept {
   // wi and wo lie symmetrically about h, so their sum is along h and their difference across it.
-  const direction sum = wi + wo;
-  const direction difference = wi - wo;
-  const double length = sum.norm();
-  const direction h = length > 0.0 ? direction(sum / length) : direction(0.0, 0.0, 1.0);
+  const direction sum(wi.x() + wo.x(), wi.y() + wo.y(), wi.z() + wo.z());
+  const direction difference(wi.x() - wo.x(), wi.y() - wo.y(), wi.z() - wo.z());
+  const double length = detail::norm_of(sum.x(), sum.y(), sum.z());
+  const direction h =
+      length > 0.0 ? direction(sum.x() / length, sum.y() / length, sum.z() / length) : direction(0.0, 0.0, 1.0);
   const double sin_theta_h = std::hypot(h.x(), h.y());
   const double cos_phi_h = sin_theta_h > 0.0 ? h.x() / sin_theta_h : 1.0;
   const double sin_phi_h = sin_theta_h > 0.0 ? h.y() / sin_theta_h : 0.0;
@@ -114,7 +138,8 @@ namespace detail {
   const double along = cos_phi_h * difference.x() + sin_phi_h * difference.y();
   const double x = h.z() * along - sin_theta_h * difference.z();
   const double y = cos_phi_h * difference.y() - sin_phi_h * difference.x();
-  return {std::atan2(sin_theta_h, h.z()), std::atan2(difference.norm(), length), fold_phi_d(std::atan2(y, x))};
+  const double across = detail::norm_of(difference.x(), difference.y(), difference.z());
+  return {std::atan2(sin_theta_h, h.z()), std::atan2(across, length), fold_phi_d(std::atan2(y, x))};
 }
 
 /// The pair with these angles whose half vector lies in the xz plane (phi_h = 0).
@@ -122,9 +147,10 @@ namespace detail {
   const double sin_h = std::sin(angles.theta_h), cos_h = std::cos(angles.theta_h);
   const double sin_d = std::sin(angles.theta_d), cos_d = std::cos(angles.theta_d);
   const double across = sin_d * std::cos(angles.phi_d);
-  const direction along_h(cos_d * sin_h, 0.0, cos_d * cos_h);
-  const direction off_h(across * cos_h, sin_d * std::sin(angles.phi_d), -across * sin_h);
-  return {along_h + off_h, along_h - off_h};
+  // Along h, and off it.
+  const double x = cos_d * sin_h, z = cos_d * cos_h;
+  const double off_x = across * cos_h, off_y = sin_d * std::sin(angles.phi_d), off_z = -across * sin_h;
+  return {{x + off_x, off_y, z + off_z}, {x - off_x, -off_y, z - off_z}};
 }
 
 /// cos(theta_i) and cos(theta_o) of a pair with these angles.

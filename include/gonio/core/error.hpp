@@ -20,7 +20,7 @@ class message_part {
   message_part(int number) : message_part(static_cast<long>(number)) {}                // NOLINT
   message_part(unsigned number) : message_part(static_cast<unsigned long>(number)) {}  // NOLINT
 
-  [[nodiscard]] std::string str() const;
+  void append_to(std::string& sentence) const;
 
  private:
   // What no text is as long as.
@@ -35,6 +35,9 @@ class message_part {
   std::size_t size_;  ///< of the text, or which number it is
 };
 
+/// The parts, one after the other.
+[[nodiscard]] std::string message_of(std::initializer_list<message_part> parts);
+
 /// Thrown when data that came from outside (a file, a caller's array, a command line) is not what it
 /// should be. The message is one sentence that names what is wrong, where, and what was expected.
 /// Evaluating a BRDF never throws.
@@ -45,7 +48,7 @@ class message_part {
 class error : public std::runtime_error {
  public:
   explicit error(const std::string& sentence) : std::runtime_error(sentence) {}
-  /// The parts, one after the other. Sentences that are put together here cost the thrower no code of their own.
+  /// The parts are put together here, where it costs the thrower no code of its own.
   error(std::initializer_list<message_part> parts);
 };
 

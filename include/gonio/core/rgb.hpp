@@ -33,20 +33,32 @@ using rgb = Eigen::Array3d;
           0.0556434 * xyz.x() - 0.2040259 * xyz.y() + 1.0572252 * xyz.z()};
 }
 
+namespace detail {
+
+/// The cube root of CIELAB, with its linear part near black, of a channel of XYZ relative to white's.
+[[nodiscard]] inline double lab_curve(double relative) noexcept {
+  constexpr double knee = 6.0 / 29.0;
+  return relative > knee * knee * knee ? std::cbrt(relative) : relative / (3.0 * knee * knee) + 4.0 / 29.0;
+}
+
+}  // namespace detail
+
 /// CIELAB 1976 (L*, a*, b*) of a linear Rec. 709 colour under D65. The colour is clipped to [0, 1]
 /// first, as a display would.
 [[nodiscard]] inline rgb to_lab(const rgb& colour) noexcept {
-  constexpr double knee = 6.0 / 29.0;
-  const rgb white(0.95047, 1.0, 1.08883);
-  const rgb relative = to_xyz(colour.max(0.0).min(1.0)) / white;
-  const rgb f = relative.unaryExpr(
-      [](double t) { return t > knee * knee * knee ? std::cbrt(t) : t / (3.0 * knee * knee) + 4.0 / 29.0; });
-  return {116.0 * f.y() - 16.0, 500.0 * (f.x() - f.y()), 200.0 * (f.y() - f.z())};
+  // A channel that is not a number stays so.
+  const auto clipped = [](double channel) { return channel < 0.0 ? 0.0 : channel > 1.0 ? 1.0 : channel; };
+  const rgb xyz = to_xyz({clipped(colour.x()), clipped(colour.y()), clipped(colour.z())});
+  const double x = detail::lab_curve(xyz.x() / 0.95047), y = detail::lab_curve(xyz.y()),
+               z = detail::lab_curve(xyz.z() / 1.08883);
+  return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
 }
 
 /// CIE 1976 colour difference Delta E*ab of two linear colours.
 [[nodiscard]] inline double delta_e(const rgb& a, const rgb& b) noexcept {
-  return (to_lab(a) - to_lab(b)).matrix().norm();
+  const rgb p = to_lab(a), q = to_lab(b);
+  const double l = p.x() - q.x(), green_red = p.y() - q.y(), blue_yellow = p.z() - q.z();
+  return std::sqrt(l * l + (green_red * green_red + blue_yellow * blue_yellow));
 }
 
 /// The sRGB transfer curve: linear light in [0, 1] (clipped) to a display value in [0, 1].

@@ -7,7 +7,6 @@
 #include <gonio/solve/solver.hpp>
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -48,9 +47,10 @@ class basis_equations {
     return {rows, mapped(functions, static_cast<Eigen::Index>(channel)), measured->weights, threads_};
   }
 
-  /// The weights of all functions, size() x channels, by a solver of one system; functions that the basis leaves out
-  /// have weight zero. Systems are solved in parallel.
-  [[nodiscard]] solution solve(const std::function<solution(const least_squares_problem&)>& solver) const {
+  /// The weights of all functions, size() x channels, by `solver(problem)` for each system, which returns a solution;
+  /// functions that the basis leaves out have weight zero. Systems are solved in parallel.
+  template <class Solve>
+  [[nodiscard]] solution solve(const Solve& solver) const {
     const std::vector<Eigen::Index> columns = columns_of(basis_);
     const auto unknowns = static_cast<Eigen::Index>(basis_.size());
     std::array<solution, systems> found;

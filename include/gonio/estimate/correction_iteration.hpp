@@ -6,6 +6,7 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/estimate/values_at.hpp>
 
 #include <array>
 #include <utility>

@@ -4,6 +4,7 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/solve/solver.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 #include <gonio/table/upsample.hpp>
 
 #include <algorithm>
@@ -33,12 +34,14 @@ class fitted_brdf {
       : basis_(std::move(basis)),
         channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
         found_(std::move(found)),
-        weights_(found_.weights.template cast<float>()) {
+        weights_(found_.weights.rows(), found_.weights.cols()) {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
       throw error{"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"};
     if (computed && weights_.rows() > most_computed_functions)
       throw error{"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
                   basis_.size()};
+    for (Eigen::Index i = 0; i < weights_.size(); ++i)
+      weights_.data()[i] = static_cast<float>(found_.weights.data()[i]);
   }
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
@@ -47,7 +50,7 @@ class fitted_brdf {
 
   /// Reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
 
@@ -110,8 +113,11 @@ class fitted_brdf {
     for_each_block(
         basis_.cells().size(), 4096,
         [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell)
-            field.col(static_cast<Eigen::Index>(cell)) = mapped(cell).template cast<float>();
+          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+            const rgb value = mapped(cell);
+            for (Eigen::Index channel = 0; channel < 3; ++channel)
+              field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
+          }
         },
         threads);
     return field;
@@ -124,8 +130,8 @@ class fitted_brdf {
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
   [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {
-    const Eigen::Map<const Eigen::VectorXf> row(channels_[channel].row(cell).data(), weights_.rows());
-    return weights_.col(static_cast<Eigen::Index>(channel)).dot(row) +
+    const float* weights = weights_.data() + static_cast<Eigen::Index>(channel) * weights_.rows();
+    return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
            static_cast<float>(channels_[channel].offset(cell));
   }
 
@@ -134,8 +140,17 @@ class fitted_brdf {
     if constexpr (computed)
       return computed_value(at);
     else
-      return interpolate(
-          at, [&](std::size_t cell) { return mapped(cell); }, rgb(rgb::Zero()));
+      return interpolated_value(at);
+  }
+
+  [[nodiscard]] rgb interpolated_value(const location& at) const noexcept {
+    rgb sum(0.0, 0.0, 0.0);
+    for (int corner = 0; corner < at.count; ++corner) {
+      const auto slot = static_cast<std::size_t>(corner);
+      const rgb value = mapped(at.cell[slot]);
+      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[slot] * value[channel];
+    }
+    return sum;
   }
 
   /// The three channels at a place, from one row if they share their basis.
@@ -155,12 +170,15 @@ class fitted_brdf {
     const metric_type& metric = basis_.metric();
     constexpr int fields_count = 3 + metric_type::companions;
     cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
-    fields.template topRows<3>() = mapped_field(threads);
-    if constexpr (metric_type::companions > 0)
-      for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
+    const mapped_fields channels = mapped_field(threads);
+    for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
+      float* field = &fields(0, cell);
+      std::copy_n(&channels(0, cell), 3, field);
+      if constexpr (metric_type::companions > 0) {
         const auto companions = metric.companion(static_cast<std::size_t>(cell));
-        std::copy(companions.begin(), companions.end(), fields.col(cell).data() + 3);
+        std::copy(companions.begin(), companions.end(), field + 3);
       }
+    }
     brdf_table table(cells);
     upsample<fields_count>(
         basis_.cells(), fields, cells,
@@ -173,13 +191,14 @@ class fitted_brdf {
 
   [[nodiscard]] rgb reflectance(const rgb& y, const location& at) const noexcept {
     const auto& metric = basis_.metric();
-    return rgb(metric.inverse(y.x(), at), metric.inverse(y.y(), at), metric.inverse(y.z(), at)).max(0.0);
+    return {std::max(metric.inverse(y.x(), at), 0.0), std::max(metric.inverse(y.y(), at), 0.0),
+            std::max(metric.inverse(y.z(), at), 0.0)};
   }
 
   Basis basis_;
   std::array<channel_type, 3> channels_;
   solution found_;
-  Eigen::Matrix<float, Eigen::Dynamic, 3> weights_;
+  Eigen::MatrixXf weights_;
 };
 
 /// What a fit over a domain is: a BRDF, unless the domain's own specialisation of this says otherwise. `type<Basis>` is

@@ -1,17 +1,14 @@
 #pragma once
 /// Measurements placed on the cells of a basis.
 
-#include <gonio/estimate/estimator.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <iterator>
-#include <optional>
-#include <string>
+#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -28,7 +25,7 @@ struct located_samples {
   [[nodiscard]] std::size_t size() const noexcept { return at.size(); }
 
   /// The values as estimators keep them.
-  [[nodiscard]] channel_values channels() const { return values.transpose().array().cast<float>(); }
+  [[nodiscard]] channel_values channels() const;
 
   /// Some of the samples, by their positions.
   [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const;
@@ -85,36 +82,6 @@ template <error_metric Metric>
       },
       threads);
   return mapped;
-}
-
-/// An estimate at given places on `cells`: by its own `at` if it has these cells, else read from its table where places
-/// are cells and there are many, otherwise evaluated.
-template <tabulated_brdf Fit>
-[[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& places,
-                                       thread_count threads = {}) {
-  const auto collect = [&](auto&& value_at) {
-    channel_values values(3, std::ssize(places));
-    for_each_block(
-        places.size(), 256,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>();
-        },
-        threads);
-    return values;
-  };
-  if constexpr (requires { fit.at(places[0]); })
-    if (fit.cells() == cells) return collect([&](const location& at) { return fit.at(at); });
-  // A table takes as long as some thousand evaluations.
-  constexpr std::ptrdiff_t worth_a_table = 4096;
-  std::optional<brdf_table> table;
-  if (std::ranges::count_if(places, [](const location& at) { return at.count == 1; }) > worth_a_table)
-    table = fit.tabulate(cells, threads);
-  return collect([&](const location& at) {
-    if (table && at.count == 1) return rgb(table->at(std::size_t{at.cell[0]}));
-    const auto [wi, wo] = to_directions(at.angles);
-    return rgb(fit(wi, wo));
-  });
 }
 
 }  // namespace gonio

@@ -22,19 +22,20 @@ class byte_writer {
  public:
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  void put(Number value) { put_all(std::span<const Number>(&value, 1)); }
+  void put(Number value) { put_bytes(&value, sizeof value); }
 
   template <class Number>
   requires std::is_trivially_copyable_v<Number>
-  void put_all(std::span<const Number> values) {
-    const auto bytes = std::as_bytes(values);
-    bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-  }
+  void put_all(std::span<const Number> values) { put_bytes(values.data(), values.size_bytes()); }
+
+  void put_bytes(const void* bytes, std::size_t count);
 
   /// A length of 32 bits and the characters.
   void put_text(const std::string& text);
 
   [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+  /// Moves them out.
+  [[nodiscard]] std::vector<std::byte> take() noexcept { return std::move(bytes_); }
 
  private:
   std::vector<std::byte> bytes_;

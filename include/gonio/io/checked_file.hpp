@@ -6,12 +6,9 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 
-#include <zlib.h>
-
-#include <algorithm>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>

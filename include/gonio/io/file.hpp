@@ -5,19 +5,15 @@
 
 #include <gonio/core/error.hpp>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <concepts>
 #include <cstddef>
 #include <filesystem>
-#include <new>
+#include <initializer_list>
 #include <span>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,17 +21,23 @@ namespace gonio::io {
 
 namespace detail {
 
-[[nodiscard]] inline std::string system_reason(int code) { return std::generic_category().message(code); }
+[[nodiscard]] std::string system_reason(int code);
 
-[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& what);
+/// The parts of the message, one after the other.
+[[noreturn]] void refuse_file(const std::filesystem::path& path, std::initializer_list<message_part> what);
+[[noreturn]] inline void refuse_file(const std::filesystem::path& path, const message_part& what) {
+  refuse_file(path, {what});
+}
 
 /// Owns an open file.
 class descriptor {
  public:
   explicit descriptor(int number = -1) noexcept : number_(number) {}
-  descriptor(descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  descriptor(descriptor&& other) noexcept : number_(other.release()) {}
   descriptor& operator=(descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
+    const int mine = number_;
+    number_ = other.number_;
+    other.number_ = mine;
     return *this;
   }
   ~descriptor() {
@@ -45,9 +47,15 @@ class descriptor {
   [[nodiscard]] bool is_open() const noexcept { return number_ >= 0; }
   [[nodiscard]] int get() const noexcept { return number_; }
   /// For a file that was written: some file systems report a failed write only here.
-  [[nodiscard]] bool close() noexcept { return ::close(std::exchange(number_, -1)) == 0; }
+  [[nodiscard]] bool close() noexcept { return ::close(release()) == 0; }
 
  private:
+  [[nodiscard]] int release() noexcept {
+    const int number = number_;
+    number_ = -1;
+    return number;
+  }
+
   int number_;
 };
 
@@ -82,11 +90,11 @@ class file_writer {
 
   void create_temporary();
 
-  [[noreturn]] void fail() const { detail::refuse_file(path_, "cannot be written: " + detail::system_reason(errno)); }
+  [[noreturn]] void fail() const;
 
   std::filesystem::path path_;
   std::filesystem::path target_;
-  std::filesystem::path temporary_;
+  std::string temporary_;
   detail::descriptor file_;
   bool replaces_ = false;
   mode_t old_mode_ = 0;
@@ -102,9 +110,7 @@ void write_atomically(const std::filesystem::path& path, Fill&& fill) {
 }
 
 /// Replaces the file by these bytes.
-inline void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-  write_atomically(path, [&](file_writer& file) { file.write(bytes); });
-}
+void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
 }  // namespace gonio::io
 

@@ -7,16 +7,10 @@
 
 #include <zlib.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <new>
+#include <initializer_list>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio::io {
@@ -46,13 +40,10 @@ class inflater {
   /// Turns to the stream that follows.
   void restart();
 
-  [[noreturn]] void refuse(const std::string& what) const;
+  /// The parts of the message, one after the other.
+  [[noreturn]] void refuse(std::initializer_list<message_part> what) const;
 
  private:
-  [[nodiscard]] static uInt at_most_a_gigabyte(std::size_t size) noexcept {
-    return static_cast<uInt>(std::min<std::size_t>(size, 1u << 30));
-  }
-
   [[noreturn]] void fail(int status) const;
 
   z_stream stream_{};

@@ -25,15 +25,20 @@ struct quantised {
 template <std::unsigned_integral Code>
 [[nodiscard]] quantised<Code> quantise(std::span<const float> values) {
   if (values.empty()) return {};
-  const auto [low, high] = std::ranges::minmax(values);
+  float low = values[0], high = values[0];
+  for (const float value : values) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
   const double step = (double{high} - double{low}) / std::numeric_limits<Code>::max();
   quantised<Code> result{low, static_cast<float>(step), std::vector<Code>(values.size())};
   // The stored float step, not the exact one, is what the reader multiplies by.
   const double stored = result.step;
-  std::ranges::transform(values, result.codes.begin(), [&](float value) {
-    const double code = stored > 0.0 ? std::round((double{value} - double{low}) / stored) : 0.0;
-    return static_cast<Code>(std::clamp(code, 0.0, static_cast<double>(std::numeric_limits<Code>::max())));
-  });
+  constexpr double most = std::numeric_limits<Code>::max();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double code = stored > 0.0 ? std::round((double{values[i]} - double{low}) / stored) : 0.0;
+    result.codes[i] = static_cast<Code>(std::clamp(code, 0.0, most));
+  }
   return result;
 }
 
@@ -55,7 +60,7 @@ void put_quantised(byte_writer& out, const quantised<Code>& column) {
       plane[i] = static_cast<std::uint8_t>(static_cast<Code>(column.codes[i] - previous) >> shift);
       previous = column.codes[i];
     }
-    out.put_all(std::span<const std::uint8_t>(plane));
+    out.put_bytes(plane.data(), plane.size());
   }
 }
 

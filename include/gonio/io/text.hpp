@@ -2,18 +2,14 @@
 /// Text files of numbers: what their readers and writers have in common. Bad input is refused with its file, line and
 /// field.
 
-#include <gonio/core/assertion.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/io/file.hpp>
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 namespace gonio::io::detail {
 
@@ -22,7 +18,9 @@ struct text_place {
   std::string name;
   std::size_t line = 0;
 
-  [[noreturn]] void refuse(const std::string& what) const;
+  /// The parts of the message, one after the other.
+  [[noreturn]] void refuse(std::initializer_list<message_part> what) const;
+  [[noreturn]] void refuse(const message_part& what) const { refuse({what}); }
 };
 
 /// A field in quotes, short and printable whatever a broken file holds.
@@ -30,33 +28,28 @@ struct text_place {
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
+
+/// Takes the next line that holds something off the front of a text, trimmed; `place` is then there. Lines that start
+/// with # are comments.
+[[nodiscard]] bool next_line(std::string_view& text, text_place& place, std::string_view& line);
+
 /// Calls `use(line)` for each line that holds something, trimmed, `place` being there. Lines that start with # are
 /// comments.
 template <class Use>
 void for_each_line(std::string_view text, text_place& place, Use&& use) {
-  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
-  while (!text.empty()) {
-    ++place.line;
-    const std::size_t end = text.find('\n');
-    const std::string_view line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!line.empty() && line.front() != '#') use(line);
-  }
+  text = without_byte_order_mark(text);
+  for (std::string_view line; next_line(text, place, line);) use(line);
 }
+
+/// Reads a finite number. Returns what is wrong with the field, or nothing.
+[[nodiscard]] const char* read_number(std::string_view field, double& value);
 
 /// A finite number; `describe()` is what errors call it.
 template <class Describe>
 [[nodiscard]] double parse_number(std::string_view field, const text_place& place, const Describe& describe) {
-  const auto refuse = [&](const char* what) { place.refuse(describe() + ": " + quoted(field) + what); };
-  // Instruments print a plus sign, which from_chars does not know.
-  const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
-  const std::string_view digits = field.substr(plus ? 1 : 0);
   double value = 0.0;
-  const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (failed == std::errc::result_out_of_range) refuse(" is out of range");
-  if (failed != std::errc() || end != digits.data() + digits.size()) refuse(" is not a number");
-  if (!std::isfinite(value)) refuse(" is not finite");
+  if (const char* wrong = read_number(field, value)) place.refuse({describe(), ": ", quoted(field), wrong});
   return value;
 }
 

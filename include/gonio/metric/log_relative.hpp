@@ -4,9 +4,10 @@
 /// SIGGRAPH Asia 2015, Eq. 1-4.
 
 #include <gonio/metric/error_metric.hpp>
-#include <gonio/table/material_set.hpp>
+#include <gonio/table/cell_matrix.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -29,8 +30,16 @@ class log_relative {
   /// value is negative or not finite.
   log_relative(valid_cells cells, std::vector<float> reference);
 
-  /// The metric relative to the median of all columns at each cell (Eq. 3). O(cells x columns).
-  [[nodiscard]] static log_relative to_median_of(const material_set& materials, thread_count threads = {});
+  /// The metric relative to the median of all columns at each cell (Eq. 3), of a material_set or of any other set of
+  /// observations with `cells` and `values`. O(cells x columns).
+  template <class Materials>
+  [[nodiscard]] static log_relative to_median_of(const Materials& materials, thread_count threads = {}) {
+    return to_median_of(materials.cells, materials.values, threads);
+  }
+
+  /// The same of a row of values for each cell.
+  [[nodiscard]] static log_relative to_median_of(const valid_cells& cells, const cell_matrix& values,
+                                                 thread_count threads = {});
 
   /// c of Eq. 2.
   [[nodiscard]] static double cosine_weight(const cosine_pair& cosine) noexcept {
@@ -92,8 +101,6 @@ class log_relative {
   [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
 
  private:
-  [[nodiscard]] static float median(std::vector<float>& values);
-
   valid_cells cells_;
   std::shared_ptr<const std::vector<float>> reference_;
 };

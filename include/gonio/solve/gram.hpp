@@ -4,9 +4,11 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/row_source.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -30,12 +32,19 @@ class product_sum {
     // An odd number of tiles from row to row: a power of two would put a tile's piece of every row into the same few
     // sets of the cache.
     const Eigen::Index tiles = (std::max(length_, reach) + tile_rows - 1) / tile_rows;
-    buffer_.setZero(block_rows, (tiles | 1) * tile_rows);
-    sum_.setZero(length_, reach);
+    buffer_.resize(block_rows, (tiles | 1) * tile_rows);
+    sum_.resize(length_, reach);
+    std::fill_n(buffer_.data(), buffer_.size(), Scalar(0));
+    std::fill_n(sum_.data(), sum_.size(), 0.0);
   }
 
   /// Where the next `count` rows, at most block_rows, belong.
   [[nodiscard]] auto rows(Eigen::Index count) { return buffer_.topLeftCorner(count, columns_); }
+
+  /// One of them, contiguous.
+  [[nodiscard]] Scalar* row(Eigen::Index number) { return buffer_.data() + number * buffer_.cols(); }
+  /// From one to the next.
+  [[nodiscard]] Eigen::Index stride() const { return buffer_.cols(); }
 
   /// Adds the products of the first `count` rows of the buffer.
   void add(Eigen::Index count) {
@@ -48,7 +57,7 @@ class product_sum {
   }
 
   product_sum& operator+=(const product_sum& other) {
-    sum_ += other.sum_;
+    add_scaled(1.0, other.sum_.data(), sum_.data(), sum_.size());
     return *this;
   }
 

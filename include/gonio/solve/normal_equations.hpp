@@ -46,13 +46,7 @@ class normal_equations {
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::MatrixXd& x) const;
 
   /// The problem of the rows of both: of the same sizes, else gonio::error.
-  [[nodiscard]] friend normal_equations operator+(const normal_equations& a, const normal_equations& b) {
-    if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
-      throw error{"normal equations of ",      a.unknowns(), " unknowns and ", a.right_hand_sides(),
-                  " right-hand sides and of ", b.unknowns(), " and ",          b.right_hand_sides(),
-                  " cannot be added"};
-    return {a.gram_ + b.gram_, a.moment_ + b.moment_, a.energy_ + b.energy_};
-  }
+  friend normal_equations operator+(const normal_equations& a, const normal_equations& b);
 
   /// The problem over some of the columns, in the order given: a submatrix.
   [[nodiscard]] normal_equations subset(std::span<const Eigen::Index> columns) const;
@@ -67,12 +61,12 @@ class normal_equations {
   Eigen::VectorXd energy_;
 };
 
+[[nodiscard]] normal_equations operator+(const normal_equations& a, const normal_equations& b);
+
 /// The problem "column `target` of a Gram matrix from the others": b = A e_target, over the columns given. With the
 /// Gram matrix of a whole basis at hand, each leave-one-out problem is O(k^2) and touches no data.
-[[nodiscard]] inline normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
-                                                    std::span<const Eigen::Index> columns) {
-  return normal_equations(gram, gram.col(target), Eigen::VectorXd::Constant(1, gram(target, target))).subset(columns);
-}
+[[nodiscard]] normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
+                                             std::span<const Eigen::Index> columns);
 
 /// All columns 0 to k - 1 but one, as leaving it out needs them.
 [[nodiscard]] std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out);

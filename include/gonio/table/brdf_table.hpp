@@ -37,14 +37,20 @@ class brdf_table {
 
   /// Trilinear interpolation of the stored values; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     return at(locate(cells_, to_half_difference(wi, wo)));
   }
 
   /// Trilinear interpolation of the stored values at a location on this table's cells.
   [[nodiscard]] rgb at(const location& where) const noexcept {
-    return interpolate(
-        where, [&](std::size_t cell) { return at(cell); }, rgb(rgb::Zero()));
+    rgb sum(0.0, 0.0, 0.0);
+    for (int corner = 0; corner < where.count; ++corner) {
+      const auto slot = static_cast<std::size_t>(corner);
+      const float* value = values_.data() + 3 * std::size_t{where.cell[slot]};
+      for (Eigen::Index channel = 0; channel < 3; ++channel)
+        sum[channel] += where.weight[slot] * double{value[channel]};
+    }
+    return sum;
   }
 
  private:
@@ -61,10 +67,10 @@ class nearest_lookup {
   explicit nearest_lookup(const brdf_table& table) noexcept : table_(&table) {}
 
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return rgb::Zero();
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     const valid_cells& cells = table_->cells();
     const std::size_t linear = cells.grid().linear(cells.grid().nearest(to_half_difference(wi, wo)));
-    return cells.contains(linear) ? table_->at(cells.representative(linear)) : rgb(rgb::Zero());
+    return cells.contains(linear) ? table_->at(cells.representative(linear)) : rgb(0.0, 0.0, 0.0);
   }
 
  private:

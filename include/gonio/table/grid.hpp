@@ -55,9 +55,7 @@ class grid {
   explicit grid(grid_extents extents = {}, cell_anchor anchor = cell_anchor::centre)
       : extents_(extents), anchor_(anchor) {
     const auto ok = [](int extent) { return extent >= 1 && extent <= 4096; };
-    if (!ok(extents.theta_h) || !ok(extents.theta_d) || !ok(extents.phi_d))
-      refuse("a grid of " + std::to_string(extents.theta_h) + " x " + std::to_string(extents.theta_d) + " x " +
-             std::to_string(extents.phi_d) + " cells: every extent must be from 1 to 4096");
+    if (!ok(extents.theta_h) || !ok(extents.theta_d) || !ok(extents.phi_d)) refuse_extents(extents);
   }
 
   [[nodiscard]] const grid_extents& extents() const noexcept { return extents_; }
@@ -119,6 +117,8 @@ class grid {
  private:
   static constexpr double half_pi = std::numbers::pi / 2.0;
 
+  [[noreturn]] static void refuse_extents(const grid_extents& extents);
+
   [[nodiscard]] static constexpr std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
   [[nodiscard]] double offset() const noexcept { return anchor_ == cell_anchor::centre ? 0.5 : 0.0; }
   [[nodiscard]] static int nearest_node(double coordinate, int extent) noexcept {
@@ -128,6 +128,11 @@ class grid {
   grid_extents extents_;
   cell_anchor anchor_;
 };
+
+inline void grid::refuse_extents(const grid_extents& extents) {
+  refuse(message_of({"a grid of ", extents.theta_h, " x ", extents.theta_d, " x ", extents.phi_d,
+                     " cells: every extent must be from 1 to 4096"}));
+}
 
 /// Calls `visit(linear, cosine)` for every cell of a grid in linear order with the smaller of the two cosines at
 /// its node, sum - |difference cos phi_d| in the terms of `cosines`: a few operations a cell instead of five

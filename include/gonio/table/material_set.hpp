@@ -2,6 +2,7 @@
 /// Tables of several materials over the same cells, as one matrix.
 
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/cell_matrix.hpp>
 #include <gonio/table/domain.hpp>
 
 #include <Eigen/Core>
@@ -16,9 +17,6 @@
 #include <vector>
 
 namespace gonio {
-
-/// Rows are cells, columns are observations: red, green and blue of the first material, then of the next.
-using cell_matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Dense tables of named materials over common cells; `values` has shape (cells, 3 materials), sr^-1.
 /// 100 materials on MERL's grid take 1.3 GB.

@@ -14,7 +14,7 @@ namespace gonio {
 /// One measurement: where, what (sr^-1, without the cosine; may be negative), and how much it counts.
 struct sample {
   half_difference angles;
-  rgb value = rgb::Zero();
+  rgb value{0.0, 0.0, 0.0};
   double weight = 1.0;
 };
 

@@ -8,7 +8,9 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -49,7 +51,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
   // Extend the fields to all cells of the source, so that blending needs no case for the horizon.
   cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(source.size()));
   for (std::size_t linear = 0; linear < source.size(); ++linear)
-    dense.col(static_cast<Eigen::Index>(linear)) = fields.col(static_cast<Eigen::Index>(from.representative(linear)));
+    std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
 
   std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
   std::vector<double> cos_phi_d(index(fine.phi_d));
@@ -72,7 +74,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
           // Blend the source's rows around (theta_h, theta_d) into one line over phi_d.
           const auto h = detail::clamped_interval(source.theta_h_coordinate(theta_h), coarse.theta_h);
           const auto d = detail::clamped_interval(source.theta_d_coordinate(theta_d), coarse.theta_d);
-          line.setZero();
+          std::fill_n(line.data(), line.size(), 0.0f);
           for (std::size_t a = 0; a < 2; ++a)
             for (std::size_t b = 0; b < 2; ++b) {
               const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);

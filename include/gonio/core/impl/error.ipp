@@ -4,29 +4,32 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 
 namespace gonio {
 
-namespace detail {
+GONIO_INLINE void message_part::append_to(std::string& sentence) const {
+  // The longest double has 309 digits before its point.
+  std::array<char, 400> digits;
+  int count = -1;
+  if (size_ == real) count = std::snprintf(digits.data(), digits.size(), "%f", real_);
+  if (size_ == integer) count = std::snprintf(digits.data(), digits.size(), "%ld", integer_);
+  if (size_ == natural) count = std::snprintf(digits.data(), digits.size(), "%lu", natural_);
+  if (count < 0)
+    sentence.append(text_, size_);
+  else
+    sentence.append(digits.data(), static_cast<std::size_t>(count));
+}
 
-[[nodiscard]] GONIO_INLINE std::string joined(std::initializer_list<message_part> parts) {
+GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {
   std::string sentence;
-  for (const message_part& part : parts) sentence += part.str();
+  for (const message_part& part : parts) part.append_to(sentence);
   return sentence;
 }
 
-}  // namespace detail
-
-GONIO_INLINE std::string message_part::str() const {
-  if (size_ == real) return std::to_string(real_);
-  if (size_ == integer) return std::to_string(integer_);
-  if (size_ == natural) return std::to_string(natural_);
-  return {text_, size_};
-}
-
-GONIO_INLINE error::error(std::initializer_list<message_part> parts) : std::runtime_error(detail::joined(parts)) {}
+GONIO_INLINE error::error(std::initializer_list<message_part> parts) : std::runtime_error(message_of(parts)) {}
 
 GONIO_INLINE void refuse(const std::string& sentence) {
 #if defined(__cpp_exceptions)

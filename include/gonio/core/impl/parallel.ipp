@@ -18,6 +18,19 @@ GONIO_INLINE unsigned thread_count::resolve() const noexcept {
   return value != 0 ? value : std::max(1u, std::thread::hardware_concurrency());
 }
 
+namespace detail {
+
+/// Waits for its threads even if the last of them could not be started. (std::jthread costs more to compile.)
+struct thread_team {
+  std::vector<std::thread> members;
+
+  ~thread_team() {
+    for (std::thread& member : members) member.join();
+  }
+};
+
+}  // namespace detail
+
 GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads) {
   GONIO_ASSERT(block_size > 0);
   const std::size_t blocks = (count + block_size - 1) / block_size;
@@ -47,9 +60,8 @@ GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, 
     }
   };
   {
-    std::vector<std::jthread> team;
-    team.reserve(workers - 1);
-    for (std::size_t w = 1; w < workers; ++w) team.emplace_back(work);
+    detail::thread_team team;
+    for (std::size_t w = 1; w < workers; ++w) team.members.emplace_back(work);
     work();
   }
   if (failure) std::rethrow_exception(failure);

@@ -2,19 +2,15 @@
 /// Bodies of estimate/located_samples.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/estimate/estimator.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/estimate/located_samples.hpp>
-#include <gonio/metric/error_metric.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace gonio::detail {
@@ -47,13 +43,21 @@ GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cel
 
 namespace gonio {
 
+GONIO_INLINE channel_values located_samples::channels() const {
+  channel_values transposed(3, values.rows());
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      transposed(channel, i) = static_cast<float>(values(i, channel));
+  return transposed;
+}
+
 GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size_t>& positions) const {
   const auto count = std::ssize(positions);
   located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
     some.at[i] = at[positions[i]];
-    some.values.row(to) = values.row(from);
+    for (Eigen::Index channel = 0; channel < 3; ++channel) some.values(to, channel) = values(from, channel);
     some.weights[to] = weights[from];
   }
   return some;
@@ -68,9 +72,13 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf
       found.size(), 4096,
       [&](block range) {
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          if (!table.at(cell).isFinite().all()) throw error{"cell ", cell, " of a table is not finite"};
+          const auto row = static_cast<Eigen::Index>(cell);
+          for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double value = double{table.values()[3 * cell + channel]};
+            if (!std::isfinite(value)) throw error{"cell ", cell, " of a table is not finite"};
+            found.values(row, static_cast<Eigen::Index>(channel)) = value;
+          }
           found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
-          found.values.row(static_cast<Eigen::Index>(cell)) = table.at(cell).matrix().transpose();
         }
       },
       threads);

@@ -5,25 +5,26 @@
 #include <gonio/core/error.hpp>
 #include <gonio/io/byte_stream.hpp>
 
-#include <bit>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <span>
 #include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 namespace gonio::io {
 
+GONIO_INLINE void byte_writer::put_bytes(const void* bytes, std::size_t count) {
+  const auto* begin = static_cast<const std::byte*>(bytes);
+  bytes_.insert(bytes_.end(), begin, begin + count);
+}
+
 GONIO_INLINE void byte_writer::put_text(const std::string& text) {
   put(static_cast<std::uint32_t>(text.size()));
-  put_all(std::span<const char>(text));
+  put_bytes(text.data(), text.size());
 }
 
 GONIO_INLINE std::string byte_reader::take_text() {
-  const auto characters = take_all<char>(take<std::uint32_t>());
-  return {characters.begin(), characters.end()};
+  const auto characters = take_bytes(take<std::uint32_t>());
+  return {reinterpret_cast<const char*>(characters.data()), characters.size()};
 }
 
 GONIO_INLINE std::span<const std::byte> byte_reader::take_bytes(std::size_t count) {

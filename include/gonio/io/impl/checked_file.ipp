@@ -11,8 +11,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -30,26 +32,26 @@ namespace gonio::io {
 
 GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind, std::span<const std::byte> payload) {
   byte_writer file;
-  file.put_all(std::span<const char>(kind.magic));
+  file.put_bytes(kind.magic.data(), kind.magic.size());
   file.put(kind.version);
   file.put(std::uint64_t{payload.size()});
   file.put(detail::checksum(payload));
-  file.put_all(std::span<const std::byte>(compress_bytes(payload)));
-  return {file.bytes().begin(), file.bytes().end()};
+  const std::vector<std::byte> deflated = compress_bytes(payload);
+  file.put_bytes(deflated.data(), deflated.size());
+  return file.take();
 }
 
 GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
                                                    const std::string& name) {
-  const std::string noun(kind.noun);
   byte_reader file(bytes, name);
   const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
-  if (!std::ranges::equal(magic, std::as_bytes(std::span(kind.magic))))
-    throw error{name, ": not a gonio ", noun, " (it does not start with '", std::string(kind.magic), "')"};
+  if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
+    throw error{name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"};
   const auto version = file.take<std::uint32_t>();
   if (version != kind.version)
-    throw error{name, ": ", noun, " format version ", version, ", this program reads version ", kind.version};
+    throw error{name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version};
   const auto size = file.take<std::uint64_t>();
-  if (size > detail::payload_size_limit) throw error{name, ": a ", noun, " of ", size, " bytes is not believable"};
+  if (size > detail::payload_size_limit) throw error{name, ": a ", kind.noun, " of ", size, " bytes is not believable"};
   const auto expected = file.take<std::uint32_t>();
   std::vector<std::byte> payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
   if (detail::checksum(payload) != expected) throw error{name, ": the checksum does not match, the file is damaged"};

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <new>
@@ -18,13 +17,14 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void refuse_file(const std::filesystem::path& path, const std::string& what) {
-  throw error{path.string(), ": ", what};
+GONIO_INLINE std::string system_reason(int code) { return std::generic_category().message(code); }
+
+GONIO_INLINE void refuse_file(const std::filesystem::path& path, std::initializer_list<message_part> what) {
+  throw error{path.native(), ": ", message_of(what)};
 }
 
 GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
@@ -35,7 +35,7 @@ GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& pat
     if (failed) return target;
     target = next.is_absolute() ? next : target.parent_path() / next;
   }
-  refuse_file(path, "cannot be written: " + system_reason(ELOOP));
+  refuse_file(path, {"cannot be written: ", system_reason(ELOOP)});
 }
 
 }  // namespace gonio::io::detail
@@ -47,7 +47,7 @@ GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path
   const detail::descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat info {};
   if (!file.is_open() || ::fstat(file.get(), &info) != 0)
-    detail::refuse_file(path, "cannot be read: " + detail::system_reason(errno));
+    detail::refuse_file(path, {"cannot be read: ", detail::system_reason(errno)});
   if (S_ISDIR(info.st_mode)) detail::refuse_file(path, "is a directory, expected a file");
   if (!S_ISREG(info.st_mode)) detail::refuse_file(path, "is not a regular file");
 
@@ -62,7 +62,7 @@ GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::read(file.get(), bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) detail::refuse_file(path, "cannot be read: " + detail::system_reason(errno));
+    if (count < 0) detail::refuse_file(path, {"cannot be read: ", detail::system_reason(errno)});
     if (count == 0) detail::refuse_file(path, "became shorter while it was read");
     done += static_cast<std::size_t>(count);
   }
@@ -94,6 +94,10 @@ GONIO_INLINE void file_writer::commit() {
   temporary_.clear();
 }
 
+GONIO_INLINE void file_writer::fail() const {
+  detail::refuse_file(path_, {"cannot be written: ", detail::system_reason(errno)});
+}
+
 GONIO_INLINE void file_writer::inspect_target() {
   struct stat info {};
   if (::stat(target_.c_str(), &info) != 0) return;
@@ -106,10 +110,10 @@ GONIO_INLINE void file_writer::inspect_target() {
 
 GONIO_INLINE void file_writer::create_temporary() {
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  const std::string stem = ".gonio-" + std::to_string(::getpid()) + "-";
+  const std::string stem = message_of({(folder / ".gonio-").native(), ::getpid(), "-"});
   // Another thread, or a process of this number that crashed, may have taken a name.
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    const std::filesystem::path candidate = folder / (stem + std::to_string(attempt) + ".tmp");
+    const std::string candidate = message_of({stem, attempt, ".tmp"});
     file_ = detail::descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file_.is_open()) {
       temporary_ = candidate;
@@ -118,6 +122,12 @@ GONIO_INLINE void file_writer::create_temporary() {
     if (errno != EEXIST) break;
   }
   fail();
+}
+
+GONIO_INLINE void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+  file_writer file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 }  // namespace gonio::io

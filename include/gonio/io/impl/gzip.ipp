@@ -21,6 +21,10 @@
 
 namespace gonio::io::detail {
 
+[[nodiscard]] GONIO_INLINE uInt at_most_a_gigabyte(std::size_t size) noexcept {
+  return static_cast<uInt>(std::min<std::size_t>(size, 1u << 30));
+}
+
 GONIO_INLINE inflater::inflater(std::span<const std::byte> bytes, deflate_format format, std::string name)
     : left_(bytes), name_(std::move(name)) {
   if (inflateInit2(&stream_, static_cast<int>(format)) != Z_OK) throw std::bad_alloc();
@@ -52,12 +56,14 @@ GONIO_INLINE void inflater::restart() {
   ended_ = false;
 }
 
-GONIO_INLINE void inflater::refuse(const std::string& what) const { throw error{name_, ": ", what}; }
+GONIO_INLINE void inflater::refuse(std::initializer_list<message_part> what) const {
+  throw error{name_, ": ", message_of(what)};
+}
 
 GONIO_INLINE void inflater::fail(int status) const {
   if (status == Z_MEM_ERROR) throw std::bad_alloc();
-  if (status == Z_BUF_ERROR) refuse("the compressed data is truncated");
-  refuse(std::string("the compressed data is corrupt (") + (stream_.msg ? stream_.msg : zError(status)) + ")");
+  if (status == Z_BUF_ERROR) refuse({"the compressed data is truncated"});
+  refuse({"the compressed data is corrupt (", stream_.msg ? stream_.msg : zError(status), ")"});
 }
 
 GONIO_INLINE std::size_t expand(inflater& stream, std::vector<std::byte>& result, std::size_t size, std::size_t limit) {
@@ -80,7 +86,7 @@ namespace gonio::io {
 GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std::size_t maximum_size,
                                            const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::gzip, name);
-  if (!is_gzip(bytes)) stream.refuse("is not gzip data");
+  if (!is_gzip(bytes)) stream.refuse({"is not gzip data"});
   // One byte more than allowed shows that there is more, and lets an exact fit reach its checksum.
   const std::size_t limit = std::min(maximum_size, std::numeric_limits<std::size_t>::max() - 1) + 1;
   // A file of one member ends with its size, modulo 2^32.
@@ -90,11 +96,9 @@ GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std
   std::size_t size = 0;
   while (true) {
     size = detail::expand(stream, result, size, limit);
-    if (size > maximum_size)
-      stream.refuse("expands to more than the expected " + std::to_string(maximum_size) + " bytes");
+    if (size > maximum_size) stream.refuse({"expands to more than the expected ", maximum_size, " bytes"});
     if (stream.left().empty()) break;
-    if (!is_gzip(stream.left()))
-      stream.refuse(std::to_string(stream.left().size()) + " bytes follow the compressed data");
+    if (!is_gzip(stream.left())) stream.refuse({stream.left().size(), " bytes follow the compressed data"});
     stream.restart();
   }
   result.resize(size);
@@ -104,7 +108,7 @@ GONIO_INLINE std::vector<std::byte> gunzip(std::span<const std::byte> bytes, std
 GONIO_INLINE std::vector<std::byte> gunzip_prefix(std::span<const std::byte> bytes, std::size_t count,
                                                   const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::gzip, name);
-  if (!is_gzip(bytes)) stream.refuse("is not gzip data");
+  if (!is_gzip(bytes)) stream.refuse({"is not gzip data"});
   std::vector<std::byte> result(count);
   result.resize(stream.read(result));
   return result;
@@ -123,17 +127,17 @@ GONIO_INLINE std::vector<std::byte> compress_bytes(std::span<const std::byte> by
 GONIO_INLINE std::vector<std::byte> decompress_bytes(std::span<const std::byte> bytes, std::size_t expected_size,
                                                      const std::string& name) {
   detail::inflater stream(bytes, detail::deflate_format::zlib, name);
-  const std::string expected = "the expected " + std::to_string(expected_size) + " bytes";
   if (expected_size / detail::deflate_limit > bytes.size())
-    stream.refuse("the compressed data is truncated: its " + std::to_string(bytes.size()) + " bytes cannot hold " +
-                  expected);
+    stream.refuse({"the compressed data is truncated: its ", bytes.size(), " bytes cannot hold the expected ",
+                   expected_size, " bytes"});
   std::vector<std::byte> result = detail::first_buffer(expected_size, bytes.size());
   const std::size_t size = detail::expand(stream, result, 0, expected_size);
-  if (size < expected_size) stream.refuse("expands to " + std::to_string(size) + " bytes, not to " + expected);
+  if (size < expected_size)
+    stream.refuse({"expands to ", size, " bytes, not to the expected ", expected_size, " bytes"});
   // The stream ends only when its checksum has been read, which takes room for one more byte.
   std::array<std::byte, 1> surplus{};
-  if (stream.read(surplus) != 0) stream.refuse("expands to more than " + expected);
-  if (!stream.left().empty()) stream.refuse(std::to_string(stream.left().size()) + " bytes follow the compressed data");
+  if (stream.read(surplus) != 0) stream.refuse({"expands to more than the expected ", expected_size, " bytes"});
+  if (!stream.left().empty()) stream.refuse({stream.left().size(), " bytes follow the compressed data"});
   return result;
 }
 

@@ -23,8 +23,7 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE std::string to_text(const grid_extents& extents) {
-  return std::to_string(extents.theta_h) + " x " + std::to_string(extents.theta_d) + " x " +
-         std::to_string(extents.phi_d);
+  return message_of({extents.theta_h, " x ", extents.theta_d, " x ", extents.phi_d});
 }
 
 GONIO_INLINE grid_extents merl_extents(std::span<const std::byte> bytes, const std::string& name) {
@@ -122,18 +121,18 @@ GONIO_INLINE void write_merl(const std::filesystem::path& path, const brdf_table
   const auto [theta_h, theta_d, phi_d] = cells.extents();
   const std::array<std::int32_t, 3> header{theta_h, theta_d, phi_d};
   std::vector<double> plane(cells.size(), detail::merl_empty);
-  write_atomically(path, [&](file_writer& file) {
-    file.write(std::as_bytes(std::span(header)));
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
-        const double value = double{table.values()[3 * cell + channel]};
-        const std::size_t linear = table.cells().linear(cell);
-        if (!std::isfinite(value)) detail::refuse_cell(path.string(), cells, linear, channel, value);
-        plane[linear] = value / merl_scale[channel];
-      }
-      file.write(std::as_bytes(std::span(plane)));
+  file_writer file(path);
+  file.write({reinterpret_cast<const std::byte*>(header.data()), detail::merl_header_size});
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+      const double value = double{table.values()[3 * cell + channel]};
+      const std::size_t linear = table.cells().linear(cell);
+      if (!std::isfinite(value)) detail::refuse_cell(path.string(), cells, linear, channel, value);
+      plane[linear] = value / merl_scale[channel];
     }
-  });
+    file.write({reinterpret_cast<const std::byte*>(plane.data()), plane.size() * sizeof(double)});
+  }
+  file.commit();
 }
 
 }  // namespace gonio::io

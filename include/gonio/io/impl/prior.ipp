@@ -3,19 +3,30 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/finite.hpp>
+#include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
+#include <gonio/io/file.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
-  std::vector<float> logarithm(metric.reference().size());
-  std::ranges::transform(metric.reference(), logarithm.begin(),
-                         [](float rho) { return static_cast<float>(log_relative::log_reference(rho)); });
+inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
+
+[[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
+  std::vector<float> logarithm;
+  logarithm.reserve(metric.cells().size());
+  for (const float rho : metric.reference()) logarithm.push_back(static_cast<float>(log_relative::log_reference(rho)));
   return logarithm;
 }
 
@@ -31,18 +42,19 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   out.put(prior.explained_variance());
   out.put_text(prior.source());
   for (const std::string& name : prior.names()) out.put_text(name);
-  out.put_all(std::span<const double>(prior.singular_values().data(), prior.size()));
+  out.put_bytes(prior.singular_values().data(), prior.size() * sizeof(double));
   const Eigen::MatrixXf& coefficients = prior.coefficients();
-  out.put_all(std::span<const float>(coefficients.data(), static_cast<std::size_t>(coefficients.size())));
+  out.put_bytes(coefficients.data(), static_cast<std::size_t>(coefficients.size()) * sizeof(float));
   put_quantised(out, quantise<std::uint16_t>(log_of_reference(prior.metric())));
   put_quantised(out, quantise<std::uint16_t>(prior.mean()));
-  for (Eigen::Index k = 0; k < prior.components().cols(); ++k) {
-    const Eigen::VectorXf component = prior.components().col(k);
-    put_quantised(out, quantise<std::uint8_t>(std::span<const float>(component.data(), prior.cells().size())));
+  std::vector<float> component(prior.cells().size());
+  for (std::size_t k = 0; k < prior.size(); ++k) {
+    for (std::size_t cell = 0; cell < component.size(); ++cell) component[cell] = prior.row(cell)[k];
+    put_quantised(out, quantise<std::uint8_t>(component));
   }
 }
 
-GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto anchor = in.take<std::uint32_t>();
@@ -56,13 +68,13 @@ GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
   return valid_cells(grid, minimum_cosine);
 }
 
-GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
+[[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
   std::vector<float> values(column.codes.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = dequantise(column, i);
   return values;
 }
 
-GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
   const valid_cells cells = take_cells(in, name);
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
@@ -77,7 +89,7 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   const auto observed = in.take_all<float>(std::size_t{3} * materials * components);
 
   std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  std::ranges::transform(reference, reference.begin(), [](float logarithm) { return std::exp(logarithm); });
+  for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   if (cells.size() > in.left()) throw error{name, ": the file is truncated or its counts are wrong"};
   cell_matrix functions(static_cast<Eigen::Index>(cells.size()), k);
@@ -88,14 +100,17 @@ GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& nam
   }
   if (in.left() != 0) throw error{name, ": ", in.left(), " bytes follow the last component"};
 
-  const Eigen::Map<const Eigen::VectorXd> singular_values(singular.data(), k);
-  const Eigen::Map<const Eigen::MatrixXf> coefficients(observed.data(), 3 * static_cast<Eigen::Index>(materials), k);
-  const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
-                      functions.allFinite() &&
-                      std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
+  Eigen::VectorXd singular_values(k);
+  std::copy(singular.begin(), singular.end(), singular_values.data());
+  Eigen::MatrixXf coefficients(3 * static_cast<Eigen::Index>(materials), k);
+  std::copy(observed.begin(), observed.end(), coefficients.data());
+  const std::span<const float> values(functions.data(), static_cast<std::size_t>(functions.size()));
+  const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
+                      all_finite(values) && all_finite(mean);
   if (!finite) throw error{name, ": a value of the prior is not finite"};
-  return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names), singular_values,
-                           std::move(functions), std::move(mean), coefficients, explained_variance, std::move(source)});
+  return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names),
+                           std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
+                           explained_variance, std::move(source)});
 }
 
 }  // namespace gonio::io::detail
@@ -112,6 +127,16 @@ GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, con
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
   return detail::take_prior(in, name);
+}
+
+GONIO_INLINE bool is_prior(const std::filesystem::path& path) { return is_of_kind(detail::prior_kind, path); }
+
+GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
+  write_atomically(path, encode_prior(prior));
+}
+
+GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
+  return decode_prior(read_bytes(path), path.string());
 }
 
 }  // namespace gonio::io

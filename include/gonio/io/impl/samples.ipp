@@ -2,6 +2,8 @@
 /// Bodies of io/samples.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/io/file.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -10,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,23 @@
 #include <vector>
 
 namespace gonio::io::detail {
+
+// The columns, grouped; the numbers below index this list.
+inline constexpr std::array<std::string_view, 17> sample_columns{
+    "theta_h", "theta_d", "phi_d", "theta_i", "phi_i", "theta_o", "phi_o", "wi_x",  "wi_y",
+    "wi_z",    "wo_x",    "wo_y",  "wo_z",    "r",     "g",       "b",     "weight"};
+
+struct column_group {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+inline constexpr column_group half_difference_group{0, 3};
+inline constexpr column_group angle_group{3, 4};
+inline constexpr column_group vector_group{7, 6};
+inline constexpr column_group colour_group{13, 3};
+inline constexpr std::size_t weight_column = 16;
+
+using sample_row = std::array<double, sample_columns.size()>;
 
 GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
@@ -28,7 +46,26 @@ GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_vi
   fields.push_back(trimmed(line));
 }
 
-GONIO_INLINE sample_header::sample_header(std::string_view line, bool needs_colour, const text_place& place) {
+/// The header line: which column each field of a line is, and how directions are given.
+class sample_header {
+ public:
+  void read(std::string_view line, bool needs_colour, const text_place& place);
+
+  [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
+  [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
+
+ private:
+  void add(std::string_view field, const text_place& place);
+  void find_directions(const text_place& place);
+  [[nodiscard]] bool has_any(const column_group& group) const;
+  [[nodiscard]] bool has(std::size_t column) const { return has_any({column, 1}); }
+  void require(const column_group& group, const text_place& place) const;
+
+  std::vector<std::size_t> columns_;
+  column_group directions_;
+};
+
+GONIO_INLINE void sample_header::read(std::string_view line, bool needs_colour, const text_place& place) {
   std::vector<std::string_view> fields;
   split_fields(line, fields);
   for (const std::string_view field : fields) add(field, place);
@@ -37,12 +74,12 @@ GONIO_INLINE sample_header::sample_header(std::string_view line, bool needs_colo
 }
 
 GONIO_INLINE void sample_header::add(std::string_view field, const text_place& place) {
-  const auto found = std::ranges::find(sample_columns, field);
-  if (found == sample_columns.end())
-    place.refuse("column " + quoted(field) + " is unknown, expected theta_h,theta_d,phi_d or " +
-                 "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z, and r,g,b and perhaps weight");
-  const auto column = static_cast<std::size_t>(found - sample_columns.begin());
-  if (has(column)) place.refuse("column " + quoted(field) + " appears twice");
+  std::size_t column = 0;
+  while (column < sample_columns.size() && sample_columns[column] != field) ++column;
+  if (column == sample_columns.size())
+    place.refuse({"column ", quoted(field), " is unknown, expected theta_h,theta_d,phi_d or ",
+                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z, and r,g,b and perhaps weight"});
+  if (has(column)) place.refuse({"column ", quoted(field), " appears twice"});
   columns_.push_back(column);
 }
 
@@ -54,64 +91,133 @@ GONIO_INLINE void sample_header::find_directions(const text_place& place) {
     ++groups;
   }
   if (groups == 0)
-    place.refuse("there are no columns of directions, expected theta_h,theta_d,phi_d or " +
-                 std::string("theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z"));
+    place.refuse({"there are no columns of directions, expected theta_h,theta_d,phi_d or ",
+                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z"});
   if (groups > 1) place.refuse("directions are given in more than one way, expected one of them");
   require(directions_, place);
 }
 
 GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
-  return std::ranges::any_of(columns_,
-                             [&](std::size_t c) { return c >= group.first && c < group.first + group.count; });
+  for (const std::size_t column : columns_)
+    if (column >= group.first && column < group.first + group.count) return true;
+  return false;
 }
 
 GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
   for (std::size_t column = group.first; column < group.first + group.count; ++column)
-    if (!has(column)) place.refuse("column '" + std::string(sample_columns[column]) + "' is missing");
+    if (!has(column)) place.refuse({"column '", sample_columns[column], "' is missing"});
 }
 
-GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side, const text_place& place) {
+/// A line of numbers, in its place.
+struct parsed_row {
+  const sample_row& numbers;
+  const column_group& group;  ///< how directions are given
+  const text_place& place;
+
+  [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
+};
+
+/// Reads a file of samples or directions line by line:
+/// `row_reader rows(text, name, false); while (rows.next()) use(rows.row());`
+class row_reader {
+ public:
+  row_reader(std::string_view text, const std::string& name, bool needs_colour)
+      : left_(without_byte_order_mark(text)), place_{name, 0}, needs_colour_(needs_colour) {
+    numbers_[weight_column] = 1.0;
+  }
+
+  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
+  [[nodiscard]] bool next();
+
+  [[nodiscard]] parsed_row row() const noexcept { return {numbers_, header_.directions(), place_}; }
+
+ private:
+  void read_numbers(std::string_view line);
+
+  std::string_view left_;
+  text_place place_;
+  bool needs_colour_;
+  sample_header header_;
+  std::vector<std::string_view> fields_;
+  sample_row numbers_{};
+  std::size_t rows_ = 0;
+};
+
+GONIO_INLINE bool row_reader::next() {
+  std::string_view line;
+  if (header_.columns().empty()) {
+    if (!next_line(left_, place_, line))
+      throw error{place_.name, ": is empty, expected a header line that names the columns"};
+    header_.read(line, needs_colour_, place_);
+  }
+  if (next_line(left_, place_, line)) {
+    read_numbers(line);
+    ++rows_;
+    return true;
+  }
+  if (rows_ == 0) throw error{place_.name, ": has a header line but no samples, expected at least one"};
+  return false;
+}
+
+GONIO_INLINE void row_reader::read_numbers(std::string_view line) {
+  const std::vector<std::size_t>& columns = header_.columns();
+  split_fields(line, fields_);
+  if (fields_.size() != columns.size())
+    place_.refuse({fields_.size(), " fields, expected ", columns.size(), " as in the header line"});
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    if (const char* wrong = read_number(fields_[i], numbers_[columns[i]]))
+      place_.refuse({"column ", sample_columns[columns[i]], ": ", quoted(fields_[i]), wrong});
+  const double weight = numbers_[weight_column];
+  if (weight < 0.0) place_.refuse({"column weight: ", shortest(weight), " is negative, expected at least 0"});
+}
+
+/// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
+/// as an azimuth of 180 degrees.
+[[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
+                                              const text_place& place) {
   const double angle = row[column];
   if (!((angle >= 0.0 || either_side) && std::abs(angle) < 90.0))
-    place.refuse("column " + std::string(sample_columns[column]) + ": " + shortest(angle) + " degrees" +
-                 (angle < 0.0 && !either_side ? " is negative" : " is at or below the horizon") + ", expected " +
-                 (either_side ? "between -90 and 90" : "at least 0 and less than 90"));
+    place.refuse({"column ", sample_columns[column], ": ", shortest(angle), " degrees",
+                  angle < 0.0 && !either_side ? " is negative" : " is at or below the horizon", ", expected ",
+                  either_side ? "between -90 and 90" : "at least 0 and less than 90"});
   return radians(angle);
 }
 
-GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_place& place) {
+[[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_place& place) {
   if (!(std::abs(row[column]) <= 360.0))
-    place.refuse("column " + std::string(sample_columns[column]) + ": " + shortest(row[column]) +
-                 " degrees, expected from -360 to 360");
+    place.refuse(
+        {"column ", sample_columns[column], ": ", shortest(row[column]), " degrees, expected from -360 to 360"});
   return radians(row[column]);
 }
 
-GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
-  const direction given(row[first], row[first + 1], row[first + 2]);
-  const std::string columns =
-      "columns " + std::string(sample_columns[first]) + " to " + std::string(sample_columns[first + 2]);
-  const double length = given.norm();
-  if (!(std::abs(length - 1.0) <= 1e-3))
-    place.refuse(columns + ": the vector has length " + shortest(length) + ", expected 1");
-  if (!(given.z() > 0.0))
-    place.refuse(columns + ": the direction is at or below the horizon, its z is " + shortest(given.z()));
-  return given / length;
+[[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
+  const double x = row[first], y = row[first + 1], z = row[first + 2];
+  const double length = gonio::detail::norm_of(x, y, z);
+  const auto refuse = [&](const char* what, double value, const char* expected) {
+    place.refuse(
+        {"columns ", sample_columns[first], " to ", sample_columns[first + 2], what, shortest(value), expected});
+  };
+  if (!(std::abs(length - 1.0) <= 1e-3)) refuse(": the vector has length ", length, ", expected 1");
+  if (!(z > 0.0)) refuse(": the direction is at or below the horizon, its z is ", z, "");
+  return {x / length, y / length, z / length};
 }
 
 GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
   if (cosine.i > 0.0 && cosine.o > 0.0) return;
   std::string given;
   for (std::size_t column = row.group.first; column < row.group.first + row.group.count; ++column)
-    given += (given.empty() ? "" : ", ") + std::string(sample_columns[column]) + " " + shortest(row.numbers[column]);
-  row.place.refuse("a direction is at or below the horizon (" + given + ")");
+    given += message_of({given.empty() ? "" : ", ", sample_columns[column], " ", shortest(row.numbers[column])});
+  row.place.refuse({"a direction is at or below the horizon (", given, ")"});
 }
 
-GONIO_INLINE half_difference given_angles(const parsed_row& row) {
+/// Of a row that gives half and difference angles.
+[[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
   return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
           azimuth(row.numbers, 2, row.place)};
 }
 
-GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
+/// Light and viewer of a row that gives directions.
+[[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
   const auto& [numbers, group, place] = row;
   if (group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
   const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
@@ -119,7 +225,7 @@ GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
 }
 
-GONIO_INLINE half_difference row_angles(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE half_difference row_angles(const parsed_row& row) {
   half_difference angles;
   if (row.has_half_difference()) {
     angles = given_angles(row);
@@ -132,10 +238,25 @@ GONIO_INLINE half_difference row_angles(const parsed_row& row) {
   return angles;
 }
 
-GONIO_INLINE direction_pair row_directions(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE direction_pair row_directions(const parsed_row& row) {
   const direction_pair pair = row.has_half_difference() ? to_directions(given_angles(row)) : given_directions(row);
   require_above_horizon({pair.wi.z(), pair.wo.z()}, row);
   return pair;
+}
+
+GONIO_INLINE void format_sample(std::string& text, const sample& s) {
+  const half_difference& at = s.angles;
+  for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
+                             s.value.y(), s.value.z()}) {
+    text += shortest(value);
+    text += ',';
+  }
+  text += shortest(s.weight);
+  text += '\n';
+}
+
+GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view text) {
+  write_atomically(path, {reinterpret_cast<const std::byte*>(text.data()), text.size()});
 }
 
 }  // namespace gonio::io::detail
@@ -144,28 +265,43 @@ namespace gonio::io {
 
 GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name) {
   sample_set samples;
-  detail::parse_rows(text, name, true, [&](const detail::parsed_row& row) {
-    constexpr std::size_t colour = detail::colour_group.first;
-    const detail::sample_row& numbers = row.numbers;
-    samples.push_back({detail::row_angles(row),
-                       {numbers[colour], numbers[colour + 1], numbers[colour + 2]},
-                       numbers[detail::weight_column]});
-  });
+  detail::row_reader rows(text, name, true);
+  while (rows.next()) {
+    const detail::parsed_row row = rows.row();
+    const double* colour = &row.numbers[detail::colour_group.first];
+    samples.push_back({detail::row_angles(row), {colour[0], colour[1], colour[2]}, row.numbers[detail::weight_column]});
+  }
   return samples;
 }
 
 GONIO_INLINE sample_set read_samples(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return parse_samples(detail::as_text(bytes), path.string());
+  return parse_samples(detail::as_text(bytes), path.native());
+}
+
+GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  detail::row_reader rows(detail::as_text(bytes), path.native(), false);
+  std::vector<half_difference> all;
+  while (rows.next()) all.push_back(detail::row_angles(rows.row()));
+  return all;
+}
+
+GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  detail::row_reader rows(detail::as_text(bytes), path.native(), false);
+  std::vector<direction_pair> all;
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()));
+  return all;
 }
 
 GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs) {
   const auto rounded = [](double angle) { return detail::shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
   std::string text = "theta_i,phi_i,theta_o,phi_o\n";
   for (const auto& [wi, wo] : pairs)
-    text += rounded(gonio::polar_angle(wi)) + ',' + rounded(gonio::azimuth(wi)) + ',' +
-            rounded(gonio::polar_angle(wo)) + ',' + rounded(gonio::azimuth(wo)) + '\n';
-  write_atomically(path, std::as_bytes(std::span(text)));
+    text += message_of({rounded(gonio::polar_angle(wi)), ",", rounded(gonio::azimuth(wi)), ",",
+                        rounded(gonio::polar_angle(wo)), ",", rounded(gonio::azimuth(wo)), "\n"});
+  detail::write_text(path, text);
 }
 
 }  // namespace gonio::io

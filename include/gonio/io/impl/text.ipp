@@ -3,29 +3,29 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/file.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/io/text.hpp>
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void text_place::refuse(const std::string& what) const { throw error{name, ", line ", line, ": ", what}; }
+GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
+  throw error{name, ", line ", line, ": ", message_of(what)};
+}
 
 GONIO_INLINE std::string quoted(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
-  std::ranges::replace_if(
-      text, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + text + (field.size() > longest ? "...'" : "'");
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = '?';
+  return message_of({"'", text, field.size() > longest ? "...'" : "'"});
 }
 
 GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
@@ -33,6 +33,32 @@ GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
   const std::size_t begin = text.find_first_not_of(blank);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+}
+
+GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noexcept {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
+  while (!text.empty()) {
+    ++place.line;
+    const std::size_t end = text.find('\n');
+    line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (!line.empty() && line.front() != '#') return true;
+  }
+  return false;
+}
+
+GONIO_INLINE const char* read_number(std::string_view field, double& value) {
+  // Instruments print a plus sign, which from_chars does not know.
+  const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
+  const std::string_view digits = field.substr(plus ? 1 : 0);
+  const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (failed == std::errc::result_out_of_range) return " is out of range";
+  if (failed != std::errc() || end != digits.data() + digits.size()) return " is not a number";
+  return std::isfinite(value) ? nullptr : " is not finite";
 }
 
 GONIO_INLINE std::string shortest(double value) {

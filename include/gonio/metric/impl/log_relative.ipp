@@ -2,9 +2,10 @@
 /// Bodies of metric/log_relative.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/log_relative.hpp>
-#include <gonio/table/material_set.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,28 +15,43 @@
 
 namespace gonio {
 
+namespace detail {
+
+/// Reorders the values.
+[[nodiscard]] GONIO_INLINE float median_of(std::vector<float>& values) {
+  float* const middle = values.data() + values.size() / 2;
+  std::nth_element(values.data(), middle, values.data() + values.size());
+  if (values.size() % 2 != 0) return *middle;
+  float below = values[0];
+  for (const float* value = values.data(); value != middle; ++value) below = std::max(below, *value);
+  return 0.5f * (*middle + below);
+}
+
+}  // namespace detail
+
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference) : cells_(std::move(cells)) {
   if (reference.size() != cells_.size())
     throw error{"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"};
-  if (!std::ranges::all_of(reference, [](float value) { return value >= 0.0f && std::isfinite(value); }))
-    throw error("a reference BRDF must be finite and not negative");
+  for (const float value : reference)
+    if (!(value >= 0.0f && std::isfinite(value))) throw error("a reference BRDF must be finite and not negative");
   reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
 }
 
-GONIO_INLINE log_relative log_relative::to_median_of(const material_set& materials, thread_count threads) {
-  if (materials.values.cols() == 0) throw error("the median of no material is not defined");
-  std::vector<float> reference(materials.cells.size());
+GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, const cell_matrix& values,
+                                                     thread_count threads) {
+  if (values.cols() == 0) throw error("the median of no material is not defined");
+  std::vector<float> reference(cells.size());
   for_each_block(
       reference.size(), 1024,
       [&](block range) {
-        std::vector<float> row(static_cast<std::size_t>(materials.values.cols()));
+        std::vector<float> row(static_cast<std::size_t>(values.cols()));
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          std::copy_n(materials.values.row(static_cast<Eigen::Index>(cell)).data(), row.size(), row.begin());
-          reference[cell] = std::max(median(row), 0.0f);
+          std::copy_n(values.data() + cell * row.size(), row.size(), row.begin());
+          reference[cell] = std::max(detail::median_of(row), 0.0f);
         }
       },
       threads);
-  return {materials.cells, std::move(reference)};
+  return {cells, std::move(reference)};
 }
 
 GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
@@ -43,13 +59,6 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
   for (std::size_t cell = 0; cell < moved.size(); ++cell)
     moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
   return {cells, std::move(moved)};
-}
-
-GONIO_INLINE float log_relative::median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  if (values.size() % 2 != 0) return *middle;
-  return 0.5f * (*middle + *std::ranges::max_element(values.begin(), middle));
 }
 
 }  // namespace gonio

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -32,9 +33,8 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
   Eigen::MatrixXd x = b;
   for (Eigen::Index column = 0; column < x.cols(); ++column)
     for (Eigen::Index j = 0; j < k; ++j) {
-      const Eigen::Index below = k - j - 1;
       const double known = x(j, column) /= lower_(j, j);
-      x.col(column).tail(below) -= known * lower_.col(j).tail(below);
+      add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, k - j - 1);
     }
   return x;
 }
@@ -44,8 +44,7 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const {
   Eigen::MatrixXd x = solve_lower(b);
   for (Eigen::Index column = 0; column < x.cols(); ++column)
     for (Eigen::Index j = k - 1; j >= 0; --j) {
-      const Eigen::Index below = k - j - 1;
-      const double known = lower_.col(j).tail(below).dot(x.col(column).tail(below));
+      const double known = dot(lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, k - j - 1);
       x(j, column) = (x(j, column) - known) / lower_(j, j);
     }
   return x;

@@ -9,34 +9,45 @@
 
 #include <Eigen/Core>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <concepts>
+#include <utility>
 
 namespace gonio {
 
 GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
                                        const Eigen::VectorXd& weights, thread_count threads) {
   const Eigen::Index k = rows.columns, r = right_hand_side.cols();
-  const bool weighted = (weights.array() != 1.0).any();
   using sum_type = detail::product_sum<double>;
   const sum_type zero(k + r);
-  const Eigen::MatrixXd all = sum_over_blocks(
-                                  static_cast<std::size_t>(rows.rows), sum_type::block_rows, zero,
-                                  [&](sum_type& sum, block range) {
-                                    const auto begin = static_cast<Eigen::Index>(range.begin),
-                                               count = static_cast<Eigen::Index>(range.size());
-                                    auto equations = sum.rows(count);
-                                    rows.read(range, equations.leftCols(k));
-                                    equations.rightCols(r) = right_hand_side.middleRows(begin, count);
-                                    if (weighted)
-                                      for (Eigen::Index row = 0; row < count; ++row)
-                                        equations.row(row) *= std::sqrt(weights[begin + row]);
-                                    sum.add(count);
-                                  },
-                                  threads)
-                                  .symmetric();
-  return {all.topLeftCorner(k, k), all.topRightCorner(k, r), all.diagonal().tail(r)};
+  const Eigen::MatrixXd all =
+      sum_over_blocks(
+          static_cast<std::size_t>(rows.rows), sum_type::block_rows, zero,
+          [&](sum_type& sum, block range) {
+            const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+            const Eigen::OuterStride<> stride(sum.stride());
+            rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), count, k, stride));
+            for (Eigen::Index row = 0; row < count; ++row) {
+              double* equation = sum.row(row);
+              for (Eigen::Index column = 0; column < r; ++column)
+                equation[k + column] = right_hand_side(begin + row, column);
+              const double weight = weights[begin + row];
+              if (weight == 1.0) continue;
+              for (Eigen::Index column = 0; column < k + r; ++column) equation[column] *= std::sqrt(weight);
+            }
+            sum.add(count);
+          },
+          threads)
+          .symmetric();
+
+  Eigen::MatrixXd gram(k, k), moment(k, r);
+  Eigen::VectorXd energy(r);
+  for (Eigen::Index column = 0; column < k; ++column) std::copy_n(&all(0, column), k, &gram(0, column));
+  for (Eigen::Index column = 0; column < r; ++column) {
+    std::copy_n(&all(0, k + column), k, &moment(0, column));
+    energy[column] = all(k + column, k + column);
+  }
+  return {std::move(gram), std::move(moment), std::move(energy)};
 }
 
 }  // namespace gonio

@@ -1,19 +1,24 @@
 #pragma once
 /// Bodies of solve/kkt.hpp.
 
+#include <gonio/core/assertion.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/normal_equations.hpp>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace gonio {
 
-GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
-                                         const Eigen::Ref<const Eigen::VectorXd>& x) {
+namespace detail {
+
+/// `x` has an entry for each unknown.
+[[nodiscard]] GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
+                                                       const double* x) {
   const Eigen::Index k = normal.unknowns();
   scaled_gradient result{Eigen::VectorXd(k), 1.0, Eigen::VectorXd(k)};
   Eigen::VectorXd magnitude(k);
@@ -22,9 +27,9 @@ GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::
     magnitude[j] = std::abs(result.value[j]);
     result.column_norms[j] = std::sqrt(normal.gram()(j, j));
   }
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
+  for (Eigen::Index i = 0; i < k; ++i) {
     if (x[i] == 0.0) continue;
-    const double* column = normal.gram().col(i).data();
+    const double* column = &normal.gram()(0, i);
     for (Eigen::Index j = 0; j < k; ++j) {
       const double term = x[i] * column[j];
       result.value[j] += term;
@@ -32,7 +37,7 @@ GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::
     }
   }
   double largest = 0.0;
-  for (Eigen::Index j = 0; j < result.value.size(); ++j) {
+  for (Eigen::Index j = 0; j < k; ++j) {
     double& norm = result.column_norms[j];
     if (norm == 0.0) norm = 1.0;
     result.value[j] /= norm;
@@ -42,12 +47,20 @@ GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::
   return result;
 }
 
+}  // namespace detail
+
+GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
+                                         const Eigen::Ref<const Eigen::VectorXd>& x) {
+  GONIO_ASSERT(x.size() == normal.unknowns());
+  return detail::gradient_of(normal, right_hand_side, x.data());
+}
+
 GONIO_INLINE Eigen::VectorXd stationarity(const normal_equations& normal, const Eigen::MatrixXd& x) {
   Eigen::VectorXd violation(x.cols());
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    const scaled_gradient gradient = gradient_of(normal, column, x.col(column));
+    const scaled_gradient gradient = detail::gradient_of(normal, column, &x(0, column));
     double worst = 0.0;
-    for (const double entry : gradient.value) worst = std::max(worst, std::abs(entry));
+    for (Eigen::Index j = 0; j < x.rows(); ++j) worst = std::max(worst, std::abs(gradient.value[j]));
     violation[column] = worst / gradient.scale;
   }
   return violation;
@@ -57,7 +70,7 @@ GONIO_INLINE Eigen::VectorXd kkt_violation(const normal_equations& normal, const
                                            sign_rule signs) {
   Eigen::VectorXd violation(x.cols());
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    const scaled_gradient gradient = gradient_of(normal, column, x.col(column));
+    const scaled_gradient gradient = detail::gradient_of(normal, column, &x(0, column));
     double worst = 0.0;
     for (Eigen::Index j = 0; j < x.rows(); ++j) {
       const double weight = x(j, column), slope = gradient.value[j], penalty = lambda / gradient.column_norms[j];

@@ -7,6 +7,7 @@
 #include <gonio/solve/least_squares_problem.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/row_source.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 
@@ -26,13 +27,15 @@ namespace gonio {
 GONIO_INLINE row_matrix least_squares_problem::rows() const {
   row_matrix gathered(equations(), unknowns());
   for_each_row_block([&](block range, const row_matrix& part) {
-    gathered.middleRows(static_cast<Eigen::Index>(range.begin), part.rows()) = part;
+    std::copy_n(part.data(), part.size(), gathered.data() + static_cast<Eigen::Index>(range.begin) * gathered.cols());
   });
   return gathered;
 }
 
 GONIO_INLINE Eigen::Index least_squares_problem::observations() const {
-  return std::count_if(weights().begin(), weights().end(), [](double weight) { return weight > 0.0; });
+  Eigen::Index count = 0;
+  for (Eigen::Index row = 0; row < equations(); ++row) count += weights()[row] > 0.0 ? 1 : 0;
+  return count;
 }
 
 GONIO_INLINE row_matrix least_squares_problem::weighted_rows() const {
@@ -41,7 +44,10 @@ GONIO_INLINE row_matrix least_squares_problem::weighted_rows() const {
   for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row) {
       const double weight = weights()[static_cast<Eigen::Index>(range.begin) + row];
-      if (weight > 0.0) gathered.row(filled++) = std::sqrt(weight) * part.row(row);
+      if (!(weight > 0.0)) continue;
+      for (Eigen::Index column = 0; column < part.cols(); ++column)
+        gathered(filled, column) = std::sqrt(weight) * part(row, column);
+      ++filled;
     }
   });
   return gathered;
@@ -88,21 +94,21 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
 
 GONIO_INLINE Eigen::VectorXd least_squares_problem::residual(const Eigen::MatrixXd& x) const {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.cols());
-  const Eigen::VectorXd squares = sum_over_blocks(
+  Eigen::VectorXd norms = sum_over_blocks(
       static_cast<std::size_t>(equations()), block_rows, zero,
       [&](Eigen::VectorXd& sum, block range) {
         const row_matrix part = read(range);
         for (Eigen::Index row = 0; row < part.rows(); ++row) {
           const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
-          const Eigen::Map<const Eigen::VectorXd> a(part.row(row).data(), part.cols());
           for (Eigen::Index column = 0; column < x.cols(); ++column) {
-            const double misfit = a.dot(x.col(column)) - right_hand_side()(at, column);
+            const double misfit = dot(&part(row, 0), &x(0, column), x.rows()) - right_hand_side()(at, column);
             sum[column] += weights()[at] * misfit * misfit;
           }
         }
       },
       threads_);
-  return squares.cwiseSqrt();
+  for (Eigen::Index column = 0; column < norms.size(); ++column) norms[column] = std::sqrt(norms[column]);
+  return norms;
 }
 
 GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::MatrixXd b, Eigen::VectorXd w)
@@ -128,12 +134,14 @@ GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::Mat
 GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
   row_matrix all(static_cast<Eigen::Index>(range.size()), equations_->rows.columns);
   equations_->rows.read(range, all);
-  // A finite sum has finite terms, and is one vectorised pass; terms of a sum that overflows may be finite too.
-  if (!std::isfinite(all.sum())) require_finite(all, range.begin);
+  // A finite sum of squares has finite terms, and is one vectorised pass; terms of one that overflows may be finite
+  // too.
+  if (!std::isfinite(dot(all.data(), all.data(), all.size()))) require_finite(all, range.begin);
   if (!columns_) return all;
   row_matrix chosen(all.rows(), unknowns());
-  for (Eigen::Index column = 0; column < chosen.cols(); ++column)
-    chosen.col(column) = all.col((*columns_)[static_cast<std::size_t>(column)]);
+  for (Eigen::Index row = 0; row < chosen.rows(); ++row)
+    for (Eigen::Index column = 0; column < chosen.cols(); ++column)
+      chosen(row, column) = all(row, (*columns_)[static_cast<std::size_t>(column)]);
   return chosen;
 }
 

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 
@@ -26,7 +27,7 @@ GONIO_INLINE normal_equations::normal_equations(Eigen::MatrixXd gram, Eigen::Mat
 GONIO_INLINE Eigen::VectorXd normal_equations::objective(const Eigen::MatrixXd& x) const {
   Eigen::VectorXd values(x.cols());
   for (Eigen::Index column = 0; column < x.cols(); ++column)
-    values[column] = 0.5 * quadratic_form(x, column) - moment_.col(column).dot(x.col(column));
+    values[column] = 0.5 * quadratic_form(x, column) - dot(&moment_(0, column), &x(0, column), x.rows());
   return values;
 }
 
@@ -35,6 +36,19 @@ GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x
   for (Eigen::Index column = 0; column < norms.size(); ++column)
     norms[column] = std::sqrt(std::max(2.0 * norms[column] + energy_[column], 0.0));
   return norms;
+}
+
+GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_equations& b) {
+  if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
+    throw error{"normal equations of ",      a.unknowns(), " unknowns and ", a.right_hand_sides(),
+                " right-hand sides and of ", b.unknowns(), " and ",          b.right_hand_sides(),
+                " cannot be added"};
+  Eigen::MatrixXd gram = a.gram_, moment = a.moment_;
+  Eigen::VectorXd energy = a.energy_;
+  add_scaled(1.0, b.gram_.data(), gram.data(), gram.size());
+  add_scaled(1.0, b.moment_.data(), moment.data(), moment.size());
+  add_scaled(1.0, b.energy_.data(), energy.data(), energy.size());
+  return {std::move(gram), std::move(moment), std::move(energy)};
 }
 
 GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::Index> columns) const {
@@ -51,7 +65,7 @@ GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::In
 GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, Eigen::Index column) const {
   double sum = 0.0;
   for (Eigen::Index j = 0; j < unknowns(); ++j)
-    if (x(j, column) != 0.0) sum += x(j, column) * gram_.col(j).dot(x.col(column));
+    if (x(j, column) != 0.0) sum += x(j, column) * dot(&gram_(0, j), &x(0, column), x.rows());
   return sum;
 }
 
@@ -79,8 +93,17 @@ GONIO_INLINE void normal_equations::require_consistent() const {
       throw error{"column ", column, " of normal equations has the squared norm ", gram_(column, column),
                   ": it cannot be negative"};
   }
-  for (const double energy : energy_)
-    if (!std::isfinite(energy)) throw error("the right-hand side of normal equations is not finite");
+  for (Eigen::Index r = 0; r < energy_.size(); ++r)
+    if (!std::isfinite(energy_[r])) throw error("the right-hand side of normal equations is not finite");
+}
+
+GONIO_INLINE normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
+                                            std::span<const Eigen::Index> columns) {
+  Eigen::MatrixXd moment(gram.rows(), 1);
+  std::copy_n(&gram(0, target), gram.rows(), moment.data());
+  Eigen::VectorXd energy(1);
+  energy[0] = gram(target, target);
+  return normal_equations(gram, std::move(moment), std::move(energy)).subset(columns);
 }
 
 GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {

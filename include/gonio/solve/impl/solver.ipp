@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include <concepts>
+#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -22,10 +22,11 @@ GONIO_INLINE solution side_by_side(std::span<const solution> parts) {
   Eigen::Index first = 0;
   for (const solution& part : parts) {
     const Eigen::Index count = part.weights.cols();
-    all.weights.middleCols(first, count) = part.weights;
-    all.residual.segment(first, count) = part.residual;
-    all.objective.segment(first, count) = part.objective;
-    all.certificate.segment(first, count) = part.certificate;
+    const Eigen::Index unknowns = all.weights.rows();
+    std::copy_n(part.weights.data(), unknowns * count, all.weights.data() + unknowns * first);
+    std::copy_n(part.residual.data(), count, all.residual.data() + first);
+    std::copy_n(part.objective.data(), count, all.objective.data() + first);
+    std::copy_n(part.certificate.data(), count, all.certificate.data() + first);
     all.iterations += part.iterations;
     first += count;
   }
@@ -35,15 +36,12 @@ GONIO_INLINE solution side_by_side(std::span<const solution> parts) {
 GONIO_INLINE solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns) {
   if (found.weights.rows() == unknowns) return found;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, found.weights.cols());
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    all.row(columns[i]) = found.weights.row(static_cast<Eigen::Index>(i));
+  for (Eigen::Index side = 0; side < all.cols(); ++side)
+    for (std::size_t i = 0; i < columns.size(); ++i)
+      all(columns[i], side) = found.weights(static_cast<Eigen::Index>(i), side);
   found.weights = std::move(all);
   return found;
 }
-
-}  // namespace gonio
-
-namespace gonio {
 
 GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_problem& problem) {
   found.residual = problem.residual(found.weights);

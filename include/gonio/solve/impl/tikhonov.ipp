@@ -6,10 +6,10 @@
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/tikhonov.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 namespace gonio {
@@ -22,16 +22,32 @@ struct ridge_rows {
   Eigen::MatrixXd right;  ///< W^(1/2) b, n x r
   double eta = 0.0;
 
-  [[nodiscard]] Eigen::MatrixXd misfit(const Eigen::MatrixXd& x) const { return thin_product(rows, x) - right; }
+  [[nodiscard]] Eigen::MatrixXd misfit(const Eigen::MatrixXd& x) const {
+    Eigen::MatrixXd off = thin_product(rows, x);
+    add_scaled(-1.0, right.data(), off.data(), off.size());
+    return off;
+  }
   /// A'W(A x - b) + eta x, which vanishes at the optimum, without the k x k Gram matrix.
   [[nodiscard]] Eigen::MatrixXd gradient(const Eigen::MatrixXd& misfit, const Eigen::MatrixXd& x) const {
     Eigen::MatrixXd sum = thin_transposed_product(rows, misfit);
-    sum += eta * x;
+    add_scaled(eta, x.data(), sum.data(), sum.size());
     return sum;
   }
 };
 
-[[nodiscard]] inline double largest_magnitude(const Eigen::MatrixXd& matrix, Eigen::Index column) {
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd by_columns(const row_matrix& rows) {
+  Eigen::MatrixXd copy(rows.rows(), rows.cols());
+  for (Eigen::Index column = 0; column < copy.cols(); ++column)
+    for (Eigen::Index row = 0; row < copy.rows(); ++row) copy(row, column) = rows(row, column);
+  return copy;
+}
+
+[[nodiscard]] GONIO_INLINE double squared_norm(const Eigen::MatrixXd& matrix, Eigen::Index column) {
+  const double* numbers = matrix.data() + column * matrix.rows();
+  return dot(numbers, numbers, matrix.rows());
+}
+
+[[nodiscard]] GONIO_INLINE double largest_magnitude(const Eigen::MatrixXd& matrix, Eigen::Index column) {
   double largest = 0.0;
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) largest = std::max(largest, std::abs(matrix(row, column)));
   return largest;
@@ -43,10 +59,10 @@ struct ridge_rows {
   const Eigen::VectorXd nothing(x.cols());
   solution found{std::move(x), nothing, nothing, nothing};
   for (Eigen::Index column = 0; column < misfit.cols(); ++column) {
-    const double squares = misfit.col(column).squaredNorm();
+    const double squares = squared_norm(misfit, column);
     found.residual[column] = std::sqrt(squares);
     found.objective[column] =
-        0.5 * (squares - ridge.right.col(column).squaredNorm() + ridge.eta * found.weights.col(column).squaredNorm());
+        0.5 * (squares - squared_norm(ridge.right, column) + ridge.eta * squared_norm(found.weights, column));
     const double scale = largest_magnitude(moment, column);
     found.certificate[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
   }
@@ -54,7 +70,7 @@ struct ridge_rows {
 }
 
 [[nodiscard]] GONIO_INLINE solution solve_dual_ridge(const least_squares_problem& problem, double eta) {
-  const ridge_rows ridge{problem.weighted_rows(), problem.weighted_right_hand_side(), eta};
+  const ridge_rows ridge{by_columns(problem.weighted_rows()), problem.weighted_right_hand_side(), eta};
   Eigen::MatrixXd penalised = product_with_transpose(ridge.rows);
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta;
   const cholesky factors(penalised);
@@ -62,8 +78,9 @@ struct ridge_rows {
   // A step of Newton, with the inverse of A~'A~ + eta I through the dual (Woodbury): if eta is small and rows depend
   // on each other, A~' times a large dual solution has lost digits.
   Eigen::MatrixXd step = ridge.gradient(ridge.misfit(x), x);
-  step -= thin_transposed_product(ridge.rows, factors.solve(thin_product(ridge.rows, step)));
-  x -= (1.0 / eta) * step;
+  const Eigen::MatrixXd seen = thin_transposed_product(ridge.rows, factors.solve(thin_product(ridge.rows, step)));
+  add_scaled(-1.0, seen.data(), step.data(), step.size());
+  add_scaled(-1.0 / eta, step.data(), x.data(), x.size());
   return certified(ridge, std::move(x));
 }
 

@@ -1,0 +1,44 @@
+#pragma once
+/// An estimate at many locations.
+
+#include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/located_samples.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <vector>
+
+namespace gonio {
+
+/// An estimate at given places on `cells`: by its own `at` if it has these cells, else read from its table where places
+/// are cells and there are many, otherwise evaluated.
+template <tabulated_brdf Fit>
+[[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& places,
+                                       thread_count threads = {}) {
+  const auto collect = [&](auto&& value_at) {
+    channel_values values(3, std::ssize(places));
+    for_each_block(
+        places.size(), 256,
+        [&](block range) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>();
+        },
+        threads);
+    return values;
+  };
+  if constexpr (requires { fit.at(places[0]); })
+    if (fit.cells() == cells) return collect([&](const location& at) { return fit.at(at); });
+  // A table takes as long as some thousand evaluations.
+  constexpr std::ptrdiff_t worth_a_table = 4096;
+  std::optional<brdf_table> table;
+  if (std::ranges::count_if(places, [](const location& at) { return at.count == 1; }) > worth_a_table)
+    table = fit.tabulate(cells, threads);
+  return collect([&](const location& at) {
+    if (table && at.count == 1) return rgb(table->at(std::size_t{at.cell[0]}));
+    const auto [wi, wo] = to_directions(at.angles);
+    return rgb(fit(wi, wo));
+  });
+}
+
+}  // namespace gonio
