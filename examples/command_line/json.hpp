@@ -2,6 +2,7 @@
 /// Results as JSON: objects keep the order of their keys. Only json.cpp knows nlohmann's library, which takes seconds
 /// to parse; the text is that of its ordered_json.
 
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <iosfwd>
