@@ -2,6 +2,7 @@
 /// A small database for tests: smooth made-up materials over any cells.
 
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <cmath>
 #include <random>

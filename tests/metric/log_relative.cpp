@@ -1,5 +1,6 @@
 #include "../golden.hpp"
 #include <gonio/metric/log_relative.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>

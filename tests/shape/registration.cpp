@@ -1,6 +1,7 @@
 #include "small_ears.hpp"
 #include <gonio/shape/registration.hpp>
 #include <gonio/shape/surface_distance.hpp>
+#include <gonio/shape/surface_noise.hpp>
 
 #include <doctest/doctest.h>
 

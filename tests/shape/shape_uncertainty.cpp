@@ -1,4 +1,5 @@
 #include "made_up_shapes.hpp"
+#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>

@@ -2,6 +2,7 @@
 /// The materials that a learned prior remembers, as tables again.
 
 #include <gonio/basis/pca.hpp>
+#include <gonio/table/material_set.hpp>
 
 namespace gonio {
 

@@ -5,6 +5,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/solve/gram.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <Eigen/Eigenvalues>
 
