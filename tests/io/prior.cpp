@@ -1,5 +1,7 @@
 #include "../made_up_materials.hpp"
 #include "scratch.hpp"
+#include <gonio/io/byte_stream.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
 
 #include <doctest/doctest.h>
@@ -105,7 +107,7 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   const auto encode = [](auto&& fill) {
     io::byte_writer payload;
     fill(payload);
-    return io::encode_checked(io::detail::prior_kind, payload.bytes());
+    return io::encode_checked(io::checked_file_kind{"gonio-pca", 1, "prior"}, payload.bytes());
   };
   const auto header = [](io::byte_writer& out, std::uint32_t extent, std::uint32_t anchor, std::uint32_t components,
                          int padding = 100) {

@@ -1,5 +1,6 @@
 #include "scratch.hpp"
 #include <gonio/io/samples.hpp>
+#include <gonio/io/text.hpp>
 
 #include <rapidcheck.h>
 

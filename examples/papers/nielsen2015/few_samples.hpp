@@ -8,6 +8,7 @@
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/tikhonov.hpp>
+#include <gonio/table/material_set.hpp>
 
 #include <span>
 #include <type_traits>
