@@ -3,6 +3,7 @@
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/quantise.hpp>
 
 #include <doctest/doctest.h>
 
