@@ -6,7 +6,6 @@
 #include <gonio/design/impl/compressed_rows.ipp>
 #include <gonio/design/impl/design_criterion.ipp>
 #include <gonio/design/impl/expected_error.ipp>
-#include <gonio/design/impl/float_product.ipp>
 #include <gonio/design/impl/image_candidates.ipp>
 #include <gonio/design/impl/near_field_geometry.ipp>
 #include <gonio/design/impl/published_directions.ipp>

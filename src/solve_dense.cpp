@@ -1,6 +1,7 @@
 // The bodies of solve/ that generate Eigen's kernels: products and factorisations.
 
 #include <gonio/solve/impl/cholesky.ipp>
+#include <gonio/solve/impl/float_product.ipp>
 #include <gonio/solve/impl/product.ipp>
 #include <gonio/solve/impl/semidefinite.ipp>
 #include <gonio/solve/impl/symmetric_eigen.ipp>

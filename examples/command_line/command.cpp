@@ -61,6 +61,7 @@ option_group command::add_option_group(const std::string& name, const std::strin
 }
 
 void command::require_subcommand() { known_->require_subcommand(1); }
+void command::allow_extras() { known_->allow_extras(); }
 
 option command::add_option(const std::string& names, std::string& value, const std::string& description) {
   return option(*known_->add_option(names, value, description));

@@ -72,6 +72,8 @@ class command {
   command add_subcommand(const std::string& name, const std::string& description);
   option_group add_option_group(const std::string& name, const std::string& description);
   void require_subcommand();
+  /// Words that are no option of it are no error.
+  void allow_extras();
 
   option add_option(const std::string& names, std::string& value, const std::string& description);
   option add_option(const std::string& names, std::filesystem::path& value, const std::string& description);

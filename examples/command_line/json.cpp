@@ -61,6 +61,7 @@ json json::object() {
 bool json::is_null() const noexcept { return std::holds_alternative<std::nullptr_t>(value_); }
 bool json::is_string() const noexcept { return std::holds_alternative<std::string>(value_); }
 bool json::is_number() const noexcept { return is_number_integer() || std::holds_alternative<double>(value_); }
+bool json::is_array() const noexcept { return std::holds_alternative<std::vector<json>>(value_); }
 bool json::is_object() const noexcept { return std::holds_alternative<std::vector<member>>(value_); }
 bool json::is_number_integer() const noexcept {
   return std::holds_alternative<std::int64_t>(value_) || std::holds_alternative<std::uint64_t>(value_);
@@ -167,7 +168,9 @@ json json::parse(const std::string& text) {
   return read.is_discarded() ? json() : json_text::our_form(read);
 }
 
-std::string json::dump(int indent) const { return json_text::library_form(*this).dump(indent); }
+std::string json::dump(int indent) const {
+  return json_text::library_form(*this).dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
 
 std::ostream& operator<<(std::ostream& stream, const json& value) { return stream << value.dump(); }
 

@@ -55,6 +55,7 @@ class json {
   [[nodiscard]] bool is_string() const noexcept;
   [[nodiscard]] bool is_number() const noexcept;
   [[nodiscard]] bool is_number_integer() const noexcept;
+  [[nodiscard]] bool is_array() const noexcept;
   [[nodiscard]] bool is_object() const noexcept;
 
   // What it holds. Of anything else these throw std::logic_error.
@@ -82,7 +83,7 @@ class json {
   [[nodiscard]] std::size_t size() const noexcept;
   [[nodiscard]] bool empty() const noexcept { return size() == 0; }
 
-  /// On one line, or indented.
+  /// On one line, or indented. Bytes that are no UTF-8 are replaced.
   [[nodiscard]] std::string dump(int indent = -1) const;
 
   /// Numbers of any kind are compared by their values.

@@ -68,8 +68,7 @@ reconstruction iterate(Run run, const reconstruct_options& options, bool automat
 }
 
 /// The method chosen by --gamma, from materials under a metric.
-template <gonio::error_metric Metric>
-reconstruction correct(const gonio::measured<Metric>& materials, const reconstruct_options& options,
+reconstruction correct(const gonio::measured<gonio::any_metric>& materials, const reconstruct_options& options,
                        const gonio::sample_set& samples, std::optional<gonio::brdf_table> truth, progress_bar& bar) {
   const auto gamma = gamma_of(options);
   const gonio::thread_count threads = options.threads;
@@ -81,19 +80,18 @@ reconstruction correct(const gonio::measured<Metric>& materials, const reconstru
   if (!options.story.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
   story* watcher = watched ? &*watched : nullptr;
 
-  const auto as_published = [&](const auto& weighting) {
+  const auto as_published = [&] {
     const gonio::decomposition initial{materials, gonio::nnls{}, threads};
+    const gonio::relative_deviation_weights weighting{*gamma};
     const gonio::correction_iteration method{initial, corrections, weighting, gonio::nnls{}, limits, threads};
     return iterate(method.start(samples), options, false, watcher, bar);
   };
-  const auto chosen = [&] {
-    if (gamma && *gamma == 0.0) return as_published(gonio::trust_all{});
-    if (gamma) return as_published(gonio::relative_deviation_weights{*gamma});
+  const auto automatic = [&] {
     const gonio::robust_start start{.seed = options.seed};
     const gonio::robust_reconstruction robust{materials, corrections, limits, start, threads};
     return iterate(robust.start(samples), options, true, watcher, bar);
   };
-  reconstruction result = chosen();
+  reconstruction result = gamma ? as_published() : automatic();
   if (!watched) return result;
 
   bar.draw("drawing", 1.0);
@@ -114,9 +112,8 @@ reconstruction reconstruct_by_corrections(const reconstruct_options& options, co
   std::optional<gonio::brdf_table> truth;
   if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   progress_bar bar;
-  auto materials = read_materials(options.materials, options.threads, bar.listener());
-  return with_materials(options, std::move(materials),
-                        [&](const auto& basis) { return correct(basis, options, samples, std::move(truth), bar); });
+  const auto materials = chosen_materials(options, bar.listener());
+  return correct(materials, options, samples, std::move(truth), bar);
 }
 
 }  // namespace cli

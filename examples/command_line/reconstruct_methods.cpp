@@ -93,23 +93,29 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   return result;
 }
 
+gonio::measured<gonio::any_metric> chosen_materials(const reconstruct_options& options,
+                                                    const gonio::progress& listener) {
+  auto materials = read_materials(options.materials, options.threads, listener);
+  const auto metric =
+      chosen_metric(options, [&] { return gonio::log_relative::to_median_of(materials, options.threads); });
+  const auto left_out = options.materials.is_prior() ? options.materials.exclude : std::vector<std::string>{};
+  return gonio::measured{std::move(materials), metric, options.threads}.without(left_out);
+}
+
 reconstruction reconstruct_by_materials(const reconstruct_options& options, const gonio::sample_set& samples) {
   const auto solver = make_solver(options.solver, {"nnls", "gcv"});
   progress_bar bar;
-  auto materials = read_materials(options.materials, options.threads, bar.listener());
+  const auto materials = chosen_materials(options, bar.listener());
   bar.wipe();
-  return with_materials(options, std::move(materials),
-                        [&](const auto& basis) { return fit(basis, solver, samples, options.threads); });
+  return fit(materials, solver, samples, options.threads);
 }
 
 reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
   const gonio::valid_cells cells;
   const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
-  return under_metric(
-      options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); },
-      [&](const auto& metric) {
-        return fit(gonio::rbf{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options.threads);
-      });
+  const auto metric =
+      chosen_metric(options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); });
+  return fit(gonio::rbf{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options.threads);
 }
 
 reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {

@@ -6,10 +6,7 @@
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
-#include <gonio/metric/lin.hpp>
-#include <gonio/metric/log.hpp>
-#include <gonio/metric/log_relative.hpp>
-#include <gonio/metric/root.hpp>
+#include <gonio/metric/any_metric.hpp>
 #include <gonio/render/image.hpp>
 
 #include <cstdint>
@@ -61,24 +58,17 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
 
-/// Calls `use(metric)` with the metric chosen, log if none is; `relative()` makes the one that needs a reference.
-template <class Relative, class Use>
-reconstruction under_metric(const reconstruct_options& options, Relative&& relative, Use&& use) {
-  if (options.metric == "lin") return use(gonio::lin{});
-  if (options.metric == "root") return use(gonio::root{options.root});
-  if (options.metric == "log-relative") return use(relative());
-  return use(gonio::log{});
+/// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
+template <class Relative>
+[[nodiscard]] gonio::any_metric chosen_metric(const reconstruct_options& options, Relative&& relative) {
+  if (options.metric == "lin") return gonio::lin();
+  if (options.metric == "root") return gonio::root(options.root);
+  if (options.metric == "log-relative") return relative();
+  return gonio::log();
 }
 
-/// Calls `use(basis)` with the materials chosen under the metric chosen, without those that are excluded.
-template <class Use>
-reconstruction with_materials(const reconstruct_options& options, gonio::material_set materials, Use&& use) {
-  const auto left_out = options.materials.is_prior() ? options.materials.exclude : std::vector<std::string>{};
-  return under_metric(
-      options, [&] { return gonio::log_relative::to_median_of(materials, options.threads); },
-      [&](const auto& metric) {
-        return use(gonio::measured{std::move(materials), metric, options.threads}.without(left_out));
-      });
-}
+/// The materials chosen under the metric chosen, without those that are excluded.
+[[nodiscard]] gonio::measured<gonio::any_metric> chosen_materials(const reconstruct_options& options,
+                                                                  const gonio::progress& listener);
 
 }  // namespace cli

@@ -3,18 +3,17 @@
 /// taken where (JSON; docs/formats.md). What was recorded elsewhere goes through the same path as what a machine
 /// measures now.
 
+#include "command_line/json.hpp"
 #include <gonio/capture/device.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/text.hpp>
 
-#include <nlohmann/json.hpp>
-
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,14 +26,14 @@ class recorded_frames {
   explicit recorded_frames(const std::filesystem::path& manifest)
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);
-    const auto text = nlohmann::json::parse(gonio::io::detail::as_text(bytes), nullptr, false);
+    const auto text = cli::json::parse(std::string(gonio::io::detail::as_text(bytes)));
     if (!text.is_object()) throw gonio::error(name_ + ": is not a JSON object");
     largest_count_ = static_cast<std::uint16_t>(whole(text, "largest_count", 65535));
     if (largest_count_ == 0) throw gonio::error(name_ + ": 'largest_count' must be positive");
     if (text.contains("window")) window_ = parse_window(text["window"]);
     if (!text.contains("frames") || !text["frames"].is_array() || text["frames"].empty())
       throw gonio::error(name_ + ": 'frames' must be a list with a frame at least");
-    for (const auto& each : text["frames"]) add(each);
+    for (const auto& each : text["frames"].elements()) add(each);
   }
 
   /// All pairs that were recorded, in the manifest's order.
@@ -70,23 +69,21 @@ class recorded_frames {
     std::size_t column, row, columns, rows;
   };
 
-  [[nodiscard]] double number(const nlohmann::json& object, std::string_view key) const {
+  [[nodiscard]] double number(const cli::json& object, const std::string& key) const {
     if (!object.contains(key) || !object[key].is_number())
-      throw gonio::error(name_ + ": '" + std::string(key) + "' is missing or no number in " + shown(object));
-    return object[key].get<double>();
+      throw gonio::error(name_ + ": '" + key + "' is missing or no number in " + shown(object));
+    return object[key].number();
   }
-  [[nodiscard]] std::size_t whole(const nlohmann::json& object, std::string_view key, double most) const {
+  [[nodiscard]] std::size_t whole(const cli::json& object, const std::string& key, double most) const {
     const double value = number(object, key);
     if (!(value >= 0.0 && value <= most && value == std::floor(value)))
-      throw gonio::error(name_ + ": '" + std::string(key) + "' must be a whole number up to " + std::to_string(most));
+      throw gonio::error(name_ + ": '" + key + "' must be a whole number up to " + std::to_string(most));
     return static_cast<std::size_t>(value);
   }
   /// The beginning of what is not what it should be.
-  [[nodiscard]] static std::string shown(const nlohmann::json& object) {
-    return object.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace).substr(0, 120);
-  }
+  [[nodiscard]] static std::string shown(const cli::json& object) { return object.dump().substr(0, 120); }
 
-  [[nodiscard]] window parse_window(const nlohmann::json& given) const {
+  [[nodiscard]] window parse_window(const cli::json& given) const {
     if (!given.is_object()) throw gonio::error(name_ + ": 'window' must have column, row, columns and rows");
     const window parsed{whole(given, "column", 1e6), whole(given, "row", 1e6), whole(given, "columns", 1e6),
                         whole(given, "rows", 1e6)};
@@ -94,16 +91,16 @@ class recorded_frames {
     return parsed;
   }
 
-  [[nodiscard]] gonio::direction towards(const nlohmann::json& frame, std::string_view theta,
-                                         std::string_view phi) const {
+  [[nodiscard]] gonio::direction towards(const cli::json& frame, const std::string& theta,
+                                         const std::string& phi) const {
     const double polar = number(frame, theta), azimuth = number(frame, phi);
     if (!(polar >= 0.0 && polar < 90.0 && std::abs(azimuth) <= 360.0))
-      throw gonio::error(name_ + ": '" + std::string(theta) + "' and '" + std::string(phi) +
-                         "' must be degrees above the horizon in " + shown(frame));
+      throw gonio::error(name_ + ": '" + theta + "' and '" + phi + "' must be degrees above the horizon in " +
+                         shown(frame));
     return gonio::spherical_direction(gonio::radians(polar), gonio::radians(azimuth));
   }
 
-  void add(const nlohmann::json& frame) {
+  void add(const cli::json& frame) {
     if (!frame.is_object()) throw gonio::error(name_ + ": " + shown(frame) + " is no frame");
     const gonio::direction_pair at{towards(frame, "theta_i", "phi_i"), towards(frame, "theta_o", "phi_o")};
     const double seconds = number(frame, "seconds");
@@ -112,7 +109,7 @@ class recorded_frames {
       throw gonio::error(name_ + ": 'file' is missing or no text in " + shown(frame));
     recorded_pose* known = find(at);
     if (known == nullptr) known = &recorded_.emplace_back(recorded_pose{at, {}});
-    known->frames.emplace_back(seconds, frame["file"].get<std::string>());
+    known->frames.emplace_back(seconds, frame["file"].text());
   }
 
   [[nodiscard]] const recorded_pose* find(const gonio::direction_pair& pair) const {

@@ -9,7 +9,6 @@
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/expected_error.hpp>
-#include <gonio/design/float_product.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// All of `metric/`: the error metrics.
 
+#include <gonio/metric/any_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>

@@ -9,6 +9,7 @@
 #include <gonio/solve/coordinate_descent.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/dual_active_set.hpp>
+#include <gonio/solve/float_product.hpp>
 #include <gonio/solve/gram.hpp>
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/iteration.hpp>

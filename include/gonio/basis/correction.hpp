@@ -4,6 +4,7 @@
 
 #include <gonio/basis/measured.hpp>
 #include <gonio/metric/lin.hpp>
+#include <gonio/solve/float_product.hpp>
 #include <gonio/solve/nnls.hpp>
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@
 #include <numeric>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace gonio {
@@ -62,12 +64,14 @@ struct correction_rule {
 
 namespace detail {
 
-/// Turns an array of mapped values into reflectances, at least zero.
+/// Turns an array of mapped values into reflectances, at least zero. A metric that is chosen at run time has `held()`.
 template <error_metric Metric, class Values>
 void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t first, Values&& values) {
   if constexpr (requires { metric.unmap_all(values); }) {
     metric.unmap_all(values);
     values = values.max(0.0f);
+  } else if constexpr (requires { metric.held(); }) {
+    std::visit([&](const auto& one) { unmap_at_cells(one, cells, first, values); }, metric.held());
   } else {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
       const location at = locate_cell(cells, first + static_cast<std::size_t>(i));
@@ -136,14 +140,14 @@ class leave_one_out_approximations {
   void write_columns(std::size_t c, const Columns& columns, const correction_factor& factor, Channel& out) const {
     using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const auto channel = materials_.channel(c);
-    const Eigen::MatrixXf weights = weights_[c](Eigen::all, columns);
+    const Eigen::MatrixXf transposed = weights_[c](Eigen::all, columns).transpose();
     for_each_block(
         materials_.cells().size(), 128,
         [&](block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
           const auto mapped = channel.values().middleRows(begin, rows);
-          values approximation(rows, weights.cols()), truth = mapped(Eigen::all, columns);
-          approximation.matrix().noalias() = mapped * weights;
+          values approximation = values::Zero(rows, transposed.rows()), truth = mapped(Eigen::all, columns);
+          add_product(transposed, mapped.transpose(), approximation.matrix().transpose());
           unmap_at_cells(materials_.metric(), materials_.cells(), range.begin, approximation);
           unmap_at_cells(materials_.metric(), materials_.cells(), range.begin, truth);
           truth = factor.quotient(truth, approximation).eval();

@@ -2,6 +2,7 @@
 /// The materials that a learned prior remembers, as tables again.
 
 #include <gonio/basis/pca.hpp>
+#include <gonio/solve/float_product.hpp>
 #include <gonio/table/material_set.hpp>
 
 namespace gonio {
@@ -13,14 +14,13 @@ template <error_metric Metric>
 [[nodiscard]] material_set expand(const pca<Metric>& prior, thread_count threads = {}) {
   material_set materials{prior.cells(), prior.names(), {}};
   const Eigen::Index columns = prior.coefficients().rows();
-  materials.values.resize(static_cast<Eigen::Index>(prior.cells().size()), columns);
-  const Eigen::MatrixXf coefficients = prior.coefficients().transpose();
+  materials.values.setZero(static_cast<Eigen::Index>(prior.cells().size()), columns);
   for_each_block(
       prior.cells().size(), 1024,
       [&](block range) {
         const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
         auto rows = materials.values.middleRows(begin, count);
-        rows.noalias() = prior.components().middleRows(begin, count) * coefficients;
+        add_product(prior.coefficients(), prior.components().middleRows(begin, count).transpose(), rows.transpose());
         for (Eigen::Index i = 0; i < count; ++i) {
           const auto cell = static_cast<std::size_t>(begin + i);
           const location at = locate_cell(prior.cells(), cell);

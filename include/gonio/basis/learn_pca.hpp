@@ -4,13 +4,12 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
-#include <gonio/solve/gram.hpp>
 #include <gonio/table/material_set.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
-#include <algorithm>
-#include <limits>
+#include <utility>
+#include <vector>
 
 namespace gonio {
 
@@ -35,29 +34,19 @@ template <observation_set Set, error_metric Metric>
   return mean;
 }
 
-/// Eigenvectors of a Gram matrix for its `count` largest eigenvalues above rounding, largest first, each
-/// with its largest entry positive so that the result does not depend on the eigensolver's sign.
-struct spectrum {
-  Eigen::VectorXd eigenvalues;
-  Eigen::MatrixXd eigenvectors;
+/// X - mu = U Sigma V' transposed, cut after the components that are kept.
+struct component_set {
+  Eigen::VectorXd singular_values;
+  cell_matrix scaled;            ///< Q = V Sigma = (X - mu)' U, a row for each cell
+  Eigen::MatrixXf coefficients;  ///< U
+  double explained_variance = 1.0;
 };
 
-template <class Derived>
-[[nodiscard]] spectrum largest_eigenpairs(const Eigen::MatrixBase<Derived>& gram, Eigen::Index count) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  if (eigen.info() != Eigen::Success)
-    throw error("the eigenvalues of the Gram matrix of the materials did not converge");
-  const Eigen::VectorXd descending = eigen.eigenvalues().reverse();
-  const double floor = descending[0] * static_cast<double>(gram.rows()) * std::numeric_limits<double>::epsilon();
-  const Eigen::Index kept = std::min<Eigen::Index>(count, (descending.array() > floor).count());
-  spectrum result{descending.head(kept), eigen.eigenvectors().rowwise().reverse().leftCols(kept)};
-  for (auto vector : result.eigenvectors.colwise()) {
-    Eigen::Index largest = 0;
-    vector.cwiseAbs().maxCoeff(&largest);
-    if (vector[largest] < 0.0) vector = -vector;
-  }
-  return result;
-}
+/// Of rows whose means were taken away: at most `count` components, fewer where the rest is rounding, largest first,
+/// each with the largest entry of its U positive, so that the result does not depend on the eigensolver's sign. Throws
+/// gonio::error if there is none.
+[[nodiscard]] component_set principal_components(const cell_matrix& centred, std::size_t count, thread_count threads,
+                                                 const progress& listener);
 
 }  // namespace detail
 
@@ -80,27 +69,10 @@ template <observation_set Set, error_metric Metric>
   report(listener, "mapping", 0.0);
   std::vector<float> mean = detail::map_and_centre(materials, metric, threads);
 
-  report(listener, "gram", 0.0);
-  const Eigen::MatrixXd products = gram(materials.values, threads);
-  report(listener, "components", 0.0);
-  // Rounding of the mean may pretend that centring costs none.
-  const auto most = std::min(static_cast<Eigen::Index>(components), products.cols() - 1);
-  const auto [eigenvalues, vectors] = detail::largest_eigenpairs(products, most);
-  if (eigenvalues.size() == 0) throw error("the materials do not differ: there is nothing to learn");
-
-  // X - mu = U Sigma V' transposed: Q = V Sigma = (X - mu)' U, where U are the eigenvectors.
-  const Eigen::MatrixXf u = vectors.cast<float>();
-  cell_matrix scaled(materials.values.rows(), u.cols());
-  for_each_block(
-      materials.cells.size(), 2048,
-      [&](block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-        scaled.middleRows(begin, count).noalias() = materials.values.middleRows(begin, count) * u;
-      },
-      threads);
-  report(listener, "components", 1.0);
-  return pca<Metric, domain_of_set<Set>>({materials.cells, metric, std::move(materials.names), eigenvalues.cwiseSqrt(),
-                                          std::move(scaled), std::move(mean), u, eigenvalues.sum() / products.trace()});
+  detail::component_set found = detail::principal_components(materials.values, components, threads, listener);
+  return pca<Metric, domain_of_set<Set>>({materials.cells, metric, std::move(materials.names),
+                                          std::move(found.singular_values), std::move(found.scaled), std::move(mean),
+                                          std::move(found.coefficients), found.explained_variance});
 }
 
 /// The same components on other, usually fewer, cells: components and mean are interpolated in the mapped
@@ -119,3 +91,7 @@ template <error_metric Metric>
 }
 
 }  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/learn_pca.ipp>
+#endif

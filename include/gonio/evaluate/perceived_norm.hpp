@@ -4,6 +4,8 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/render/sphere.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/float_product.hpp>
 
 #include <Eigen/Core>
 
@@ -30,24 +32,28 @@ template <error_metric Metric>
     weights.push_back(luminance(weight));
   });
   const auto entries = std::ssize(cells);
-  Eigen::MatrixXf rows(entries, static_cast<Eigen::Index>(basis.size()));
+  Eigen::MatrixXf components(static_cast<Eigen::Index>(basis.size()), entries);
   for (Eigen::Index e = 0; e < entries; ++e)
-    rows.row(e) = basis.components().row(static_cast<Eigen::Index>(cells[static_cast<std::size_t>(e)]));
+    components.col(e) = basis.components().row(static_cast<Eigen::Index>(cells[static_cast<std::size_t>(e)]));
 
   // What each observation reflects in each of the directions, and how that changes with its mapped value.
   constexpr double step = 0.05;
-  Eigen::MatrixXf mapped = rows * basis.coefficients().transpose();
-  Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.cols());
-  for (Eigen::Index i = 0; i < mapped.cols(); ++i)
-    for (Eigen::Index e = 0; e < entries; ++e) {
-      const std::size_t cell = cells[static_cast<std::size_t>(e)];
-      const double weight = weights[static_cast<std::size_t>(e)], y = basis.offset(cell) + double{mapped(e, i)};
+  Eigen::MatrixXf mapped = product(basis.coefficients(), components);
+  Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.rows());
+  for (Eigen::Index e = 0; e < entries; ++e) {
+    const std::size_t cell = cells[static_cast<std::size_t>(e)];
+    const double weight = weights[static_cast<std::size_t>(e)], offset = basis.offset(cell);
+    for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+      const double y = offset + double{mapped(i, e)};
       const double lower = basis.metric().inverse(y - step, cell), upper = basis.metric().inverse(y + step, cell);
       luminances[i] += weight * std::max((lower + upper) / 2.0, 0.0);
-      mapped(e, i) = static_cast<float>(weight * (upper - lower) / (2.0 * step));
+      mapped(i, e) = static_cast<float>(weight * (upper - lower) / (2.0 * step));
     }
-  const Eigen::VectorXf slopes = luminances.unaryExpr(&lightness_slope).cast<float>();
-  return slopes.asDiagonal() * (mapped.transpose() * rows);
+  }
+  Eigen::MatrixXf jacobian = product(mapped, components.transpose());
+  for (Eigen::Index i = 0; i < jacobian.rows(); ++i)
+    jacobian.row(i) *= static_cast<float>(lightness_slope(luminances[i]));
+  return jacobian;
 }
 
 }  // namespace detail
@@ -72,15 +78,14 @@ template <error_metric Metric>
       [&](block range) {
         const std::size_t end = std::min(range.end * points_of_a_sum, points);
         for (std::size_t point = range.begin * points_of_a_sum; point < end; ++point) {
-          const Eigen::MatrixXd jacobian = detail::lightness_jacobian(basis, sphere, point).template cast<double>();
-          sums[point / points_of_a_sum].template selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
+          const Eigen::MatrixXf jacobian = detail::lightness_jacobian(basis, sphere, point);
+          sums[point / points_of_a_sum] += product_with_transpose(jacobian.transpose().cast<double>());
         }
       },
       threads);
   Eigen::MatrixXd norm = Eigen::MatrixXd::Zero(k, k);
   for (const Eigen::MatrixXd& sum : sums) norm += sum;
-  norm /= static_cast<double>(points) * static_cast<double>(basis.coefficients().rows());
-  return norm.template selfadjointView<Eigen::Lower>();
+  return norm / (static_cast<double>(points) * static_cast<double>(basis.coefficients().rows()));
 }
 
 /// The same, the mean of two spheres: under two directional lights, and under the closed-form environment

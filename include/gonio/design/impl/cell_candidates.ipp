@@ -5,7 +5,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/cell_candidates.hpp>
-#include <gonio/design/float_product.hpp>
+#include <gonio/solve/float_product.hpp>
 
 #include <Eigen/Core>
 

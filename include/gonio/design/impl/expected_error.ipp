@@ -4,7 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/design/expected_error.hpp>
-#include <gonio/design/float_product.hpp>
+#include <gonio/solve/float_product.hpp>
 #include <gonio/solve/dense.hpp>
 
 #include <Eigen/Core>

@@ -5,6 +5,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
+#include <gonio/solve/float_product.hpp>
 
 #include <Eigen/Core>
 
@@ -27,19 +28,19 @@ GONIO_INLINE brdf_table total_correction(const correction& corrections, const st
   brdf_table total(corrections.cells());
   const auto functions = static_cast<Eigen::Index>(corrections.size());
   for (std::size_t c = 0; c < 3; ++c) {
-    Eigen::MatrixXf betas(functions, std::ssize(weights));
+    Eigen::MatrixXf betas(std::ssize(weights), functions);
     for (std::size_t round = 0; round < weights.size(); ++round)
-      betas.col(static_cast<Eigen::Index>(round)) = weights[round].col(static_cast<Eigen::Index>(c)).cast<float>();
+      betas.row(static_cast<Eigen::Index>(round)) = weights[round].col(static_cast<Eigen::Index>(c)).cast<float>();
     const auto channel = corrections.channel(c);
     for_each_block(
         corrections.cells().size(), 1024,
         [&](block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-          const cell_matrix sigmas = channel.values().middleRows(begin, count) * betas;
+          const Eigen::MatrixXf sigmas = product(betas, channel.values().middleRows(begin, count).transpose());
           for (Eigen::Index i = 0; i < count; ++i) {
             float factor = 1.0f;
-            for (Eigen::Index round = 0; round < sigmas.cols(); ++round)
-              factor = std::min(factor * sigmas(i, round), correction_factor::largest_factor);
+            for (Eigen::Index round = 0; round < sigmas.rows(); ++round)
+              factor = std::min(factor * sigmas(round, i), correction_factor::largest_factor);
             total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = factor;
           }
         },

@@ -34,4 +34,71 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
   return shapes;
 }
 
+/// Descends over everything, from shapes and the colours that suit them.
+[[nodiscard]] GONIO_INLINE std::pair<Eigen::VectorXd, local_minimum> fit_from(const model_loss& loss,
+                                                                              const Eigen::VectorXd& shapes,
+                                                                              const model_fit_options& options) {
+  const unknown_bounds box = loss.bounds();
+  levenberg_marquardt_options descent{.iteration_limit = options.iteration_limit};
+  // Weighted squares approach the minimum of another norm by a share of the way at a time.
+  if (options.norm != fit_norm::l2) descent.smallest_gain = 1e-10;
+  const Eigen::Index p = loss.shapes();
+  const auto joint = [&](const Eigen::VectorXd& x) { return loss.joint(x); };
+  if (loss.separates()) {
+    levenberg_marquardt_options by_products = descent;
+    by_products.resolution = 1e-15 * loss.of_nothing();
+    local_minimum found = levenberg_marquardt([&](const Eigen::VectorXd& u) { return loss.projected(u); }, shapes,
+                                              {box.lowest.head(p), box.highest.head(p)}, by_products);
+    Eigen::VectorXd x = loss.with_colours(found.unknowns);
+    // Residuals that are small beside the measurements drown when they are had from products.
+    if (found.value > 1e-8 * loss.of_nothing()) return {std::move(x), std::move(found)};
+    local_minimum polished = levenberg_marquardt(joint, x, box, descent);
+    polished.evaluations += found.evaluations;
+    return {polished.unknowns, std::move(polished)};
+  }
+  const Eigen::VectorXd start = loss.with_colours(shapes);
+  // The paper's stages: first colours, then shapes, then all.
+  unknown_bounds stage = box;
+  stage.lowest.head(p) = stage.highest.head(p) = start.head(p);
+  const local_minimum coloured = levenberg_marquardt(joint, start, stage, descent);
+  stage = box;
+  stage.lowest.tail(start.size() - p) = stage.highest.tail(start.size() - p) = coloured.unknowns.tail(start.size() - p);
+  const local_minimum shaped = levenberg_marquardt(joint, coloured.unknowns, stage, descent);
+  local_minimum found = levenberg_marquardt(joint, shaped.unknowns, box, descent);
+  found.evaluations += coloured.evaluations + shaped.evaluations;
+  return {found.unknowns, std::move(found)};
+}
+
+GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
+                                    std::span<const fit_observation> observations, chosen_metric metric,
+                                    const model_fit_options& options) {
+  if (kinds.empty()) throw error("a model needs at least one lobe");
+  std::size_t parameters = 0;
+  for (const lobe_kind* kind : kinds) parameters += 3 + kind->parameters().size();
+  if (3 * observations.size() < parameters)
+    throw error(std::to_string(observations.size()) + " samples of three channels are too few for " +
+                std::to_string(parameters) + " parameters");
+  if (std::ranges::all_of(observations,
+                          [](const fit_observation& seen) { return (seen.value == 0.0).all() || seen.weight == 0.0; }))
+    throw error("all measurements are zero, or count for nothing");
+
+  const model_loss loss(kinds, observations, std::move(metric), options);
+  auto [best, end] = fit_from(loss, loss.coded(typical_shapes(kinds)), options);
+  std::size_t evaluations = end.evaluations;
+
+  std::mt19937_64 random(options.seed);
+  const unknown_bounds box = loss.bounds();
+  for (std::size_t start = 0; start < options.random_starts; ++start) {
+    Eigen::VectorXd shapes(loss.shapes());
+    for (Eigen::Index j = 0; j < shapes.size(); ++j)
+      shapes[j] = std::uniform_real_distribution(box.lowest[j], box.highest[j])(random);
+    auto [x, other] = fit_from(loss, shapes, options);
+    evaluations += other.evaluations;
+    if (!(other.value < end.value)) continue;
+    best = std::move(x);
+    end = std::move(other);
+  }
+  return {loss.model(best), end.value, evaluations, end.converged, end.promised_gain};
+}
+
 }  // namespace gonio::detail

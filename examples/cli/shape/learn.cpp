@@ -1,8 +1,8 @@
 /// gonio shape learn: an active shape model of corresponded meshes, and of scans that it registers by itself.
 
+#include "cli/shape/shape.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
-#include "shape.hpp"
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>
 #include <gonio/shape/bootstrap.hpp>

@@ -1,8 +1,9 @@
 #pragma once
-/// Bodies of design/float_product.hpp.
+/// Bodies of solve/float_product.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/design/float_product.hpp>
+#include <gonio/solve/float_product.hpp>
+#include <gonio/solve/product.hpp>
 
 namespace gonio {
 

@@ -1,12 +1,12 @@
 /// gonio shape demo: ear canals that nobody has, held out from the model, with holes between the bends; how well they
 /// are recovered, beside filling the holes smoothly. After section 4 of "Anatomically correct surface recovery".
 
+#include "cli/shape/shape.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "lab/ear_canal_scans.hpp"
-#include "shape.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>

@@ -2,12 +2,12 @@
 /// which are no good; how many it accepts, and how far their vertices are from where they belong. After section 2 of
 /// "Anatomically correct surface recovery".
 
+#include "cli/shape/shape.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "lab/ear_canal_scans.hpp"
-#include "shape.hpp"
 #include <gonio/shape/bootstrap.hpp>
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 /// gonio shape recover: what a partial scan does not show.
 
+#include "cli/shape/shape.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
-#include "shape.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>

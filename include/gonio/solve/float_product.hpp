@@ -1,8 +1,9 @@
 #pragma once
-/// Products of the sweeps over all candidates, which are made in single precision: as solve/dense.hpp, through one
-/// instantiation of Eigen's templates.
+/// Products in single precision, of tables and of sweeps over all candidates, compiled once (see dense.hpp). Of a
+/// row-major table T and of what is stored as it is, T B is `add_product(b_transposed, t.transpose(),
+/// sum.transpose())`: the transposes are views.
 
-#include <gonio/solve/dense.hpp>
+#include <gonio/solve/matrix_view.hpp>
 
 namespace gonio {
 
@@ -23,5 +24,5 @@ void add_product(const matrix_view& a, const matrix_view& b, Eigen::MatrixXd& su
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/design/impl/float_product.ipp>
+#include <gonio/solve/impl/float_product.ipp>
 #endif

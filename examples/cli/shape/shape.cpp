@@ -1,9 +1,9 @@
 /// gonio shape: surfaces that scans show in part, from what many of their kind have in common.
 
-#include "shape.hpp"
+#include "cli/shape/shape.hpp"
 
+#include "cli/commands.hpp"
 #include "command_line/fixed.hpp"
-#include "commands.hpp"
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/image.hpp>
 

@@ -1,0 +1,264 @@
+#pragma once
+/// Bodies of model/model_loss.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/model/model_loss.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/nnls.hpp>
+#include <gonio/solve/normal_equations.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/semidefinite.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+/// Some rows and columns of a matrix.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd entries(const Eigen::MatrixXd& of, const std::vector<Eigen::Index>& rows,
+                                                   const std::vector<Eigen::Index>& columns) {
+  Eigen::MatrixXd found(std::ssize(rows), std::ssize(columns));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      found(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = of(rows[i], columns[j]);
+  return found;
+}
+
+/// `count` numbers from `first` on.
+[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_from(Eigen::Index first, Eigen::Index count) {
+  std::vector<Eigen::Index> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), first);
+  return all;
+}
+
+GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::span<const fit_observation> observations,
+                                    chosen_metric metric, const model_fit_options& options)
+    : kinds_(std::move(kinds)), observations_(observations), metric_(std::move(metric)), options_(options) {
+  for (std::size_t l = 0; l < kinds_.size(); ++l)
+    for (std::size_t p = 0; p < kinds_[l]->parameters().size(); ++p) owners_.push_back({l, p});
+  std::vector<double> sizes;
+  for (const fit_observation& seen : observations_) {
+    total_weight_ += 3.0 * seen.weight;
+    for (Eigen::Index c = 0; c < 3; ++c) sizes.push_back(std::abs(mapped(seen, seen.value[c])));
+  }
+  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
+  std::ranges::nth_element(sizes, middle);
+  median_size_ = *middle;
+  if (!(median_size_ > 0.0)) median_size_ = *std::ranges::max_element(sizes);
+  for (const fit_observation& seen : observations_)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      loss_of_nothing_ += seen.weight * norm_of(mapped(seen, seen.value[c])).loss / total_weight_;
+}
+
+GONIO_INLINE Eigen::VectorXd model_loss::coded(std::span<const lobe_kind::values> parameters) const {
+  Eigen::VectorXd u(shapes());
+  for (Eigen::Index j = 0; j < u.size(); ++j) {
+    const auto [lobe, p] = owner(j);
+    u[j] = code(description(j), parameters[lobe][p]);
+  }
+  return u;
+}
+
+GONIO_INLINE std::vector<lobe_kind::values> model_loss::decoded(const Eigen::VectorXd& u) const {
+  std::vector<lobe_kind::values> parameters(kinds_.size(), lobe_kind::values{});
+  for (Eigen::Index j = 0; j < shapes(); ++j) {
+    const auto [lobe, p] = owner(j);
+    const shape_parameter& about = description(j);
+    // exp(log(bound)) may round to what is out of bounds.
+    parameters[lobe][p] = std::clamp(about.logarithmic ? std::exp(u[j]) : u[j], about.lowest, about.highest);
+  }
+  return parameters;
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::colours(const Eigen::VectorXd& x) const {
+  return x.tail(3 * lobes()).reshaped(lobes(), 3);
+}
+
+GONIO_INLINE unknown_bounds model_loss::bounds() const {
+  unknown_bounds all{Eigen::VectorXd::Zero(unknowns()),
+                     Eigen::VectorXd::Constant(unknowns(), std::numeric_limits<double>::infinity())};
+  for (Eigen::Index j = 0; j < shapes(); ++j) {
+    all.lowest[j] = code(description(j), description(j).lowest);
+    all.highest[j] = code(description(j), description(j).highest);
+  }
+  return all;
+}
+
+GONIO_INLINE analytic_brdf model_loss::model(const Eigen::VectorXd& x) const {
+  const auto parameters = decoded(x);
+  std::vector<analytic_lobe> all;
+  for (Eigen::Index l = 0; l < lobes(); ++l)
+    all.emplace_back(*kinds_[static_cast<std::size_t>(l)], rgb(colours(x).row(l).transpose()),
+                     parameters[static_cast<std::size_t>(l)]);
+  return analytic_brdf(std::move(all));
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u) const {
+  const Eigen::Index all = lobes() + shapes() + 3;
+  const auto parameters = decoded(u);
+  return sum_over_blocks(
+      observations_.size(), block_size, Eigen::MatrixXd::Zero(all, all).eval(),
+      [&](Eigen::MatrixXd& sum, block range) {
+        Eigen::MatrixXd columns(all, static_cast<Eigen::Index>(range.size()));
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const fit_observation& seen = observations_[i];
+          auto column = columns.col(static_cast<Eigen::Index>(i - range.begin));
+          evaluate(seen.at, parameters, column);
+          column.tail(3) = seen.value.matrix();
+          column *= std::sqrt(seen.weight) * cosine(seen);
+        }
+        sum += product_with_transpose(columns);
+      },
+      options_.threads);
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& products) const {
+  const Eigen::Index count = lobes();
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(count, 3);
+  const double brightest = products.diagonal().head(count).maxCoeff();
+  std::vector<Eigen::Index> bright;
+  for (Eigen::Index l = 0; l < count; ++l)
+    if (products(l, l) > 1e-280 && products(l, l) > 1e-200 * brightest) bright.push_back(l);
+  if (bright.empty()) return found;
+  // Columns of length one, so that a narrow lobe of huge values does not hide a dim one.
+  Eigen::MatrixXd gram = entries(products, bright, bright),
+                  moment = entries(products, bright, numbers_from(count + shapes(), 3));
+  const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
+  for (Eigen::Index i = 0; i < scale.size(); ++i) {
+    moment.row(i) *= scale[i];
+    for (Eigen::Index j = 0; j < scale.size(); ++j) gram(i, j) *= scale[i] * scale[j];
+  }
+  const Eigen::MatrixXd scaled = nnls().solve(normal_equations(std::move(gram), std::move(moment))).weights;
+  for (Eigen::Index i = 0; i < scale.size(); ++i)
+    found.row(bright[static_cast<std::size_t>(i)]) = scale[i] * scaled.row(i);
+  return found;
+}
+
+GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) const {
+  const Eigen::MatrixXd all = products(u);
+  const Eigen::MatrixXd found = solve_colours(all);
+  const Eigen::Index count = lobes(), p = shapes();
+  local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // The residual is G x - y, its slopes D times the colours of their lobes.
+    Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
+    residual.head(count) = found.col(c);
+    residual[count + p + c] = -1.0;
+    const Eigen::VectorXd against = all * residual;
+    result.value += 0.5 * residual.dot(against);
+    Eigen::VectorXd colour(p);
+    for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(static_cast<Eigen::Index>(owner(j).lobe), c);
+    result.gradient += colour.cwiseProduct(against.segment(count, p));
+    for (Eigen::Index j = 0; j < p; ++j)
+      for (Eigen::Index i = 0; i < p; ++i) result.hessian(i, j) += colour[i] * all(count + i, count + j) * colour[j];
+    // What colours that are not held at zero make up for.
+    std::vector<Eigen::Index> lit;
+    for (Eigen::Index l = 0; l < count; ++l)
+      if (found(l, c) > 0.0) lit.push_back(l);
+    if (lit.empty()) continue;
+    Eigen::MatrixXd crossed = entries(all, lit, numbers_from(count, p));
+    for (Eigen::Index j = 0; j < p; ++j) crossed.col(j) *= colour[j];
+    const Eigen::MatrixXd among = entries(all, lit, lit);
+    result.hessian -= product(crossed.transpose(), solve_semidefinite(among, crossed));
+  }
+  result.value /= total_weight_;
+  result.gradient /= total_weight_;
+  result.hessian /= total_weight_;
+  return result;
+}
+
+GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
+  const Eigen::Index count = lobes(), p = shapes(), n = p + count;
+  const auto parameters = decoded(x);
+  const Eigen::MatrixXd colour = colours(x);
+  // For each channel the products of its slopes by shapes and its own colours, and of those with the residual.
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * (n + 1), n + 1);
+  const Eigen::MatrixXd sums = sum_over_blocks(
+      observations_.size(), block_size, zero,
+      [&](Eigen::MatrixXd& sum, block range) {
+        std::array<Eigen::MatrixXd, 3> columns;
+        columns.fill(Eigen::MatrixXd(n + 1, static_cast<Eigen::Index>(range.size())));
+        Eigen::VectorXd value(n + 3);
+        std::array<double, 3> losses{};
+        for (std::size_t i = range.begin; i < range.end; ++i) {
+          const fit_observation& seen = observations_[i];
+          evaluate(seen.at, parameters, value);
+          for (Eigen::Index c = 0; c < 3; ++c) {
+            const double modelled = value.head(count).dot(colour.col(c));
+            const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
+            const auto [loss, curvature] = norm_of(residual);
+            losses[static_cast<std::size_t>(c)] += seen.weight * loss;
+            const double root = std::sqrt(seen.weight * curvature);
+            const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
+            auto column = columns[static_cast<std::size_t>(c)].col(static_cast<Eigen::Index>(i - range.begin));
+            for (Eigen::Index j = 0; j < p; ++j)
+              column[j] = slope * value[count + j] * colour(static_cast<Eigen::Index>(owner(j).lobe), c);
+            column.segment(p, count) = slope * value.head(count);
+            column[n] = root * residual;
+          }
+        }
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          const auto& own = columns[static_cast<std::size_t>(c)];
+          auto part = sum.middleRows(c * (n + 1), n + 1);
+          const double before = part(n, n);
+          part += product_with_transpose(own);
+          part(n, n) = before + losses[static_cast<std::size_t>(c)];
+        }
+      },
+      options_.threads);
+
+  local_parabola result{0.0, Eigen::VectorXd::Zero(unknowns()), Eigen::MatrixXd::Zero(unknowns(), unknowns())};
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const auto part = sums.middleRows(c * (n + 1), n + 1) / total_weight_;
+    const Eigen::Index own = p + c * count;
+    result.value += part(n, n);
+    result.gradient.head(p) += part.col(n).head(p);
+    result.gradient.segment(own, count) = part.col(n).segment(p, count);
+    result.hessian.topLeftCorner(p, p) += part.topLeftCorner(p, p);
+    result.hessian.block(0, own, p, count) = part.block(0, p, p, count);
+    result.hessian.block(own, 0, count, p) = part.block(p, 0, count, p);
+    result.hessian.block(own, own, count, count) = part.block(p, p, count, count);
+  }
+  return result;
+}
+
+GONIO_INLINE Eigen::VectorXd model_loss::with_colours(const Eigen::VectorXd& u) const {
+  Eigen::VectorXd x(unknowns());
+  const Eigen::MatrixXd found = solve_colours(products(u));
+  x << u.head(shapes()), found.reshaped();
+  return x;
+}
+
+GONIO_INLINE void model_loss::evaluate(const lobe_geometry& at, const std::vector<lobe_kind::values>& parameters,
+                                       Eigen::Ref<Eigen::VectorXd> out) const {
+  Eigen::Index j = lobes();
+  for (std::size_t l = 0; l < kinds_.size(); ++l) {
+    lobe_kind::values slopes{};
+    const double value = kinds_[l]->value_and_slopes(at, parameters[l], slopes);
+    out[static_cast<Eigen::Index>(l)] = std::min(value, largest_reflectance);
+    const auto about = kinds_[l]->parameters();
+    for (std::size_t p = 0; p < about.size(); ++p, ++j)
+      out[j] = about[p].logarithmic ? slopes[p] * parameters[l][p] : slopes[p];
+  }
+}
+
+GONIO_INLINE model_loss::norm_value model_loss::norm_of(double residual) const {
+  const double size = std::abs(residual);
+  if (options_.norm == fit_norm::l1) {
+    const double rounded = std::hypot(residual, options_.rounding * median_size_);
+    return {rounded, 1.0 / rounded};
+  }
+  const double width = options_.huber_width * median_size_;
+  if (options_.norm == fit_norm::huber && size > width) return {width * (size - 0.5 * width), width / size};
+  return {0.5 * residual * residual, 1.0};
+}
+
+}  // namespace gonio::detail
