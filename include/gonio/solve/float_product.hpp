@@ -18,8 +18,6 @@ using float_matrix_block = Eigen::Ref<Eigen::MatrixXf, 0, Eigen::OuterStride<>>;
 
 /// sum += A B.
 void add_product(const float_matrix_view& a, const float_matrix_view& b, float_matrix_block sum);
-/// The same in double precision, by way of the product itself: for few columns.
-void add_product(const matrix_view& a, const matrix_view& b, Eigen::MatrixXd& sum);
 
 }  // namespace gonio
 

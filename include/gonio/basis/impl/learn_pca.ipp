@@ -5,8 +5,8 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/solve/float_product.hpp>
 #include <gonio/solve/gram.hpp>
+#include <gonio/solve/product.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
@@ -46,15 +46,14 @@ GONIO_INLINE component_set principal_components(const cell_matrix& centred, std:
   const auto [eigenvalues, vectors] = largest_eigenpairs(products, most);
   if (eigenvalues.size() == 0) throw error("the materials do not differ: there is nothing to learn");
 
-  component_set found{eigenvalues.cwiseSqrt(), cell_matrix::Zero(centred.rows(), vectors.cols()), vectors.cast<float>(),
+  component_set found{eigenvalues.cwiseSqrt(), cell_matrix(centred.rows(), vectors.cols()), vectors.cast<float>(),
                       eigenvalues.sum() / products.trace()};
-  const Eigen::MatrixXf transposed = found.coefficients.transpose();
   for_each_block(
       static_cast<std::size_t>(centred.rows()), 2048,
       [&](block range) {
         const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
-        add_product(transposed, centred.middleRows(begin, rows).transpose(),
-                    found.scaled.middleRows(begin, rows).transpose());
+        found.scaled.middleRows(begin, rows) =
+            product(centred.middleRows(begin, rows).cast<double>(), vectors).cast<float>();
       },
       threads);
   report(listener, "components", 1.0);

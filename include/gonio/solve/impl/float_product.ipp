@@ -3,7 +3,6 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/float_product.hpp>
-#include <gonio/solve/product.hpp>
 
 namespace gonio {
 
@@ -15,10 +14,6 @@ GONIO_INLINE Eigen::MatrixXf product(const float_matrix_view& a, const float_mat
 
 GONIO_INLINE void add_product(const float_matrix_view& a, const float_matrix_view& b, float_matrix_block sum) {
   sum.noalias() += a * b;
-}
-
-GONIO_INLINE void add_product(const matrix_view& a, const matrix_view& b, Eigen::MatrixXd& sum) {
-  sum += product(a, b);
 }
 
 }  // namespace gonio

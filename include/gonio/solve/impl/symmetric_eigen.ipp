@@ -4,32 +4,72 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
+#include <gonio/solve/vector_kernels.hpp>
 
+#include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace gonio {
 
 namespace detail {
 
-[[nodiscard]] GONIO_INLINE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_solver(const matrix_view& a,
+/// A = scale Q T Q', with T tridiagonal. The scale, the largest entry, keeps squares of entries within range.
+struct tridiagonal_form {
+  explicit tridiagonal_form(const matrix_view& a) : scale(largest(a)), form(a / scale) {}
+
+  [[nodiscard]] static double largest(const matrix_view& a) {
+    double found = 0.0;
+    for (Eigen::Index j = 0; j < a.cols(); ++j)
+      for (Eigen::Index i = j; i < a.rows(); ++i) found = std::max(found, std::abs(a(i, j)));
+    return found > 0.0 ? found : 1.0;
+  }
+
+  double scale;
+  Eigen::Tridiagonalization<Eigen::MatrixXd> form;
+};
+
+/// Of T.
+[[nodiscard]] GONIO_INLINE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_solver(const tridiagonal_form& of,
                                                                                        int options, const char* what) {
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a.rows());
-  solver.compute(a, options);
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(of.form.diagonal(), of.form.subDiagonal(), options);
   if (solver.info() != Eigen::Success) refuse(std::string("the eigenvalues of ") + what + " do not converge");
   return solver;
+}
+
+/// z becomes Q z, one reflection I - tau (1, v)(1, v)' after the other, for each column. Eigen's own product with Q,
+/// which SelfAdjointEigenSolver::compute takes, costs every includer as long to compile as all the rest of this.
+GONIO_INLINE void multiply_by_q(const Eigen::Tridiagonalization<Eigen::MatrixXd>& form, Eigen::MatrixXd& z) {
+  const Eigen::Index n = z.rows();
+  const Eigen::MatrixXd packed = form.packedMatrix();
+  const Eigen::VectorXd tau = form.householderCoefficients();
+  for (Eigen::Index j = 0; j < z.cols(); ++j)
+    for (Eigen::Index i = n - 2; i >= 0; --i) {
+      const double* v = packed.data() + i * n + i + 2;
+      double* of = z.data() + j * n + i + 1;
+      const double along = tau[i] * (of[0] + dot(v, of + 1, n - i - 2));
+      of[0] -= along;
+      add_scaled(-along, v, of + 1, n - i - 2);
+    }
 }
 
 }  // namespace detail
 
 GONIO_INLINE symmetric_eigen decompose_symmetric(const matrix_view& a, const char* what) {
-  const auto solver = detail::eigen_solver(a, Eigen::ComputeEigenvectors, what);
-  return {solver.eigenvalues(), solver.eigenvectors()};
+  const detail::tridiagonal_form of(a);
+  const auto solver = detail::eigen_solver(of, Eigen::ComputeEigenvectors, what);
+  symmetric_eigen found{of.scale * solver.eigenvalues(), solver.eigenvectors()};
+  detail::multiply_by_q(of.form, found.vectors);
+  return found;
 }
 
 GONIO_INLINE Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what) {
-  return detail::eigen_solver(a, Eigen::EigenvaluesOnly, what).eigenvalues();
+  const detail::tridiagonal_form of(a);
+  return of.scale * detail::eigen_solver(of, Eigen::EigenvaluesOnly, what).eigenvalues();
 }
 
 }  // namespace gonio
