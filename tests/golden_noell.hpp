@@ -3,6 +3,7 @@
 /// cells of MERL's grid. See /shared/reference/python/golden.py, part 5.
 
 #include "golden.hpp"
+#include "json.hpp"
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
 

@@ -1,6 +1,7 @@
 /// What to measure: `gonio design` and `gonio plan` with a prior of few made-up materials.
 
 #include "../io/scratch.hpp"
+#include "../json.hpp"
 #include "../made_up_materials.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
@@ -8,7 +9,6 @@
 #include <gonio/io/samples.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -33,7 +33,7 @@ class drawing_board {
   [[nodiscard]] double unknown_after(const std::string& arguments, const char* output = "d.csv") const {
     const auto result = design(arguments + " --json", output);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-    return nlohmann::json::parse(result.output)["unknown_share"];
+    return parse_json(result.output)["unknown_share"];
   }
 
   [[nodiscard]] std::vector<gonio::direction_pair> poses(const char* name) const {
@@ -145,7 +145,7 @@ TEST_CASE("a plan says where light and viewer go, and draws them") {
   CHECK(std::filesystem::file_size(board.at("d.png")) > 1000);
 
   const auto json = gonio_tool("plan " + board.at("d.csv") + " --json");
-  const auto poses = nlohmann::json::parse(json.output);
+  const auto poses = parse_json(json.output);
   REQUIRE(poses.size() == 2);
   CHECK(poses[1]["theta_i"] == 0.0);
   CHECK(poses[1]["phi_o"].get<double>() == doctest::Approx(90));

@@ -1,6 +1,7 @@
 /// gonio lab: from directions to samples, and from a light probe to the light all around.
 
 #include "../io/scratch.hpp"
+#include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
@@ -9,7 +10,6 @@
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 #include <stb/stb_image_write.h>
 
 #include <cmath>
@@ -98,8 +98,7 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
 
   // The whole way: what comes out is near what was in the machine.
   run("reconstruct " + room.at("samples.csv") + " -o " + room.at("estimate.binary"));
-  const auto errors =
-      nlohmann::json::parse(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
+  const auto errors = parse_json(run("compare --json " + room.at("estimate.binary") + " " + room.at("truth.binary")));
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 

@@ -1,13 +1,13 @@
 /// The main job on the embedded default, as the README's first command runs it: measurements in, table out.
 
 #include "../io/scratch.hpp"
+#include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -38,15 +38,14 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
 
   const auto compared = gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary"));
   REQUIRE(compared.exit_code == 0);
-  const auto errors = nlohmann::json::parse(compared.output);
+  const auto errors = parse_json(compared.output);
   // Measured: 0.244, 3.26 and 4.25. The mean material, which is what --eta 1e18 gives, has 1.16, 52.0 and 48.9.
   CHECK(errors["mapped_rms"].get<double>() < 0.3);
   CHECK(errors["delta_e_env"].get<double>() < 5.0);
   CHECK(errors["delta_e_lights"].get<double>() < 6.0);
   CHECK(errors["channels"]["peak_ratio"].size() == 3);
 
-  const auto self =
-      nlohmann::json::parse(gonio_tool("compare --json " + at("truth.binary") + " " + at("truth.binary")).output);
+  const auto self = parse_json(gonio_tool("compare --json " + at("truth.binary") + " " + at("truth.binary")).output);
   CHECK(self["mapped_rms"] == 0.0);
   CHECK(self["delta_e_env"] == 0.0);
   CHECK(self["peak_ratio"] == 1.0);
@@ -65,7 +64,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   }
   SUBCASE("info knows each kind of file") {
     const auto kind = [&](const std::string& file) {
-      return nlohmann::json::parse(gonio_tool("info --json " + file).output)["kind"];
+      return parse_json(gonio_tool("info --json " + file).output)["kind"];
     };
     CHECK(kind(at("truth.binary")) == "MERL table");
     CHECK(kind(at("samples.csv")) == "samples");
@@ -81,20 +80,19 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(rubber(wi, wo).z() > 1.5 * rubber(wi, wo).x());  // away from the highlight it is blue
   }
   SUBCASE("reconstruct says how the fit went") {
-    const auto fit = nlohmann::json::parse(gonio_tool("reconstruct --json " + at("samples.csv")).output);
+    const auto fit = parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);
     CHECK(fit["certificate"][0].get<double>() < 1e-9);
     const auto eta = [&](const std::string& noise) {
       const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
-      return nlohmann::json::parse(result.output)["eta"].get<double>();
+      return parse_json(result.output)["eta"].get<double>();
     };
     CHECK(eta(" --noise 0") < eta(" --noise 0.1"));
     CHECK(eta(" --noise 0.1") < eta(" --noise 0.3"));
     CHECK(eta("") >= eta(" --noise 0"));
     CHECK(eta("") <= eta(" --noise 0.3"));
-    CHECK_FALSE(
-        nlohmann::json::parse(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
+    CHECK_FALSE(parse_json(gonio_tool("reconstruct --json --eta 40 " + at("samples.csv")).output).contains("eta"));
   }
 }
 
@@ -107,11 +105,11 @@ TEST_CASE("learning from a folder of tables") {
   const auto learned = gonio_tool("learn --merl " + folder.path().string() + " --components 4 -o " + prior);
   CHECK(learned.exit_code == 0);
   CHECK(learned.output.find("3 materials") != std::string::npos);
-  CHECK(nlohmann::json::parse(gonio_tool("info --json " + prior).output)["components"] == 4);
+  CHECK(parse_json(gonio_tool("info --json " + prior).output)["components"] == 4);
   const auto without =
       gonio_tool("learn --merl " + folder.path().string() + " --exclude gold --components 2 -o " + prior);
   CHECK(without.exit_code == 0);
-  CHECK(nlohmann::json::parse(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red"});
+  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red"});
   const auto unknown = gonio_tool("learn --merl " + folder.path().string() + " --exclude silver -o " + prior);
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("'silver'") != std::string::npos);
@@ -126,7 +124,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
     const auto result = gonio_tool("reconstruct " + at("samples.csv") + " --method linear --exclude red-plastic " +
                                    options + " --json -o " + at("estimate.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    const auto fit = nlohmann::json::parse(result.output);
+    const auto fit = parse_json(result.output);
     for (const double certificate : fit["certificate"]) CHECK(certificate <= 1e-9);
     return fit;
   };
@@ -140,7 +138,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
   CHECK(own["non_zero_weights"] == qp["non_zero_weights"]);
   CHECK(own["mapped_residual_rms"][0].get<double>() == doctest::Approx(qp["mapped_residual_rms"][0].get<double>()));
   const auto compared =
-      nlohmann::json::parse(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
+      parse_json(gonio_tool("compare --json " + at("estimate.binary") + " " + at("truth.binary")).output);
   CHECK(compared["delta_e_env"].get<double>() < 15.0);
 }
 
@@ -177,7 +175,7 @@ class corrected_plastic {
     const auto result =
         gonio_tool("reconstruct " + at("samples.csv") + " " + options + " --json -o " + at("out.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    return nlohmann::json::parse(result.output);
+    return parse_json(result.output);
   }
 
   [[nodiscard]] double error() const {

@@ -1,12 +1,12 @@
 /// gonio shape: what partial scans do not show.
 
 #include "../io/scratch.hpp"
+#include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/io/mesh.hpp>
 #include <gonio/io/shape_model.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -69,7 +69,7 @@ gonio::triangle_mesh with_hole(const gonio::triangle_mesh& mesh, Eigen::Index ve
 
 TEST_CASE("shape demo: what is known of ears fills a hole better than a smooth surface") {
   const auto& made = demonstrated();
-  const auto report = nlohmann::json::parse(made.report);
+  const auto report = parse_json(made.report);
   CHECK(report["shapes"] == 40);
   REQUIRE(report["held_out"].size() == 1);
   const auto& ways = report["held_out"][0];
@@ -161,7 +161,7 @@ TEST_CASE("shape recover: how sure the recovered vertices are, from shapes that 
 }
 
 TEST_CASE("shape grow: what a model that grows makes of scans, good ones and others") {
-  const auto report = nlohmann::json::parse(run_shape("grow --scans 6 --defects 0.3 --json"));
+  const auto report = parse_json(run_shape("grow --scans 6 --defects 0.3 --json"));
   CHECK(report["good"].get<int>() + report["defective"].get<int>() == 6);
   CHECK(report["defective"] >= 1);
   CHECK(report["accepted_good"] >= 1);

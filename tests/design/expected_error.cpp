@@ -1,3 +1,4 @@
+#include "../dense_reference.hpp"
 #include "made_up_candidates.hpp"
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/expected_error.hpp>
@@ -23,7 +24,8 @@ double as_printed(const Eigen::MatrixXd& measured, double eta, double beta, cons
   const Eigen::MatrixXd c = candidate_basis().coefficients().cast<double>();
   const Eigen::Index k = q.cols();
   const Eigen::MatrixXd inverse =
-      (measured.transpose() * measured + eta * Eigen::MatrixXd::Identity(k, k)).inverse() * measured.transpose();
+      dense_reference::inverse(measured.transpose() * measured + eta * Eigen::MatrixXd::Identity(k, k)) *
+      measured.transpose();
   const auto norm = [&](const Eigen::VectorXd& x) { return x.cwiseProduct(weights.cwiseSqrt()).norm(); };
   double sum = 0.0;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
@@ -72,7 +74,7 @@ TEST_CASE("errors of their own: the reconstruction expects them, and they add th
 
   Eigen::MatrixXd k = measured * measured.transpose();
   k.diagonal() += (eta + rows.own_eta.array()).matrix();
-  const Eigen::MatrixXd inverse = measured.transpose() * k.inverse(), spread = q * inverse;
+  const Eigen::MatrixXd inverse = measured.transpose() * dense_reference::inverse(k), spread = q * inverse;
   const double own = (spread.colwise().squaredNorm() * rows.own_eta / m).value();
   double sum = 0.0;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {

@@ -3,6 +3,7 @@
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <Eigen/Geometry>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 

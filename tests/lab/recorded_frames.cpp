@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 #include <lab/gantry.hpp>
 #include <lab/recorded_frames.hpp>
+#include <nlohmann/json.hpp>
 #include <stb/stb_image_write.h>
 
 #include <fstream>

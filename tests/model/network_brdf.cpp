@@ -1,8 +1,8 @@
+#include "../json.hpp"
 #include <gonio/io/networks.hpp>
 #include <gonio/model/network_brdf.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -129,7 +129,7 @@ TEST_CASE("decoded materials have the reference's values") {
     return;
   }
   const gonio::named_networks all = gonio::io::read_networks(path);
-  const auto spots = nlohmann::json::parse(std::ifstream(GONIO_TEST_DATA "/decode_spots.json"));
+  const auto spots = golden_json("decode_spots.json");
   REQUIRE(spots.size() > 10);
   const gonio::valid_cells cells;
   // The fast path, for a few of the materials.

@@ -1,12 +1,12 @@
 /// gonio-papers directions on a few made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <string>
@@ -43,7 +43,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   CHECK(again.output.find("| 5 | point-5-industry.csv |") != std::string::npos);
 
   const auto rms = [](const std::string& output) {
-    return nlohmann::json::parse(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
+    return parse_json(output)[0]["result"]["errors"]["mapped_rms"].get<double>();
   };
   const auto clean = evaluate(points + " --json"),
              defects = evaluate("-n 5 --sets published --noise 0.05 --misplaced 2 --json");
@@ -56,7 +56,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   const auto pictures =
       evaluate("--geometry near-field -n 1 --step 40 --sets expected-error --noise 0.02 --misplaced 0.5 --json");
   REQUIRE_MESSAGE(pictures.exit_code == 0, pictures.output);
-  CHECK(nlohmann::json::parse(pictures.output)[0]["result"]["samples"].get<int>() > 100);
+  CHECK(parse_json(pictures.output)[0]["result"]["samples"].get<int>() > 100);
 
   const std::string off = "-n 5 --sets published --misplaced 2 --json";
   const auto trusting = evaluate(off), expecting = evaluate(off + " --expected-misplacement 2");

@@ -1,12 +1,12 @@
 /// gonio-papers directions-measured on made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/networks.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -51,7 +51,7 @@ TEST_CASE("real measurements are reconstructed from published, optimal and rando
   // What is done is not done again: another folder of sets changes nothing.
   const auto printed = made_up.evaluate(arguments + " --json --directions " + made_up.at("tables"));
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto all = nlohmann::json::parse(printed.output);
+  const auto all = parse_json(printed.output);
   REQUIRE(all["tables"].size() == 6);
   REQUIRE(all["scattered"].size() == 6);
   const auto figure = [](const nlohmann::json& rows, int count, const std::string& set, const char* key) {

@@ -1,11 +1,11 @@
 /// gonio-papers eta on a few made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -18,7 +18,7 @@ TEST_CASE("chosen penalties against the best in hindsight") {
 
   const auto printed = gonio_papers(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto rows = nlohmann::json::parse(printed.output);
+  const auto rows = parse_json(printed.output);
   REQUIRE(rows.size() == 4);  // two sets of directions, two noises
   for (const auto& row : rows) {
     CAPTURE(row.dump());

@@ -1,11 +1,11 @@
 /// gonio-papers figures on a few made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,7 +32,7 @@ class figures_database {
   [[nodiscard]] json draw(const std::string& arguments) const {
     const auto result = evaluate("figures --json --figure " + arguments);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-    return json::parse(result.output)["tables"];
+    return parse_json(result.output)["tables"];
   }
 
  private:
@@ -77,7 +77,7 @@ TEST_CASE("figures 2015-8, 2015-9 and 2016-19: points and spheres") {
   const auto whole = database.evaluate("directions --sets published industry -n 5 --json");
   REQUIRE_MESSAGE(whole.exit_code == 0, whole.output);
   const json mean = eight[0]["rows"].back();
-  for (const json& set : json::parse(whole.output))
+  for (const json& set : parse_json(whole.output))
     CHECK(mean[set["set"].get<std::string>()].get<double>() ==
           doctest::Approx(set["result"]["errors"]["mapped_rms"].get<double>()).epsilon(0.02));
 

@@ -1,10 +1,10 @@
 /// The experiments after Noell et al. 2014 on a few made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -57,7 +57,7 @@ TEST_CASE("noell-table1: a row for each setting, and what is done is not done ag
   // As if it had been killed while it wrote the last one.
   const std::string kept = scratch::get(state);
   scratch::put(state, kept.substr(0, kept.size() - 20));
-  const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
+  const auto rows = parse_json(database.evaluate(arguments + " --json"));
   CHECK(lines_with(scratch::get(state), "\"result\"").size() == 13);
   REQUIRE(rows.size() == 6);
   CHECK(rows[1]["method"] == "our");
@@ -76,7 +76,7 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
   for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 " + std::to_string(0.6) + " 2 .1 .2 .3\n";
   scratch::put(database.at("paint.brdf"), text);
   const std::string arguments = "noell-measured --data 0.5 --samples " + database.at("paint.brdf");
-  const auto rows = nlohmann::json::parse(database.evaluate(arguments + " --json"));
+  const auto rows = parse_json(database.evaluate(arguments + " --json"));
   REQUIRE(rows.size() == 6);
   CHECK(rows[0]["name"] == "paint");
   CHECK(rows[0]["method"] == "our");

@@ -1,11 +1,11 @@
 /// gonio-papers soft-specular on a few made-up materials.
 
+#include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
-#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -48,7 +48,7 @@ TEST_CASE("one prior against a soft and a specular one") {
 
   const auto printed = database.evaluate("--counts 2 --json --eta-of-halves 40");
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
-  const auto all = nlohmann::json::parse(printed.output);
+  const auto all = parse_json(printed.output);
   CHECK(all["soft_materials"].size() == 3);
   CHECK(all["specular_materials"].size() == 3);
   const auto& rows = all["directions"]["2"];

@@ -1,3 +1,4 @@
+#include "../dense_reference.hpp"
 #include "made_up_shapes.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/fitted_shape.hpp>
@@ -5,7 +6,6 @@
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
@@ -24,9 +24,9 @@ gonio::point_columns by_block_covariance(const gonio::shape_basis& basis, const 
   for (const Eigen::Index vertex : known.vertices)
     for (Eigen::Index axis = 0; axis < 3; ++axis) rows.push_back(3 * vertex + axis);
   const Eigen::MatrixXd s22 = covariance(rows, rows), s12 = covariance(Eigen::all, rows);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(s22);
-  const Eigen::VectorXd lambda = eigen.eigenvalues().reverse();
-  const Eigen::MatrixXd p = eigen.eigenvectors().rowwise().reverse();
+  const auto eigen = dense_reference::symmetric_eigen(s22);
+  const Eigen::VectorXd lambda = eigen.values.reverse();
+  const Eigen::MatrixXd p = eigen.vectors.rowwise().reverse();
   Eigen::Index k = 0;
   for (double sum = 0.0; sum < share * lambda.sum(); ++k) sum += lambda[k];
   const Eigen::VectorXd mean = gonio::mean_shape(basis).reshaped();

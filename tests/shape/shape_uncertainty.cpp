@@ -1,3 +1,4 @@
+#include "../dense_reference.hpp"
 #include "made_up_shapes.hpp"
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
@@ -5,7 +6,6 @@
 #include <gonio/solve/truncated_svd.hpp>
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <doctest/doctest.h>
 
 namespace {
@@ -55,7 +55,7 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
   const Eigen::MatrixXd q2 = basis.components()(every_other(0, 8), Eigen::all).cast<double>();
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(k, k) + q2.transpose() * q2 / eta;
-  const Eigen::MatrixXd posterior = precision.inverse() / 20.0;
+  const Eigen::MatrixXd posterior = dense_reference::inverse(precision) / 20.0;
   for (Eigen::Index vertex = 0; vertex < 8; ++vertex) {
     const Eigen::MatrixXd rows = basis.components().middleRows(3 * vertex, 3).cast<double>();
     const Eigen::Matrix3d expected = rows * posterior * rows.transpose();

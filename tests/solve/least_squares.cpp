@@ -1,7 +1,7 @@
+#include "../dense_reference.hpp"
 #include "random_problems.hpp"
 #include <gonio/solve/least_squares.hpp>
 
-#include <Eigen/Eigenvalues>
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
@@ -18,8 +18,7 @@ namespace {
 
 /// Orthonormal columns.
 Eigen::MatrixXd random_orthonormal(Eigen::Index rows, Eigen::Index columns, unsigned seed) {
-  const Eigen::MatrixXd any = random_matrix(rows, columns, seed);
-  return Eigen::HouseholderQR<Eigen::MatrixXd>(any).householderQ() * Eigen::MatrixXd::Identity(rows, columns);
+  return dense_reference::orthonormal_columns(random_matrix(rows, columns, seed));
 }
 
 /// Weights of which about every fifth is zero.
@@ -65,13 +64,13 @@ reference by_svd(const least_squares_problem& problem) {
   both.topRightCorner(n, k) = root.asDiagonal() * problem.rows();
   both.bottomLeftCorner(k, n) = both.topRightCorner(n, k).transpose();
   right.topRows(n) = root.asDiagonal() * problem.right_hand_side();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(both);
-  const double largest = eigen.eigenvalues()[n + k - 1];
+  const auto eigen = dense_reference::symmetric_eigen(both);
+  const double largest = eigen.values[n + k - 1];
   reference found{Eigen::MatrixXd::Zero(n + k, r), 1.0, 0};
   for (Eigen::Index i = 0; i < n + k; ++i) {
-    const double value = eigen.eigenvalues()[i];
+    const double value = eigen.values[i];
     if (std::abs(value) <= 1e-10 * largest) continue;
-    const Eigen::VectorXd vector = eigen.eigenvectors().col(i);
+    const Eigen::VectorXd vector = eigen.vectors.col(i);
     for (Eigen::Index column = 0; column < r; ++column)
       found.x.col(column) += vector * (vector.dot(right.col(column)) / value);
     found.condition = std::max(found.condition, largest / std::abs(value));

@@ -1,4 +1,6 @@
+#include "../dense_reference.hpp"
 #include "../golden.hpp"
+#include "../json.hpp"
 #include "random_problems.hpp"
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/nnls.hpp>
@@ -34,12 +36,9 @@ double least_objective(const random_problems::problem& problem) {
     for (Eigen::Index j = 0; j < k; ++j)
       if (support >> j & 1u) columns.push_back(j);
     const Eigen::MatrixXd part = problem.matrix(Eigen::all, columns);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> factor(part);
-    factor.setThreshold(1e-10);
-    if (factor.rank() < part.cols()) continue;
-    const Eigen::VectorXd x = factor.solve(problem.right);
-    if ((x.array() < 0.0).any()) continue;
-    least = std::min(least, normal.subset(columns).objective(x)[0]);
+    const auto x = dense_reference::least_squares(part, problem.right, 1e-10);
+    if (!x || (x->array() < 0.0).any()) continue;
+    least = std::min(least, normal.subset(columns).objective(*x)[0]);
   }
   return least;
 }

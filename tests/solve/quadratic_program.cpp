@@ -1,4 +1,5 @@
 #include "../golden.hpp"
+#include "../json.hpp"
 #include "random_programs.hpp"
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/quadratic_program.hpp>

@@ -1,9 +1,9 @@
 #pragma once
 /// Random least-squares problems, the awkward ones included, on which solvers must agree.
 
+#include "../dense_reference.hpp"
 #include <gonio/solve/normal_equations.hpp>
 
-#include <Eigen/QR>
 
 #include <cmath>
 #include <random>
@@ -87,9 +87,8 @@ class generator {
       made.matrix = made.matrix.cwiseAbs();
       made.right = -made.right.cwiseAbs();
     } else if (what == kind::ill_conditioned) {
-      const Eigen::MatrixXd left =
-          Eigen::HouseholderQR<Eigen::MatrixXd>(gaussian(n, k)).householderQ() * Eigen::MatrixXd::Identity(n, k);
-      const Eigen::MatrixXd turn = Eigen::HouseholderQR<Eigen::MatrixXd>(gaussian(k, k)).householderQ();
+      const Eigen::MatrixXd left = dense_reference::orthonormal_columns(gaussian(n, k));
+      const Eigen::MatrixXd turn = dense_reference::orthonormal_columns(gaussian(k, k));
       const double smallest = uniform(-7.0, -3.0);
       Eigen::VectorXd sigma(k);
       for (Eigen::Index j = 0; j < k; ++j)

@@ -1,4 +1,5 @@
 #include "../golden.hpp"
+#include "../json.hpp"
 #include "random_problems.hpp"
 #include <gonio/solve/tikhonov.hpp>
 

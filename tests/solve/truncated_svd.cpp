@@ -1,3 +1,4 @@
+#include "../dense_reference.hpp"
 #include "random_problems.hpp"
 #include <gonio/solve/truncated_svd.hpp>
 
@@ -36,8 +37,8 @@ truncated_reference by_truncated_svd(const least_squares_problem& problem, doubl
   const Eigen::VectorXd root = problem.weights().cwiseSqrt();
   const Eigen::MatrixXd rows = root.asDiagonal() * problem.rows();
   const Eigen::MatrixXd right = root.asDiagonal() * problem.right_hand_side();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const Eigen::VectorXd& singular = svd.singularValues();
+  const auto svd = dense_reference::svd(rows);
+  const Eigen::VectorXd& singular = svd.values;
   const double total = singular.squaredNorm();
   truncated_reference found{Eigen::MatrixXd::Zero(rows.cols(), right.cols()), 0, 1.0, 1.0};
   double sum = 0.0;
@@ -47,7 +48,7 @@ truncated_reference by_truncated_svd(const least_squares_problem& problem, doubl
     found.margin = std::min(found.margin, std::abs(sum / total - share));
     found.condition = singular[0] / singular[i];
     for (Eigen::Index column = 0; column < right.cols(); ++column)
-      found.x.col(column) += svd.matrixV().col(i) * (svd.matrixU().col(i).dot(right.col(column)) / singular[i]);
+      found.x.col(column) += svd.v.col(i) * (svd.u.col(i).dot(right.col(column)) / singular[i]);
   }
   return found;
 }

@@ -1,4 +1,5 @@
 #include "../golden.hpp"
+#include "../json.hpp"
 #include <gonio/table/valid_cells.hpp>
 
 #include <doctest/doctest.h>
