@@ -1,8 +1,8 @@
-# cmake [-D ONLY=papers|sanitize|format|weight] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
+# cmake [-D ONLY=format|weight|others|sanitize] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
 # or one part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
-set(parts format weight papers sanitize)
+set(parts format weight others sanitize)
 if(ONLY)
   if(NOT ONLY IN_LIST parts)
     message(FATAL_ERROR "ONLY is one of ${parts}")
@@ -26,18 +26,20 @@ if("weight" IN_LIST parts)
   step("weight" ${cmake} -D GUARD=ON -P cmake/compile_times.cmake)
 endif()
 
-# The quick runs of the papers' experiments, in the build of cmake/test.cmake.
-if("papers" IN_LIST parts)
-  step("papers: configure" ${cmake} -S . -B build/test -G Ninja
+# In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, and the
+# quick runs of the papers' experiments.
+if("others" IN_LIST parts)
+  step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
-       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON)
-  step("papers: build" ${cmake} --build build/test --target gonio_papers test_papers --parallel ${cores})
-  step("papers: test" ${ctest} --test-dir build/test --label-regex papers)
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON)
+  step("others: build" ${cmake} --build build/test --parallel ${cores})
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers")
 endif()
 
 if("sanitize" IN_LIST parts)
   set(dir build/sanitize)
-  step("clang, sanitized: configure" ${cmake} --preset sanitize -B ${dir} -D GONIO_TEST_HEADERS_ALONE=ON)
+  step("clang, sanitized: configure" ${cmake} --preset sanitize -B ${dir} -D GONIO_TEST_HEADERS_ALONE=ON
+       -D GONIO_BUILD_PAPERS=OFF -D GONIO_TEST_CONSUMERS=OFF)
   step("clang, sanitized: build" ${cmake} --build ${dir} --parallel ${cores})
   step("clang, sanitized: test" ${ctest} --preset sanitize --test-dir ${dir})
 endif()
