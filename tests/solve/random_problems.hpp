@@ -4,7 +4,6 @@
 #include "../dense_reference.hpp"
 #include <gonio/solve/normal_equations.hpp>
 
-
 #include <cmath>
 #include <random>
 #include <string>

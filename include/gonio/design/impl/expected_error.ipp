@@ -4,8 +4,8 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/design/expected_error.hpp>
-#include <gonio/solve/float_product.hpp>
 #include <gonio/solve/dense.hpp>
+#include <gonio/solve/float_product.hpp>
 
 #include <Eigen/Core>
 
