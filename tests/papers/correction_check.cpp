@@ -4,6 +4,7 @@
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 
+#include <Eigen/QR>
 #include <doctest/doctest.h>
 
 using papers::deviations_from_others;
