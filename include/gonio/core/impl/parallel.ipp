@@ -15,7 +15,9 @@
 namespace gonio {
 
 GONIO_INLINE unsigned thread_count::resolve() const noexcept {
-  return value != 0 ? value : std::max(1u, std::thread::hardware_concurrency());
+  if (value != 0) return value;
+  static const unsigned processors = std::max(1u, std::thread::hardware_concurrency());  // Linux reads a file for it
+  return processors;
 }
 
 namespace detail {
