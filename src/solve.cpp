@@ -16,6 +16,7 @@
 #include <gonio/solve/impl/quadratic_program.ipp>
 #include <gonio/solve/impl/row_source.ipp>
 #include <gonio/solve/impl/scaled_program.ipp>
+#include <gonio/solve/impl/signed_solution.ipp>
 #include <gonio/solve/impl/solver.ipp>
 #include <gonio/solve/impl/tikhonov.ipp>
 #include <gonio/solve/impl/working_set.ipp>
@@ -24,7 +25,13 @@ namespace gonio {
 
 template class basic_lasso<sign_rule::any>;
 template class basic_lasso<sign_rule::non_negative>;
+template solution basic_lasso<sign_rule::any>::solve_any(const least_squares_problem&) const;
+template solution basic_lasso<sign_rule::any>::solve_any(const normal_equations&) const;
+template solution basic_lasso<sign_rule::non_negative>::solve_any(const least_squares_problem&) const;
+template solution basic_lasso<sign_rule::non_negative>::solve_any(const normal_equations&) const;
+template lasso_path solve_lasso_path<sign_rule::any>(const least_squares_problem&, std::vector<double>);
 template lasso_path solve_lasso_path<sign_rule::any>(const normal_equations&, std::vector<double>);
+template lasso_path solve_lasso_path<sign_rule::non_negative>(const least_squares_problem&, std::vector<double>);
 template lasso_path solve_lasso_path<sign_rule::non_negative>(const normal_equations&, std::vector<double>);
 
 }  // namespace gonio

@@ -10,6 +10,7 @@
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/kkt.hpp>
+#include <gonio/solve/signed_solution.hpp>
 
 #include <Eigen/Core>
 
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -148,11 +150,12 @@ class active_set {
   }
 
   /// Moves to the optimum of the passive columns; as long as signs would change on the way, stops at the first change
-  /// and lets that column leave.
-  void settle() {
+  /// and lets that column leave. If the optimum is `refined`, those that leave are barred: rounding had let them in.
+  void settle(bool refined = false) {
     for (int round = 0; !passive_.empty(); ++round) {
       if (round > step_limit(x_.size())) throw error("an active set does not settle: the normal equations overflow");
-      const Eigen::VectorXd z = optimum_of_passive();
+      Eigen::VectorXd z = optimum_of_passive();
+      if (refined) refine(z);
       double length = 1.0;
       bool inside = true;
       for (Eigen::Index i = 0; i < z.size(); ++i) {
@@ -170,30 +173,31 @@ class active_set {
       for (Eigen::Index i = z.size() - 1; i >= 0; --i) {
         const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(z[i]);
-        if (z[i] * sign_[j] <= 0.0 && x_[j] * sign_[j] <= rounding) drop(i);
+        if (z[i] * sign_[j] > 0.0 || x_[j] * sign_[j] > rounding) continue;
+        barred_[static_cast<std::size_t>(j)] = refined;
+        drop(i);
       }
     }
   }
 
-  /// Iterative refinement with residuals in twice the precision: it makes the optimum of an ill-conditioned passive set
-  /// independent of the order in which its columns came.
-  void refine() {
-    Eigen::VectorXd correction(std::ssize(passive_));
+  /// Iterative refinement with residuals in twice the precision: it makes the optimum z of an ill-conditioned passive
+  /// set independent of the order in which its columns came. Signs may change.
+  void refine(Eigen::VectorXd& z) const {
+    Eigen::VectorXd correction(z.size());
     for (int round = 0; round < 3; ++round) {
-      for (Eigen::Index i = 0; i < correction.size(); ++i) {
+      for (Eigen::Index i = 0; i < z.size(); ++i) {
         const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
         compensated_sum misfit(moment_[row]);
         misfit.add(-lambda_ * sign_[row]);
-        for (const Eigen::Index j : passive_) misfit.add_product(-gram_(j, row), x_[j]);
+        for (Eigen::Index j = 0; j < z.size(); ++j)
+          misfit.add_product(-gram_(passive_[static_cast<std::size_t>(j)], row), z[j]);
         correction[i] = misfit.value();
       }
       factor_.solve(correction);
       bool changed = false;
-      for (Eigen::Index i = 0; i < correction.size(); ++i) {
-        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
-        const double refined = x_[j] + correction[i];
-        changed = changed || std::abs(correction[i]) > 1e-14 * std::abs(x_[j]);
-        if (refined * sign_[j] > 0.0) x_[j] = refined;
+      for (Eigen::Index i = 0; i < z.size(); ++i) {
+        changed = changed || std::abs(correction[i]) > 1e-14 * std::abs(z[i]);
+        z[i] += correction[i];
       }
       if (!changed) return;
     }
@@ -209,13 +213,10 @@ class active_set {
   void look_for_entering() {
     choose_entering();
     if (entering_ >= 0) return;
-    refine();
-    update_descent();
-    while (drop_unresolved()) {
-      settle();
-      refine();
+    do {
+      settle(true);
       update_descent();
-    }
+    } while (drop_unresolved());
     choose_entering();
   }
 
@@ -283,22 +284,24 @@ template <sign_rule Signs>
 }
 
 /// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, every right-hand side by the iteration that
-/// `start(column)` makes, and certifies what it finds. Throws gonio::error naming the `method` without convergence.
-template <sign_rule Signs, class Start>
-[[nodiscard]] solution solve_signed(const normal_equations& normal, double lambda, const std::string& method,
-                                    Start&& start) {
-  solution found;
-  found.weights.resize(normal.unknowns(), normal.right_hand_sides());
-  for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
-    auto run = start(column);
-    found.iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
-    found.weights.col(column) = run.weights();
+/// `start(column)` makes, and certifies what it finds (`detail::certified`). `problem` is a least_squares_problem or
+/// normal_equations. Throws gonio::error naming the `method` if no optimum can be certified.
+template <sign_rule Signs, quadratic_problem Problem, class Start>
+[[nodiscard]] solution solve_signed(const Problem& problem, double lambda, const std::string& method, Start&& start) {
+  const normal_equations& normal = problem.normal();
+  Eigen::MatrixXd weights(normal.unknowns(), normal.right_hand_sides());
+  int iterations = 0;
+  for (Eigen::Index column = 0; column < weights.cols(); ++column) {
+    try {
+      auto run = start(column);
+      iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
+      weights.col(column) = run.weights();
+    } catch (const error&) {  // it goes in circles: what certifies finds the optimum in another way
+      weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
   }
-  found.residual = normal.residual(found.weights);
-  found.objective = normal.objective(found.weights);
-  for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
-    found.objective[column] += lambda * found.weights.col(column).cwiseAbs().sum();
-  found.certificate = kkt_violation(normal, found.weights, lambda, Signs);
+  solution found = detail::certified(problem, {Signs, lambda, method}, std::move(weights));
+  found.iterations = iterations;
   return found;
 }
 

@@ -31,9 +31,17 @@ struct scaled_gradient {
 /// Which weights a penalised or constrained problem allows.
 enum class sign_rule { any, non_negative };
 
+namespace detail {
+
+/// The conditions below of one right-hand side, given the gradient at x, which has an entry for each unknown.
+[[nodiscard]] double kkt_violation(const scaled_gradient& gradient, const double* x, double lambda, sign_rule signs);
+
+}  // namespace detail
+
 /// The KKT conditions of min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0; lambda = 0 with
 /// `sign_rule::non_negative` is NNLS. Where x_j > 0 the gradient is -lambda, where x_j < 0 it is lambda, and where x_j
-/// = 0 it is at least -lambda and, unless x >= 0, at most lambda; an x_j < 0 that is not allowed counts in full.
+/// = 0 it is at least -lambda and, unless x >= 0, at most lambda. An x_j < 0 that is not allowed is an infinite
+/// violation, as is one that is not finite.
 [[nodiscard]] Eigen::VectorXd kkt_violation(const normal_equations& normal, const Eigen::MatrixXd& x, double lambda,
                                             sign_rule signs);
 

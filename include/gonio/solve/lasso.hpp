@@ -32,12 +32,13 @@ class basic_lasso {
 
   [[nodiscard]] double lambda() const noexcept { return lambda_; }
 
-  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
-  [[nodiscard]] solution solve(const normal_equations& normal) const;
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_any(problem); }
+  [[nodiscard]] solution solve(const normal_equations& normal) const { return solve_any(normal); }
 
  private:
+  template <quadratic_problem Problem>
+  [[nodiscard]] solution solve_any(const Problem& problem) const;
+
   double lambda_;
 };
 
@@ -56,18 +57,11 @@ struct lasso_path {
 [[nodiscard]] std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
                                                   double smallest_share = 1e-3, sign_rule signs = sign_rule::any);
 
-/// Solves for each penalty, starting from the solution of the one before. Best given falling. Throws gonio::error for a
-/// penalty that `basic_lasso` refuses, or without convergence.
-template <sign_rule Signs = sign_rule::any>
-[[nodiscard]] lasso_path solve_lasso_path(const normal_equations& normal, std::vector<double> lambdas);
-
-/// The same of a problem that has rows, with their residual.
-template <sign_rule Signs = sign_rule::any>
-[[nodiscard]] lasso_path solve_lasso_path(const least_squares_problem& problem, std::vector<double> lambdas) {
-  lasso_path path = solve_lasso_path<Signs>(problem.normal(), std::move(lambdas));
-  for (solution& found : path.solutions) found = with_residual_of_rows(std::move(found), problem);
-  return path;
-}
+/// Solves for each penalty, starting from the solution of the one before. Best given falling. `problem` is a
+/// least_squares_problem or normal_equations. Throws gonio::error for a penalty that `basic_lasso` refuses, or if an
+/// optimum is not found.
+template <sign_rule Signs = sign_rule::any, quadratic_problem Problem>
+[[nodiscard]] lasso_path solve_lasso_path(const Problem& problem, std::vector<double> lambdas);
 
 }  // namespace gonio
 

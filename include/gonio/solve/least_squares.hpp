@@ -5,6 +5,10 @@
 
 #include <gonio/solve/solver.hpp>
 
+#include <Eigen/Core>
+
+#include <vector>
+
 namespace gonio {
 
 namespace detail {
@@ -15,10 +19,15 @@ namespace detail {
 /// operations or a little more.
 [[nodiscard]] Eigen::MatrixXd triangular_equations(const least_squares_problem& problem);
 
-/// How far x is from a stationary point of |W^(1/2) (A x - b)|^2, from the rows: the largest |a_j'W(A x - b)| / |a_j|
-/// over the columns a_j, relative to |b| + sum of |a_i| |x_i| (all norms weighted by W), of which rounding alone leaves
-/// about 1e-16. It is `stationarity` without a Gram matrix, on a scale that does not vanish when b is orthogonal to
-/// the columns. Reads the rows once: O(n k r).
+/// The gradient A'W(A x - b) of each right-hand side from the rows, in columns of length 1, relative to
+/// |b| + sum of |a_i| |x_i| over the columns a_i (all norms weighted by W), of which rounding alone leaves about 1e-16.
+/// It is `gradient_of` without a Gram matrix, on a scale that does not vanish when b is orthogonal to the columns.
+/// Reads the rows once: O(n k r).
+[[nodiscard]] std::vector<scaled_gradient> gradients_of_rows(const least_squares_problem& problem,
+                                                             const Eigen::MatrixXd& x);
+
+/// How far x is from a stationary point of |W^(1/2) (A x - b)|^2, from the rows: the largest entry of its gradient as
+/// above. `stationarity` without a Gram matrix.
 [[nodiscard]] Eigen::VectorXd stationarity_of_rows(const least_squares_problem& problem, const Eigen::MatrixXd& x);
 
 }  // namespace detail

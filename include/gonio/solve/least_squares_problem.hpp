@@ -65,7 +65,8 @@ class least_squares_problem {
   [[nodiscard]] Eigen::MatrixXd weighted_right_hand_side() const;
 
   /// O(n k^2) the first time; O(k^2) for a subset whose whole has them already. Throws gonio::error naming the first
-  /// row that is not finite.
+  /// row that is not finite, or a column or right-hand side that is so small that its squares underflow (numbers of
+  /// about 1e-154 and below).
   [[nodiscard]] const normal_equations& normal() const;
 
   /// The same equations in some of the unknowns, in the order given. Its normal equations are a submatrix of the
@@ -112,6 +113,9 @@ class least_squares_problem {
   }
 
   [[nodiscard]] normal_equations assemble_finite() const;
+
+  /// Throws gonio::error naming a column or right-hand side that is not zero, but whose sum of squares is.
+  void require_no_underflow(const normal_equations& normal) const;
 
   std::shared_ptr<const stored> equations_;
   thread_count threads_;

@@ -100,7 +100,8 @@ struct judged_row {
 
 /// The KKT conditions of min 1/2 x'Q x - m'x under linear constraints for one right-hand side: the worst of
 /// - stationarity of the Lagrangian (only the sign of its gradient where x_j = 0 under x >= 0), in units of
-///   `column_lengths` and relative to the largest sum of terms in it, as in `scaled_gradient`;
+///   `column_lengths` and relative to the largest sum of terms in it, as in `scaled_gradient`, or to the largest weight
+///   in these units, if that is more, as it can be where columns are zero;
 /// - each row's violation, relative to |d_i| and the size of its coefficients times that of the weights;
 /// - a negative multiplier of an inequality, relative to the gradient's terms;
 /// - complementarity: the smaller of an inequality's relative multiplier and its relative slack.

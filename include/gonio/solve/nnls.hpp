@@ -16,9 +16,7 @@ class nnls {
   static constexpr bool non_negative = true;
   using iteration = active_set<sign_rule::non_negative>;
 
-  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 };
 

@@ -55,9 +55,7 @@ class nnls_block_pivoting {
   static constexpr bool non_negative = true;
   using iteration = block_pivoting;
 
-  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 };
 

@@ -13,9 +13,7 @@ class nnls_coordinate_descent {
   static constexpr bool non_negative = true;
   using iteration = coordinate_descent<sign_rule::non_negative>;
 
-  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 };
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <optional>
 #include <string>
@@ -84,23 +85,40 @@ class program_solver {
 
 namespace detail {
 
+/// What `solve_program` makes of the optima: a solution that is certified. Throws gonio::error where it cannot be.
+[[nodiscard]] solution certified_program(const normal_equations& normal, const linear_constraints& constraints,
+                                         solution found);
+
+/// The same of a problem that has rows, whose residual it has. Without rows of constraints it is found again from the
+/// rows of the problem where the normal equations are not enough (`certified`), with them it is refused.
+[[nodiscard]] solution certified_program(const least_squares_problem& problem, const linear_constraints& constraints,
+                                         solution found);
+
 /// Solves all right-hand sides by the solver's `solve_one(solver, column)`.
-template <class SolveOne>
-[[nodiscard]] solution solve_program(const normal_equations& normal, const linear_constraints& constraints,
+template <quadratic_problem Problem, class SolveOne>
+[[nodiscard]] solution solve_program(const Problem& problem, const linear_constraints& constraints,
                                      const SolveOne& solve_one) {
+  const normal_equations& normal = problem.normal();
   const program_solver solver(normal, constraints);
+  // Whoever has rows and x >= 0 alone can find the optimum without the normal equations.
+  constexpr bool has_rows = std::same_as<Problem, least_squares_problem>;
+  const bool second_chance = has_rows && constraints.d.size() == 0 && constraints.e.size() == 0;
   solution found;
   found.weights.resize(normal.unknowns(), normal.right_hand_sides());
   found.certificate.resize(normal.right_hand_sides());
   for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
-    const program_optimum optimum = solve_one(solver, column);
-    found.weights.col(column) = optimum.weights;
-    found.certificate[column] = optimum.certificate;
-    found.iterations += optimum.iterations;
+    try {
+      const program_optimum optimum = solve_one(solver, column);
+      found.weights.col(column) = optimum.weights;
+      found.certificate[column] = optimum.certificate;
+      found.iterations += optimum.iterations;
+    } catch (const error&) {
+      if (!second_chance) throw;
+      found.weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
+      found.certificate[column] = std::numeric_limits<double>::infinity();
+    }
   }
-  found.residual = normal.residual(found.weights);
-  found.objective = normal.objective(found.weights);
-  return found;
+  return certified_program(problem, constraints, std::move(found));
 }
 
 template <constraint_policy Constraints>
@@ -132,16 +150,17 @@ class quadratic_program {
 
   /// Throws gonio::error if the constraints do not fit the problem, if they contradict one another, if the objective is
   /// unbounded, or if the optimum is not found within a number of steps that is proportional to k and the rows.
-  [[nodiscard]] solution solve(const least_squares_problem& problem) const {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
-  [[nodiscard]] solution solve(const normal_equations& normal) const {
-    const linear_constraints constraints = detail::constraints_for(constraints_, normal.unknowns());
-    return detail::solve_program(normal, constraints,
+  [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_any(problem); }
+  [[nodiscard]] solution solve(const normal_equations& normal) const { return solve_any(normal); }
+
+ private:
+  template <quadratic_problem Problem>
+  [[nodiscard]] solution solve_any(const Problem& problem) const {
+    const linear_constraints constraints = detail::constraints_for(constraints_, problem.normal().unknowns());
+    return detail::solve_program(problem, constraints,
                                  [](const auto& solver, Eigen::Index column) { return solver.solve(column); });
   }
 
- private:
   Constraints constraints_;
 };
 
@@ -158,13 +177,19 @@ class online_quadratic_program {
   explicit online_quadratic_program(Constraints constraints) : constraints_(std::move(constraints)) {}
 
   /// As `quadratic_program::solve`, and with its results. A problem of another size starts afresh.
-  [[nodiscard]] solution solve(const least_squares_problem& problem) {
-    return with_residual_of_rows(solve(problem.normal()), problem);
-  }
-  [[nodiscard]] solution solve(const normal_equations& normal) {
+  [[nodiscard]] solution solve(const least_squares_problem& problem) { return solve_any(problem); }
+  [[nodiscard]] solution solve(const normal_equations& normal) { return solve_any(normal); }
+
+  /// The next problem starts afresh.
+  void forget() noexcept { active_.clear(); }
+
+ private:
+  template <quadratic_problem Problem>
+  [[nodiscard]] solution solve_any(const Problem& problem) {
+    const normal_equations& normal = problem.normal();
     const linear_constraints constraints = detail::constraints_for(constraints_, normal.unknowns());
     forget_unless_sized(normal, constraints);
-    return detail::solve_program(normal, constraints, [&](const auto& solver, Eigen::Index column) {
+    return detail::solve_program(problem, constraints, [&](const auto& solver, Eigen::Index column) {
       auto& last = active_[static_cast<std::size_t>(column)];
       const program_optimum found = solver.solve(column, last ? &*last : nullptr);
       last = found.active;
@@ -172,10 +197,6 @@ class online_quadratic_program {
     });
   }
 
-  /// The next problem starts afresh.
-  void forget() noexcept { active_.clear(); }
-
- private:
   void forget_unless_sized(const normal_equations& normal, const linear_constraints& constraints) {
     const auto bounds = static_cast<std::size_t>(normal.unknowns()),
                rows = static_cast<std::size_t>(constraints.d.size());

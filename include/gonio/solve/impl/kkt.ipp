@@ -47,6 +47,24 @@ namespace detail {
   return result;
 }
 
+GONIO_INLINE double kkt_violation(const scaled_gradient& gradient, const double* x, double lambda, sign_rule signs) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double worst = 0.0;
+  for (Eigen::Index j = 0; j < gradient.value.size(); ++j) {
+    const double weight = x[j], slope = gradient.value[j], penalty = lambda / gradient.column_norms[j];
+    if (!std::isfinite(weight) || !std::isfinite(slope)) return infinite;
+    double off = 0.0;
+    if (weight > 0.0)
+      off = std::abs(slope + penalty);
+    else if (weight < 0.0)
+      off = signs == sign_rule::any ? std::abs(slope - penalty) : infinite;
+    else
+      off = signs == sign_rule::any ? std::abs(slope) - penalty : -slope - penalty;
+    worst = std::max(worst, off);
+  }
+  return std::isfinite(gradient.scale) ? worst / gradient.scale : infinite;
+}
+
 }  // namespace detail
 
 GONIO_INLINE scaled_gradient gradient_of(const normal_equations& normal, Eigen::Index right_hand_side,
@@ -60,8 +78,11 @@ GONIO_INLINE Eigen::VectorXd stationarity(const normal_equations& normal, const 
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
     const scaled_gradient gradient = detail::gradient_of(normal, column, &x(0, column));
     double worst = 0.0;
-    for (Eigen::Index j = 0; j < x.rows(); ++j) worst = std::max(worst, std::abs(gradient.value[j]));
-    violation[column] = worst / gradient.scale;
+    for (Eigen::Index j = 0; j < x.rows(); ++j)
+      worst = std::max(worst, std::isfinite(gradient.value[j]) ? std::abs(gradient.value[j])
+                                                               : std::numeric_limits<double>::infinity());
+    violation[column] =
+        std::isfinite(gradient.scale) ? worst / gradient.scale : std::numeric_limits<double>::infinity();
   }
   return violation;
 }
@@ -69,22 +90,9 @@ GONIO_INLINE Eigen::VectorXd stationarity(const normal_equations& normal, const 
 GONIO_INLINE Eigen::VectorXd kkt_violation(const normal_equations& normal, const Eigen::MatrixXd& x, double lambda,
                                            sign_rule signs) {
   Eigen::VectorXd violation(x.cols());
-  for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    const scaled_gradient gradient = detail::gradient_of(normal, column, &x(0, column));
-    double worst = 0.0;
-    for (Eigen::Index j = 0; j < x.rows(); ++j) {
-      const double weight = x(j, column), slope = gradient.value[j], penalty = lambda / gradient.column_norms[j];
-      double off = 0.0;
-      if (weight > 0.0)
-        off = std::abs(slope + penalty);
-      else if (weight < 0.0)
-        off = signs == sign_rule::any ? std::abs(slope - penalty) : std::numeric_limits<double>::infinity();
-      else
-        off = signs == sign_rule::any ? std::abs(slope) - penalty : -slope - penalty;
-      worst = std::max(worst, off);
-    }
-    violation[column] = worst / gradient.scale;
-  }
+  for (Eigen::Index column = 0; column < x.cols(); ++column)
+    violation[column] =
+        detail::kkt_violation(detail::gradient_of(normal, column, &x(0, column)), &x(0, column), lambda, signs);
   return violation;
 }
 

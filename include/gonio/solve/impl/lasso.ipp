@@ -48,13 +48,15 @@ GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal,
 namespace gonio {
 
 template <sign_rule Signs>
-solution basic_lasso<Signs>::solve(const normal_equations& normal) const {
-  const auto start = [&](Eigen::Index column) { return iteration(normal, column, lambda_); };
-  return solve_signed<Signs>(normal, lambda_, "the Lasso", start);
+template <quadratic_problem Problem>
+solution basic_lasso<Signs>::solve_any(const Problem& problem) const {
+  const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column, lambda_); };
+  return solve_signed<Signs>(problem, lambda_, "the Lasso", start);
 }
 
-template <sign_rule Signs>
-lasso_path solve_lasso_path(const normal_equations& normal, std::vector<double> lambdas) {
+template <sign_rule Signs, quadratic_problem Problem>
+lasso_path solve_lasso_path(const Problem& problem, std::vector<double> lambdas) {
+  const normal_equations& normal = problem.normal();
   lasso_path path{std::move(lambdas), {}};
   Eigen::MatrixXd last = Eigen::MatrixXd::Zero(normal.unknowns(), normal.right_hand_sides());
   for (const double lambda : path.lambdas) {
@@ -64,7 +66,7 @@ lasso_path solve_lasso_path(const normal_equations& normal, std::vector<double> 
       run.start_from(last.col(column));
       return run;
     };
-    path.solutions.push_back(solve_signed<Signs>(normal, lambda, "the Lasso path", warm));
+    path.solutions.push_back(solve_signed<Signs>(problem, lambda, "the Lasso path", warm));
     last = path.solutions.back().weights;
   }
   return path;

@@ -69,7 +69,8 @@ GONIO_INLINE Eigen::MatrixXd triangular_equations(const least_squares_problem& p
   return norms;
 }
 
-GONIO_INLINE Eigen::VectorXd stationarity_of_rows(const least_squares_problem& problem, const Eigen::MatrixXd& x) {
+GONIO_INLINE std::vector<scaled_gradient> gradients_of_rows(const least_squares_problem& problem,
+                                                            const Eigen::MatrixXd& x) {
   Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(x.rows(), x.cols());
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.rows());
   problem.for_each_row_block([&](block range, const row_matrix& part) {
@@ -86,13 +87,20 @@ GONIO_INLINE Eigen::VectorXd stationarity_of_rows(const least_squares_problem& p
     }
   });
   const Eigen::VectorXd norms = divisors(squares.cwiseSqrt());
-  Eigen::VectorXd violation(x.cols());
+  std::vector<scaled_gradient> gradients;
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
     const double energy = problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights());
     const double scale = std::sqrt(energy) + norms.dot(x.col(column).cwiseAbs());
-    const double worst = gradient.col(column).cwiseQuotient(norms).cwiseAbs().maxCoeff();
-    violation[column] = scale > 0.0 ? worst / scale : worst;
+    gradients.push_back({gradient.col(column).cwiseQuotient(norms), scale > 0.0 ? scale : 1.0, norms});
   }
+  return gradients;
+}
+
+GONIO_INLINE Eigen::VectorXd stationarity_of_rows(const least_squares_problem& problem, const Eigen::MatrixXd& x) {
+  Eigen::VectorXd violation(x.cols());
+  Eigen::Index column = 0;
+  for (const scaled_gradient& gradient : gradients_of_rows(problem, x))
+    violation[column++] = gradient.value.cwiseAbs().maxCoeff() / gradient.scale;
   return violation;
 }
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -155,11 +156,34 @@ GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, 
 
 GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
   try {
-    return assemble(equations_->rows, right_hand_side(), weights(), threads_);
+    normal_equations normal = assemble(equations_->rows, right_hand_side(), weights(), threads_);
+    require_no_underflow(normal);
+    return normal;
   } catch (const error&) {
     read_all();  // names the row, which the sums have forgotten
     throw;
   }
+}
+
+GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equations& normal) const {
+  // What underflow takes from a sum of squares above this is less than its rounding.
+  const double least = std::numeric_limits<double>::min() * static_cast<double>(equations());
+  const auto refuse_tiny = [](const std::string& what) {
+    throw error{what, " of a least-squares problem is too small: its squares are not numbers of double precision. ",
+                "Scale it by a power of ten"};
+  };
+  for (Eigen::Index column = 0; column < right_hand_side().cols(); ++column)
+    for (Eigen::Index row = 0; row < equations() && normal.energy()[column] < least; ++row)
+      if (weights()[row] > 0.0 && right_hand_side()(row, column) != 0.0)
+        refuse_tiny("right-hand side " + std::to_string(column));
+  if (normal.gram().diagonal().minCoeff() >= least) return;
+  for_each_row_block([&](block range, const row_matrix& part) {
+    for (Eigen::Index row = 0; row < part.rows(); ++row)
+      for (Eigen::Index column = 0; column < part.cols(); ++column)
+        if (normal.gram()(column, column) < least && part(row, column) != 0.0 &&
+            weights()[static_cast<Eigen::Index>(range.begin) + row] > 0.0)
+          refuse_tiny("column " + std::to_string(column));
+  });
 }
 
 }  // namespace gonio

@@ -108,7 +108,9 @@ GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal,
   for (Eigen::Index i = 0; i < constraints.e.size(); ++i)
     add(multipliers.equality[i], constraints.E.row(i).transpose());
   const Eigen::VectorXd lengths = column_lengths(normal, constraints);
-  const double scale = terms.cwiseQuotient(lengths).maxCoeff();
+  double scale = terms.cwiseQuotient(lengths).maxCoeff();
+  // Where all of the weight is on columns of zeros there are no terms, and rounding would be relative to rounding.
+  if (normal.gram().diagonal().maxCoeff() > 0.0) scale = std::max(scale, x.cwiseAbs().cwiseProduct(lengths).maxCoeff());
   return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
 }
 

@@ -92,6 +92,11 @@ GONIO_INLINE void block_pivoting::solve_free() {
   find_wrong(gradient);
 }
 
+GONIO_INLINE solution nnls_block_pivoting::solve(const least_squares_problem& problem) const {
+  const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
+  return solve_signed<sign_rule::non_negative>(problem, 0.0, "block principal pivoting", start);
+}
+
 GONIO_INLINE solution nnls_block_pivoting::solve(const normal_equations& normal) const {
   const auto start = [&](Eigen::Index column) { return iteration(normal, column); };
   return solve_signed<sign_rule::non_negative>(normal, 0.0, "block principal pivoting", start);

@@ -5,6 +5,7 @@
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>
 #include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/signed_solution.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/thin_product.hpp>
 
@@ -131,3 +132,34 @@ GONIO_INLINE std::string program_solver::falling(const vector& movement) {
 }
 
 }  // namespace gonio
+
+namespace gonio::detail {
+
+GONIO_INLINE solution certified_program(const normal_equations& normal, const linear_constraints&, solution found) {
+  found.residual = normal.residual(found.weights);
+  found.objective = normal.objective(found.weights);
+  return found;
+}
+
+GONIO_INLINE solution certified_program(const least_squares_problem& problem, const linear_constraints& constraints,
+                                        solution found) {
+  const sign_rule signs = constraints.non_negative ? sign_rule::non_negative : sign_rule::any;
+  if (constraints.d.size() == 0 && constraints.e.size() == 0) {
+    solution certain = certified(problem, {signs, 0.0, "the quadratic program"}, std::move(found.weights));
+    certain.iterations = found.iterations;
+    return certain;
+  }
+  const normal_equations& normal = problem.normal();
+  found = certified_program(normal, constraints, std::move(found));
+  const Eigen::VectorXd of_rows = problem.residual(found.weights);
+  for (Eigen::Index column = 0; column < of_rows.size(); ++column) {
+    const double energy = normal.energy()[column], squares = of_rows[column] * of_rows[column];
+    if (std::abs(0.5 * (squares - energy) - found.objective[column]) > 1e-9 * (squares + energy))
+      throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ",
+                  of_rows[column], " by the rows and ", found.residual[column], " by them"};
+  }
+  found.residual = of_rows;
+  return found;
+}
+
+}  // namespace gonio::detail

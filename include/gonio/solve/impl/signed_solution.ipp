@@ -1,0 +1,208 @@
+#pragma once
+/// Bodies of solve/signed_solution.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/growing_cholesky.hpp>
+#include <gonio/solve/iteration.hpp>
+#include <gonio/solve/kkt.hpp>
+#include <gonio/solve/least_squares.hpp>
+#include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/row_active_set.hpp>
+#include <gonio/solve/signed_solution.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace gonio::detail {
+
+/// At most this is a certificate: solver.hpp promises it.
+inline constexpr double certificate_limit = 1e-9;
+
+/// Shares of b'Wb / 2 by which an objective may be off, and of |b| by which A x may move as its weights are rounded.
+inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
+
+[[nodiscard]] inline double penalty_at(const solution& found, Eigen::Index column, double lambda) {
+  return lambda * found.weights.col(column).cwiseAbs().sum();
+}
+
+[[nodiscard]] GONIO_INLINE solution evaluated(const normal_equations& normal, const signed_task& task,
+                                              Eigen::MatrixXd weights) {
+  solution found;
+  found.weights = std::move(weights);
+  found.residual = normal.residual(found.weights);
+  found.objective = normal.objective(found.weights);
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
+    found.objective[column] += penalty_at(found, column, task.lambda);
+  found.certificate = kkt_violation(normal, found.weights, task.lambda, task.signs);
+  return found;
+}
+
+/// The sum of |a_j| |x_j|.
+[[nodiscard]] GONIO_INLINE double reach_of(const normal_equations& normal, const Eigen::MatrixXd& weights,
+                                           Eigen::Index column) {
+  double sum = 0.0;
+  for (Eigen::Index j = 0; j < weights.rows(); ++j)
+    sum += std::sqrt(normal.gram()(j, j)) * std::abs(weights(j, column));
+  return sum;
+}
+
+/// Why a solution is none, or nothing if it is one. `rounding` is that of its objective.
+[[nodiscard]] GONIO_INLINE std::string objection(const normal_equations& normal, const solution& found,
+                                                 Eigen::Index column, double rounding) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  if (!(found.certificate[column] <= certificate_limit))
+    return "the best weights found miss the optimality conditions by " + std::to_string(found.certificate[column]);
+  const double energy = normal.energy()[column], moment = normal.moment().col(column).cwiseAbs().maxCoeff();
+  if (energy == 0.0 && moment > 0.0) return "";  // nobody told
+  const double reach = reach_of(normal, found.weights, column), half = 0.5 * energy;
+  if (!(epsilon * reach <= rounding_tolerance * std::sqrt(energy)))
+    return "the weights are so large that rounding them moves A x by more than " + std::to_string(rounding_tolerance) +
+           " |b|";
+  const double allowed = objective_tolerance * half + rounding;
+  if (!(found.objective[column] <= allowed)) return "the best weights found explain less than none would";
+  if (!(found.objective[column] >= -half - allowed)) return "the best weights found explain more than there is";
+  return "";
+}
+
+[[nodiscard]] GONIO_INLINE error no_optimum(const signed_task& task, const std::string& why) {
+  return error{task.method, " has found no optimum: ", why,
+               "; the columns are too ill-conditioned for double precision"};
+}
+
+/// Objectives of normal equations lose what cancels.
+[[nodiscard]] GONIO_INLINE double rounding_of_objective(const normal_equations& normal, const solution& found,
+                                                        Eigen::Index column) {
+  const double reach = reach_of(normal, found.weights, column);
+  return 4.0 * std::numeric_limits<double>::epsilon() * reach * reach;
+}
+
+/// min 1/2 x'Q x - m'x + lambda |x|_1 as a program over x >= 0, or over both parts of x = u - v.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd optimum_by_program(const normal_equations& normal, Eigen::Index column,
+                                                              const signed_task& task) {
+  const Eigen::Index k = normal.unknowns(), parts = task.signs == sign_rule::any ? 2 : 1;
+  Eigen::MatrixXd gram(parts * k, parts * k), moment(parts * k, 1);
+  for (Eigen::Index q = 0; q < parts; ++q)
+    for (Eigen::Index j = 0; j < k; ++j) {
+      const double sign = q == 0 ? 1.0 : -1.0;
+      moment(q * k + j, 0) = sign * normal.moment()(j, column) - task.lambda;
+      for (Eigen::Index p = 0; p < parts; ++p)
+        for (Eigen::Index i = 0; i < k; ++i) gram(p * k + i, q * k + j) = (p == q ? 1.0 : -1.0) * normal.gram()(i, j);
+    }
+  const normal_equations program(std::move(gram), std::move(moment), normal.energy().segment(column, 1));
+  const linear_constraints constraints{.non_negative = true};
+  try {
+    const Eigen::VectorXd found = program_solver(program, constraints).solve(0).weights;
+    return parts == 1 ? found : Eigen::VectorXd(found.head(k) - found.tail(k));
+  } catch (const error& refused) {
+    throw no_optimum(task, refused.what());
+  }
+}
+
+GONIO_INLINE solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights) {
+  solution found = evaluated(normal, task, std::move(weights));
+  bool mended = false;
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
+    if (objection(normal, found, column, rounding_of_objective(normal, found, column)).empty()) continue;
+    found.weights.col(column) = optimum_by_program(normal, column, task);
+    mended = true;
+  }
+  if (!mended) return found;
+  found = evaluated(normal, task, std::move(found.weights));
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
+    const std::string why = objection(normal, found, column, rounding_of_objective(normal, found, column));
+    if (!why.empty()) throw no_optimum(task, why);
+  }
+  return found;
+}
+
+/// Does the objective of the normal equations agree with the residual of the rows?
+[[nodiscard]] GONIO_INLINE bool rows_agree(const normal_equations& normal, const solution& found, Eigen::Index column,
+                                           double lambda) {
+  const double energy = normal.energy()[column], residual = found.residual[column];
+  const double of_rows = 0.5 * (residual * residual - energy) + penalty_at(found, column, lambda);
+  return std::abs(of_rows - found.objective[column]) <= 0.5 * objective_tolerance * energy;
+}
+
+GONIO_INLINE solution certified(const least_squares_problem& problem, const signed_task& task,
+                                Eigen::MatrixXd weights) {
+  const normal_equations& normal = problem.normal();
+  solution found = evaluated(normal, task, std::move(weights));
+  found.residual = problem.residual(found.weights);
+  Eigen::MatrixXd triangle;
+  std::vector<Eigen::Index> mended;
+  for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
+    const Eigen::VectorXd near_optimum = found.weights.col(column);
+    if (objection(normal, found, column, 0.0).empty() && rows_agree(normal, found, column, task.lambda) &&
+        is_resolved(normal, column, near_optimum, task))
+      continue;
+    if (mended.empty()) triangle = triangular_equations(problem);
+    row_active_set run(triangle.leftCols(normal.unknowns()), triangle.col(normal.unknowns() + column), task.lambda,
+                       task.signs);
+    if (near_optimum.allFinite()) run.start_from(near_optimum);
+    run_to_convergence(run, step_limit(normal.unknowns()), task.method + " on the rows");
+    found.weights.col(column) = run.weights();
+    mended.push_back(column);
+  }
+  if (mended.empty()) return found;
+  found.residual = problem.residual(found.weights);
+  const std::vector<scaled_gradient> gradients = gradients_of_rows(problem, found.weights);
+  for (const Eigen::Index column : mended) {
+    const double residual = found.residual[column];
+    found.objective[column] =
+        0.5 * (residual * residual - normal.energy()[column]) + penalty_at(found, column, task.lambda);
+    found.certificate[column] =
+        kkt_violation(gradients[static_cast<std::size_t>(column)], &found.weights(0, column), task.lambda, task.signs);
+    const std::string why = objection(normal, found, column, 0.0);
+    if (!why.empty()) throw no_optimum(task, why);
+  }
+  return found;
+}
+
+GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right_hand_side,
+                              const Eigen::VectorXd& weights, const signed_task& task) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double undecided = 1e-9, least_pivot = 1e-13, tolerance = 1e-6;
+  const Eigen::MatrixXd& gram = normal.gram();
+  const double length = std::sqrt(normal.energy()[right_hand_side]);
+  const Eigen::VectorXd norms = gram.diagonal().cwiseSqrt();
+  // lambda |x|_1 is at most b'Wb / 2 at the optimum.
+  if (task.lambda > 0.0) {
+    const double largest = norms.maxCoeff() * length / (2.0 * task.lambda);
+    if (epsilon * largest * largest <= 1e-10) return true;
+  }
+  const scaled_gradient gradient = gradient_of(normal, right_hand_side, weights);
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index j = 0; j < weights.size(); ++j)
+    if (weights[j] != 0.0) columns.push_back(j);
+  for (Eigen::Index j = 0; j < weights.size(); ++j) {
+    if (weights[j] != 0.0 || norms[j] == 0.0) continue;
+    const double slope = task.signs == sign_rule::any ? std::abs(gradient.value[j]) : -gradient.value[j];
+    if (slope - task.lambda / norms[j] >= -undecided * length) columns.push_back(j);
+  }
+  if (task.signs == sign_rule::non_negative) {
+    bool acute = true;
+    for (const Eigen::Index i : columns)
+      for (const Eigen::Index j : columns) acute = acute && gram(i, j) >= 0.0;
+    if (acute) return true;
+  }
+  growing_cholesky factor(std::ssize(columns));
+  double least = 1.0;
+  Eigen::VectorXd cross(std::ssize(columns));
+  for (Eigen::Index size = 0; size < cross.size(); ++size) {
+    const Eigen::Index j = columns[static_cast<std::size_t>(size)];
+    for (Eigen::Index i = 0; i < size; ++i) cross[i] = gram(columns[static_cast<std::size_t>(i)], j);
+    if (!factor.append(cross.head(size), gram(j, j))) return false;
+    least = std::min(least, factor.pivot(size) / gram(j, j));
+  }
+  const double reach = norms.dot(weights.cwiseAbs());
+  return least > least_pivot && epsilon * reach <= tolerance * std::sqrt(least) * length;
+}
+
+}  // namespace gonio::detail

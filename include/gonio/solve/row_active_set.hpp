@@ -1,0 +1,74 @@
+#pragma once
+/// The active-set method for min 1/2 |A x - b|^2 + lambda |x|_1, with or without x >= 0, on the rows: Lawson and
+/// Hanson, Solving Least Squares Problems, 1974, algorithm NNLS, with a penalty, and with solutions that are refined
+/// (Bjorck, BIT 7, 1967). It never squares the condition number, and is what solvers fall back to that do.
+
+#include <gonio/solve/kkt.hpp>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace gonio {
+
+/// As `active_set`, one column enters at a time. A step is kept if it lowers the objective, computed as the difference
+/// that it is; otherwise the column is barred until another has entered. Hence no passive set comes back. A column that
+/// depends on the passive ones to 1e-12 of its length stays out, as in `least_squares`.
+///
+/// A step costs O(n p^2) for n rows and p passive columns, and as much again for each that leaves: for problems whose
+/// rows have been made few (`detail::triangular_equations`).
+class row_active_set {
+ public:
+  /// n rows by k columns, n right-hand values, and the penalty on |x|_1, >= 0. O(n k).
+  row_active_set(Eigen::MatrixXd rows, Eigen::VectorXd right, double lambda, sign_rule signs);
+
+  /// Starts from weights near the optimum: their signs, where they are allowed, become the passive set.
+  void start_from(const Eigen::VectorXd& near_optimum);
+
+  /// Lets one column enter and settles.
+  void step();
+
+  [[nodiscard]] bool converged() const noexcept { return entering_ < 0; }
+  [[nodiscard]] Eigen::VectorXd weights() const { return state_.x.cwiseProduct(unit_); }
+
+ private:
+  struct state {
+    std::vector<Eigen::Index> passive;
+    Eigen::VectorXd sign;    // 0: not passive
+    Eigen::VectorXd x;       // in columns of about length 1 and a right-hand side of about that norm
+    Eigen::VectorXd misfit;  // b - A x
+  };
+  struct passive_optimum;
+
+  [[nodiscard]] Eigen::MatrixXd columns_of(const std::vector<Eigen::Index>& passive) const;
+
+  /// The optimum of the passive columns, as long as these are independent.
+  [[nodiscard]] passive_optimum optimum() const;
+
+  /// As in `active_set`. Returns false if the passive columns depend on one another.
+  [[nodiscard]] bool settle();
+
+  /// Returns false if the column cannot enter because of rounding alone.
+  [[nodiscard]] bool enter(Eigen::Index column);
+  [[nodiscard]] bool exchange(Eigen::Index column);
+
+  void drop(std::ptrdiff_t position);
+  void choose_entering();
+
+  /// What a step from `before` has changed in the objective.
+  [[nodiscard]] double change_since(const state& before, const Eigen::VectorXd& descent) const;
+
+  Eigen::MatrixXd columns_;  // scaled by powers of two to lengths in [1/2, 1)
+  Eigen::VectorXd right_, unit_, penalty_;
+  sign_rule signs_;
+  state state_;
+  Eigen::VectorXd descent_;  // A'(b - A x)
+  std::vector<bool> barred_;
+  Eigen::Index entering_ = -1;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/solve/impl/row_active_set.ipp>
+#endif
