@@ -138,16 +138,18 @@ TEST_CASE("what the normal equations have lost is found in the rows: Kahan's mat
   }
 }
 
-TEST_CASE("weights beyond what |b| explains are refused by the normal equations, and found in the rows") {
+TEST_CASE("large weights are found in the rows, larger ones refused, and still larger ones are not wanted") {
   // The second column is the first with the other sign, but for 1e-9: it takes 1e9 of each to reach b.
   random_problems::problem problem{Eigen::MatrixXd(2, 2), Eigen::Vector2d(0.0, 1.0)};
   problem.matrix << 1, -1, 0, 1e-9;
   const auto found = gonio::nnls().solve(hard_problems::equations(problem));
   CHECK(found.residual[0] <= 1e-6);
   CHECK(found.weights(0, 0) == doctest::Approx(1e9).epsilon(1e-6));
-  problem.matrix(1, 1) = 1e-11;
+  problem.matrix(1, 1) = 3.5e-11;
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::nnls().solve(hard_problems::equations(problem))),
                        doctest::Contains("rounding them moves A x"), gonio::error);
+  problem.matrix(1, 1) = 1e-11;  // less is no column of its own
+  CHECK(gonio::nnls().solve(hard_problems::equations(problem)).weights.maxCoeff() <= 1.0);
 }
 
 TEST_CASE("normal equations are resolved where nothing hinges on their rounding") {
@@ -167,7 +169,7 @@ TEST_CASE("normal equations are resolved where nothing hinges on their rounding"
   CHECK_FALSE(resolved(problem, Eigen::Vector2d(1, 0), nnls));
 }
 
-TEST_CASE("the rows alone: both signs, a penalty, a start from anywhere, columns that depend on each other") {
+TEST_CASE("the rows alone: both signs, a penalty, columns that depend on each other") {
   for (unsigned seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     random_problems::generator random(seed);
@@ -175,16 +177,11 @@ TEST_CASE("the rows alone: both signs, a penalty, a start from anywhere, columns
     const normal_equations normal = problem.normal();
     const auto signs = seed % 2 == 0 ? sign_rule::any : sign_rule::non_negative;
     const double lambda = seed % 3 == 0 ? 0.0 : 0.01 * gonio::largest_lambda(normal, signs);
-    gonio::row_active_set cold(problem.matrix, problem.right, lambda, signs), warm = cold;
-    warm.start_from(random.gaussian(normal.unknowns(), 1));
-    gonio::run_to_convergence(cold, gonio::step_limit(normal.unknowns()), "cold");
-    gonio::run_to_convergence(warm, gonio::step_limit(normal.unknowns()), "warm");
-    const bool non_negative = signs == sign_rule::non_negative;
-    const auto one = hard_problems::judge(problem, cold.weights(), lambda, non_negative),
-               other = hard_problems::judge(problem, warm.weights(), lambda, non_negative);
-    CHECK(one.violation <= 1e-12);
-    CHECK(other.violation <= 1e-12);
-    CHECK(std::abs(one.objective - other.objective) <= 1e-10);
+    gonio::row_active_set run(problem.matrix, problem.right, lambda, signs);
+    gonio::run_to_convergence(run, gonio::step_limit(normal.unknowns()), "the rows");
+    const auto found = hard_problems::judge(problem, run.weights(), lambda, signs == sign_rule::non_negative);
+    CHECK(found.violation <= 1e-12);
+    CHECK(found.residual <= 1.0);
   }
 }
 

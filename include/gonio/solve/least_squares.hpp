@@ -61,7 +61,8 @@ class least_squares {
 
   [[nodiscard]] double rank_threshold() const noexcept { return threshold_; }
 
-  /// Throws gonio::error if a row is not finite, naming it.
+  /// Throws gonio::error if a row is not finite, naming it, or if weights of zero explain more than those found:
+  /// columns that depend on each other but for 1e-12 can take weights of 1e12 |b|, in which nothing is left of b.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 

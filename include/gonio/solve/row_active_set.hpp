@@ -13,7 +13,8 @@ namespace gonio {
 
 /// As `active_set`, one column enters at a time. A step is kept if it lowers the objective, computed as the difference
 /// that it is; otherwise the column is barred until another has entered. Hence no passive set comes back. A column that
-/// depends on the passive ones to 1e-12 of its length stays out, as in `least_squares`.
+/// depends on the passive ones to 3e-11 of its length stays out: its part of the gradient is at most that share of |b|,
+/// and weights that are larger than 3e10 |b| have no digits left for what they are to explain.
 ///
 /// A step costs O(n p^2) for n rows and p passive columns, and as much again for each that leaves: for problems whose
 /// rows have been made few (`detail::triangular_equations`).
@@ -21,9 +22,6 @@ class row_active_set {
  public:
   /// n rows by k columns, n right-hand values, and the penalty on |x|_1, >= 0. O(n k).
   row_active_set(Eigen::MatrixXd rows, Eigen::VectorXd right, double lambda, sign_rule signs);
-
-  /// Starts from weights near the optimum: their signs, where they are allowed, become the passive set.
-  void start_from(const Eigen::VectorXd& near_optimum);
 
   /// Lets one column enter and settles.
   void step();

@@ -185,6 +185,13 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
     found.objective[column] = 0.5 * (found.residual[column] * found.residual[column] -
                                      problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
   found.certificate = detail::stationarity_of_rows(problem, found.weights);
+  for (Eigen::Index column = 0; column < found.objective.size(); ++column) {
+    const double residual = found.residual[column];
+    if (!(found.objective[column] <= 1e-9 * (0.5 * residual * residual - found.objective[column])))
+      throw error(
+          "least squares explain less than weights of zero would: the columns are too ill-conditioned for double "
+          "precision, and a larger rank threshold drops those that depend on each other");
+  }
   return found;
 }
 

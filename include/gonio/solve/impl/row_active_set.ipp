@@ -20,7 +20,7 @@ namespace gonio {
 namespace detail {
 
 /// A column is taken for a combination of others if they say it to this share of its length.
-inline constexpr double dependent_share = 1e-12;
+inline constexpr double dependent_share = 3e-11;
 
 /// A power of two that brings a positive length to [1/2, 1); 1 for zero.
 [[nodiscard]] inline double near_inverse(double length) {
@@ -71,25 +71,6 @@ GONIO_INLINE Eigen::MatrixXd row_active_set::columns_of(const std::vector<Eigen:
   for (Eigen::Index i = 0; i < some.cols(); ++i)
     std::copy_n(&columns_(0, passive[static_cast<std::size_t>(i)]), some.rows(), &some(0, i));
   return some;
-}
-
-GONIO_INLINE void row_active_set::start_from(const Eigen::VectorXd& near_optimum) {
-  std::vector<Eigen::Index> wanted;
-  for (Eigen::Index j = 0; j < near_optimum.size(); ++j)
-    if (signs_ == sign_rule::any ? near_optimum[j] != 0.0 : near_optimum[j] > 0.0) wanted.push_back(j);
-  if (wanted.empty()) return;
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(detail::dependent_share);
-  qr.compute(columns_of(wanted));
-  const state nothing = state_;
-  for (Eigen::Index i = 0; i < qr.rank(); ++i) {
-    const Eigen::Index j = wanted[static_cast<std::size_t>(qr.colsPermutation().indices()[i])];
-    state_.passive.push_back(j);
-    state_.x[j] = near_optimum[j] / unit_[j];
-    state_.sign[j] = near_optimum[j] > 0.0 ? 1.0 : -1.0;
-  }
-  if (!settle()) state_ = nothing;
-  choose_entering();
 }
 
 GONIO_INLINE void row_active_set::step() {
