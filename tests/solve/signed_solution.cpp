@@ -1,3 +1,4 @@
+#include "../golden.hpp"
 #include "../json.hpp"
 #include "hard_problems_check.hpp"
 #include <gonio/solve/row_active_set.hpp>
@@ -6,8 +7,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -192,6 +191,8 @@ TEST_CASE("all weight may be on a column of zeros") {
   const auto found = gonio::quadratic_program<gonio::convex_weights>().solve(problem);
   CHECK(found.weights.col(0).isApprox(Eigen::Vector2d(0, 1), 1e-12));
   CHECK(found.certificate[0] <= 1e-9);
+  const least_squares_problem nothing(gonio::row_matrix::Zero(3, 5), Eigen::MatrixXd::Ones(3, 1));
+  CHECK(gonio::quadratic_program<gonio::convex_weights>().solve(nothing).weights.sum() == doctest::Approx(1.0));
 }
 
 TEST_CASE("numbers whose squares underflow are refused by name, and those above are not") {
@@ -231,14 +232,7 @@ TEST_CASE("fewer rows than columns, two of them zero: the instance of scipy's is
 }
 
 TEST_CASE("the instances that are published with scipy's issues 20168, 20302 and 21021") {
-  const std::string path = std::string(GONIO_SHARED_DATA) + "/nnls-published/instances.json";
-  std::ifstream file(path);
-  if (!file) {
-    MESSAGE("skipped: there is no ", path);
-    return;
-  }
-  const auto instances = parse_json(std::string(std::istreambuf_iterator<char>(file), {}));
-  for (const auto& instance : instances) {
+  for (const auto& instance : golden_json("nnls_published.json")) {
     CAPTURE(instance["issue"].get<std::string>());
     const auto rows = instance["A"].get<std::vector<std::vector<double>>>();
     const auto right = instance["b"].get<std::vector<double>>();

@@ -19,7 +19,8 @@ void require_penalty(double lambda);
 }  // namespace detail
 
 /// Minimises 1/2 |W^(1/2) (A x - b)|^2 + lambda |x|_1, exactly: coordinate descent finds the support, an active set the
-/// weights. lambda is in the units of A'Wb. Throws gonio::error if it does not converge.
+/// weights. lambda is in the units of A'Wb. Throws gonio::error if no optimum can be certified, by the rows where there
+/// are rows (solve/signed_solution.hpp).
 template <sign_rule Signs>
 class basic_lasso {
  public:

@@ -49,7 +49,7 @@ class block_pivoting {
 };
 
 /// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/solvers.md has both
-/// measured. Throws gonio::error if the active set that finishes does not end.
+/// measured. Throws gonio::error as `nnls` does.
 class nnls_block_pivoting {
  public:
   static constexpr bool non_negative = true;

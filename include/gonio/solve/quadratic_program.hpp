@@ -149,7 +149,9 @@ class quadratic_program {
   [[nodiscard]] const Constraints& constraints() const noexcept { return constraints_; }
 
   /// Throws gonio::error if the constraints do not fit the problem, if they contradict one another, if the objective is
-  /// unbounded, or if the optimum is not found within a number of steps that is proportional to k and the rows.
+  /// unbounded, or if the optimum is not found within a number of steps that is proportional to k and the rows. Where
+  /// the normal equations are not enough for a problem that has rows, the optimum under x >= 0 alone is found from
+  /// those (solve/signed_solution.hpp); under rows of constraints it is refused.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const { return solve_any(problem); }
   [[nodiscard]] solution solve(const normal_equations& normal) const { return solve_any(normal); }
 

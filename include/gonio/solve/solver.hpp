@@ -8,6 +8,7 @@
 
 #include <concepts>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace gonio {
@@ -31,12 +32,22 @@ struct solution {
 /// equations hold to half of the digits only.
 [[nodiscard]] solution with_residual_of_rows(solution found, const least_squares_problem& problem);
 
+namespace detail {
+
+/// At most this is the certificate of a success.
+inline constexpr double certificate_limit = 1e-9;
+
+/// Throws gonio::error naming the solver unless its certificates are that small.
+[[nodiscard]] solution require_certified(solution found, std::string_view solver);
+
+}  // namespace detail
+
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
 /// What the compiler cannot check, and a model must keep: the certificate is computed from the problem and
-/// the returned weights, not from the solver's internal state, and is at most about 1e-9 on success (`least_squares`
-/// says where normal equations alone do not hold that much); a solver that gives up throws gonio::error; solving is
-/// const and thread safe.
+/// the returned weights, not from the solver's internal state, and is at most 1e-9 on success (`least_squares` says
+/// where normal equations alone do not hold that much); a solver that does not reach it finds the optimum in another
+/// way or throws gonio::error; solving is const and thread safe.
 ///
 /// ```cpp
 /// struct ordinary_least_squares {

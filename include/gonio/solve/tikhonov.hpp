@@ -21,6 +21,7 @@ class tikhonov {
 
   [[nodiscard]] double eta() const noexcept { return eta_; }
 
+  /// Throws gonio::error if eta is so small that rounding leaves no optimum.
   [[nodiscard]] solution solve(const least_squares_problem& problem) const;
   [[nodiscard]] solution solve(const normal_equations& normal) const;
 

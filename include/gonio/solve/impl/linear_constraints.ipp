@@ -109,8 +109,10 @@ GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal,
     add(multipliers.equality[i], constraints.E.row(i).transpose());
   const Eigen::VectorXd lengths = column_lengths(normal, constraints);
   double scale = terms.cwiseQuotient(lengths).maxCoeff();
-  // Where all of the weight is on columns of zeros there are no terms, and rounding would be relative to rounding.
-  if (normal.gram().diagonal().maxCoeff() > 0.0) scale = std::max(scale, x.cwiseAbs().cwiseProduct(lengths).maxCoeff());
+  // Where all of the weight is on columns of zeros there are no terms, and rounding would be relative to rounding. (A
+  // linear program has terms.)
+  const bool linear = normal.gram().diagonal().maxCoeff() == 0.0 && !normal.moment().col(right_hand_side).isZero(0.0);
+  if (!linear) scale = std::max(scale, x.cwiseAbs().cwiseProduct(lengths).maxCoeff());
   return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
 }
 

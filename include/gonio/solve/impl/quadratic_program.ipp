@@ -135,7 +135,24 @@ GONIO_INLINE std::string program_solver::falling(const vector& movement) {
 
 namespace gonio::detail {
 
-GONIO_INLINE solution certified_program(const normal_equations& normal, const linear_constraints&, solution found) {
+/// Under x >= 0 or nothing at all: the same conditions as those of NNLS.
+template <quadratic_problem Problem>
+[[nodiscard]] solution certified_signed_program(const Problem& problem, bool non_negative, solution found) {
+  const sign_rule signs = non_negative ? sign_rule::non_negative : sign_rule::any;
+  const int iterations = found.iterations;
+  found = certified(problem, {signs, 0.0, "the quadratic program"}, std::move(found.weights));
+  found.iterations = iterations;
+  return found;
+}
+
+[[nodiscard]] inline bool has_constraint_rows(const linear_constraints& constraints) {
+  return constraints.d.size() + constraints.e.size() > 0;
+}
+
+GONIO_INLINE solution certified_program(const normal_equations& normal, const linear_constraints& constraints,
+                                        solution found) {
+  if (!has_constraint_rows(constraints))
+    return certified_signed_program(normal, constraints.non_negative, std::move(found));
   found.residual = normal.residual(found.weights);
   found.objective = normal.objective(found.weights);
   return found;
@@ -143,22 +160,18 @@ GONIO_INLINE solution certified_program(const normal_equations& normal, const li
 
 GONIO_INLINE solution certified_program(const least_squares_problem& problem, const linear_constraints& constraints,
                                         solution found) {
-  const sign_rule signs = constraints.non_negative ? sign_rule::non_negative : sign_rule::any;
-  if (constraints.d.size() == 0 && constraints.e.size() == 0) {
-    solution certain = certified(problem, {signs, 0.0, "the quadratic program"}, std::move(found.weights));
-    certain.iterations = found.iterations;
-    return certain;
-  }
+  if (!has_constraint_rows(constraints))
+    return certified_signed_program(problem, constraints.non_negative, std::move(found));
   const normal_equations& normal = problem.normal();
   found = certified_program(normal, constraints, std::move(found));
-  const Eigen::VectorXd of_rows = problem.residual(found.weights);
-  for (Eigen::Index column = 0; column < of_rows.size(); ++column) {
-    const double energy = normal.energy()[column], squares = of_rows[column] * of_rows[column];
-    if (std::abs(0.5 * (squares - energy) - found.objective[column]) > 1e-9 * (squares + energy))
-      throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ",
-                  of_rows[column], " by the rows and ", found.residual[column], " by them"};
+  const Eigen::VectorXd by_normal = std::exchange(found.residual, problem.residual(found.weights));
+  for (Eigen::Index column = 0; column < by_normal.size(); ++column) {
+    const double energy = normal.energy()[column], residual = found.residual[column];
+    if (std::abs(0.5 * (residual * residual - energy) - found.objective[column]) >
+        certificate_limit * (residual * residual + energy))
+      throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
+                  " by the rows and ", by_normal[column], " by them"};
   }
-  found.residual = of_rows;
   return found;
 }
 

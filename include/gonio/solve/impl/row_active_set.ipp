@@ -132,7 +132,8 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
   if (p > n) return found;
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
   for (Eigen::Index i = 0; i < p; ++i)
-    if (!(std::abs(qr.matrixQR()(i, i)) > detail::dependent_share)) return found;
+    if (!(std::abs(qr.matrixQR()(i, i)) > detail::dependent_share * qr.matrixQR().col(i).head(i + 1).norm()))
+      return found;
   const auto triangle = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
   // The equations misfit + A_P z = b, A_P' misfit = penalties, solved, and solved again for what is left of them in
   // twice the precision.

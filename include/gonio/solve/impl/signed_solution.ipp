@@ -22,8 +22,8 @@
 
 namespace gonio::detail {
 
-/// At most this is a certificate: solver.hpp promises it. Who has a second way tries it already from `sought` on.
-inline constexpr double certificate_limit = 1e-9, certificate_sought = 1e-12;
+/// Who has a second way takes it where the certificate is more than this.
+inline constexpr double certificate_sought = 1e-12;
 
 /// Shares of b'Wb / 2 by which an objective may be off, and of |b| by which A x may move as its weights are rounded.
 inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;

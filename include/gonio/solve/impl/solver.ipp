@@ -2,6 +2,7 @@
 /// Bodies of solve/solver.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/least_squares_problem.hpp>
 #include <gonio/solve/solver.hpp>
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <span>
+#include <string_view>
 #include <utility>
 
 namespace gonio {
@@ -45,6 +47,14 @@ GONIO_INLINE solution spread(solution found, std::span<const Eigen::Index> colum
 
 GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_problem& problem) {
   found.residual = problem.residual(found.weights);
+  return found;
+}
+
+GONIO_INLINE solution detail::require_certified(solution found, std::string_view solver) {
+  for (Eigen::Index column = 0; column < found.certificate.size(); ++column)
+    if (!(found.certificate[column] <= certificate_limit))
+      throw error{solver, " has found no optimum of right-hand side ", column,
+                  ": the problem is too ill-conditioned for double precision"};
   return found;
 }
 

@@ -93,7 +93,8 @@ GONIO_INLINE tikhonov::tikhonov(double eta, form solved_as) : eta_(eta), form_(s
 
 GONIO_INLINE solution tikhonov::solve(const least_squares_problem& problem) const {
   const bool wide = problem.equations() < problem.unknowns();
-  if (form_ == form::dual || (form_ == form::automatic && wide)) return detail::solve_dual_ridge(problem, eta_);
+  if (form_ == form::dual || (form_ == form::automatic && wide))
+    return detail::require_certified(detail::solve_dual_ridge(problem, eta_), "Tikhonov's solver");
   return with_residual_of_rows(solve(problem.normal()), problem);
 }
 
@@ -102,7 +103,8 @@ GONIO_INLINE solution tikhonov::solve(const normal_equations& normal) const {
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta_;
   const normal_equations ridge(std::move(penalised), normal.moment());
   const Eigen::MatrixXd x = cholesky(ridge.gram()).solve(ridge.moment());
-  return {x, normal.residual(x), ridge.objective(x), stationarity(ridge, x)};
+  return detail::require_certified({x, normal.residual(x), ridge.objective(x), stationarity(ridge, x)},
+                                   "Tikhonov's solver");
 }
 
 }  // namespace gonio

@@ -110,8 +110,9 @@ GONIO_INLINE truncated_svd::truncated_svd(double explained_variance) : share_(ex
 }
 
 GONIO_INLINE solution truncated_svd::solve(const least_squares_problem& problem) const {
-  return with_residual_of_rows(
-      detail::is_wide(problem) ? detail::solve_truncated_dual(problem, share_) : solve(problem.normal()), problem);
+  if (!detail::is_wide(problem)) return with_residual_of_rows(solve(problem.normal()), problem);
+  solution found = detail::require_certified(detail::solve_truncated_dual(problem, share_), "the truncated SVD");
+  return with_residual_of_rows(std::move(found), problem);
 }
 
 GONIO_INLINE solution truncated_svd::solve(const normal_equations& normal) const {
@@ -123,7 +124,7 @@ GONIO_INLINE solution truncated_svd::solve(const normal_equations& normal) const
   const double largest = values.size() > 0 ? values[values.size() - 1] : 0.0;
   solution found = detail::subspace_solution{x, normal.moment(), vectors, projected_image, span, largest}.judged();
   found.residual = normal.residual(x);
-  return found;
+  return detail::require_certified(std::move(found), "the truncated SVD");
 }
 
 GONIO_INLINE Eigen::Index truncated_svd::kept(const least_squares_problem& problem) const {
