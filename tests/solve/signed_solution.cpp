@@ -137,6 +137,10 @@ TEST_CASE("what the normal equations have lost is found in the rows: Kahan's mat
   }
 }
 
+TEST_CASE("a certificate of 1e-13 does not hide a column too many where weights are large") {
+  CHECK(first_wrong(family::ill_conditioned, 4086, 4087) == "");
+}
+
 TEST_CASE("large weights are found in the rows, larger ones refused, and still larger ones are not wanted") {
   // The second column is the first with the other sign, but for 1e-9: it takes 1e9 of each to reach b.
   random_problems::problem problem{Eigen::MatrixXd(2, 2), Eigen::Vector2d(0.0, 1.0)};

@@ -33,7 +33,8 @@ struct signed_task {
 [[nodiscard]] solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights);
 
 /// The same of a problem that has rows, whose residual it has. Beyond that the objective of the normal equations must
-/// agree with that of the rows to 1e-9 b'Wb / 2, and `is_resolved`. O(n k) for n rows, and O(n k^2) where the rows are
+/// agree with that of the rows to 1e-9 b'Wb / 2, the weights' gradient rule out that the optimum is lower by more than
+/// that, and `is_resolved`. O(n k) for n rows, and O(n k^2) where the rows are
 /// factorised.
 [[nodiscard]] solution certified(const least_squares_problem& problem, const signed_task& task,
                                  Eigen::MatrixXd weights);

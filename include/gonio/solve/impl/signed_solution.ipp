@@ -141,6 +141,14 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
   return std::abs(of_rows - found.objective[column]) <= 0.5 * objective_tolerance * energy;
 }
 
+/// Weights whose gradient is off by a share of |b| + reach explain at most reach times as much less than the optimum.
+[[nodiscard]] GONIO_INLINE bool gap_is_small(const normal_equations& normal, const solution& found,
+                                             Eigen::Index column) {
+  const double energy = normal.energy()[column], reach = reach_of(normal, found.weights, column);
+  const double gap = found.certificate[column] * (std::sqrt(energy) + reach) * reach;
+  return gap <= 0.5 * objective_tolerance * energy;
+}
+
 GONIO_INLINE solution certified(const least_squares_problem& problem, const signed_task& task,
                                 Eigen::MatrixXd weights) {
   const normal_equations& normal = problem.normal();
@@ -149,7 +157,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
   Eigen::MatrixXd triangle;
   std::vector<Eigen::Index> mended;
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
-    if (objection(normal, found, column, 0.0, certificate_sought).empty() &&
+    if (objection(normal, found, column, 0.0, certificate_sought).empty() && gap_is_small(normal, found, column) &&
         rows_agree(normal, found, column, task.lambda) && is_resolved(normal, column, found.weights.col(column), task))
       continue;
     // From nothing, so that all solvers find the same.
