@@ -44,20 +44,20 @@ class sampled_functions {
 
   /// Q = A'VA and m = A'Vb of one channel, where `weights` (the diagonal of V) and `values` (b) are arrays of n floats.
   /// Rows whose weight, times the value if that is above 1, is less than a millionth of the largest weight are taken
-  /// for rows of weight zero, which cost nothing. Products are float, and sums of 128 of them are added in double,
-  /// which is harmless here (docs/solvers.md): 2 n k^2 operations at most.
+  /// for rows of weight zero, which cost nothing. Products are double: a Gram matrix of float products is indefinite
+  /// where columns nearly depend on one another, and no solver can vouch for its optimum. n k^2 operations at most.
   template <class Weights, class Values>
   [[nodiscard]] normal_equations normal(std::size_t channel, const Weights& weights, const Values& values) const {
-    using sum_type = detail::product_sum<float>;
-    const float least = size() > 0 ? 1e-6f * weights.maxCoeff() : 0.0f;
+    using sum_type = detail::product_sum<double>;
+    const float least = least_weight(weights);
     const auto add_rows = [&](sum_type& sum, block range) {
       auto out = sum.rows(static_cast<Eigen::Index>(range.size()));
       Eigen::Index count = 0;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         const auto sample = static_cast<Eigen::Index>(i);
-        if (!(weights[sample] > 0.0f) || weights[sample] * std::max(1.0f, std::abs(values[sample])) < least) continue;
-        const float root = std::sqrt(weights[sample]);
-        out.row(count).head(unknowns_) = root * row(channel, i);
+        if (!counts(weights[sample], values[sample], least)) continue;
+        const double root = std::sqrt(static_cast<double>(weights[sample]));
+        out.row(count).head(unknowns_) = root * row(channel, i).template cast<double>();
         out(count++, unknowns_) = root * values[sample];
       }
       sum.add(count);
@@ -67,21 +67,23 @@ class sampled_functions {
     return {all.topLeftCorner(unknowns_, unknowns_), all.topRightCorner(unknowns_, 1), all.diagonal().tail(1)};
   }
 
-  /// m = A'Vb alone, k x 3 for the three channels, where Q is known; weights and values are 3 x n. Reads the rows once,
-  /// which is what it costs.
+  /// m = A'Vb alone, k x 3 for the three channels, where Q is known; weights and values are 3 x n. The rows that count
+  /// are those of `normal`, and rounding leaves m where Q can reach it. Reads the rows once, which is what it costs.
   [[nodiscard]] Eigen::MatrixXd moments(const channel_values& weights, const channel_values& values) const {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
+    std::array<float, 3> least{};
+    for (std::size_t c = 0; c < 3; ++c) least[c] = least_weight(weights.row(static_cast<Eigen::Index>(c)));
     return sum_over_blocks(
         size(), 128, zero,
         [&](Eigen::MatrixXd& sum, block range) {
-          Eigen::MatrixXf part = Eigen::MatrixXf::Zero(unknowns_, 3);
           for (std::size_t i = range.begin; i < range.end; ++i)
             for (std::size_t c = 0; c < 3; ++c) {
               const auto channel = static_cast<Eigen::Index>(c), sample = static_cast<Eigen::Index>(i);
-              if (!(weights(channel, sample) > 0.0f)) continue;
-              part.col(channel) += (weights(channel, sample) * values(channel, sample)) * row(c, i).transpose();
+              const float weight = weights(channel, sample), value = values(channel, sample);
+              if (!counts(weight, value, least[c])) continue;
+              const double factor = static_cast<double>(weight) * value;
+              sum.col(channel) += factor * row(c, i).transpose().template cast<double>();
             }
-          sum += part.cast<double>();
         },
         threads_);
   }
@@ -104,6 +106,15 @@ class sampled_functions {
   }
 
  private:
+  template <class Weights>
+  [[nodiscard]] float least_weight(const Weights& weights) const {
+    return size() > 0 ? 1e-6f * weights.maxCoeff() : 0.0f;
+  }
+
+  [[nodiscard]] static bool counts(float weight, float value, float least) noexcept {
+    return weight > 0.0f && weight * std::max(1.0f, std::abs(value)) >= least;
+  }
+
   [[nodiscard]] auto row(std::size_t channel, std::size_t place) const noexcept {
     return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
   }
