@@ -4,6 +4,7 @@
 #include <gonio/solve/impl/dual_active_set.ipp>
 #include <gonio/solve/impl/gram.ipp>
 #include <gonio/solve/impl/growing_cholesky.ipp>
+#include <gonio/solve/impl/householder_qr.ipp>
 #include <gonio/solve/impl/kkt.ipp>
 #include <gonio/solve/impl/lasso.ipp>
 #include <gonio/solve/impl/least_squares_problem.ipp>
@@ -14,6 +15,8 @@
 #include <gonio/solve/impl/nnls_coordinate_descent.ipp>
 #include <gonio/solve/impl/normal_equations.ipp>
 #include <gonio/solve/impl/quadratic_program.ipp>
+#include <gonio/solve/impl/row_active_set.ipp>
+#include <gonio/solve/impl/row_equations.ipp>
 #include <gonio/solve/impl/row_source.ipp>
 #include <gonio/solve/impl/scaled_program.ipp>
 #include <gonio/solve/impl/signed_solution.ipp>

@@ -1,5 +1,4 @@
 // The bodies of solve/ that factorise orthogonally.
 
 #include <gonio/solve/impl/least_squares.ipp>
-#include <gonio/solve/impl/row_active_set.ipp>
 #include <gonio/solve/impl/truncated_svd.ipp>

@@ -12,6 +12,7 @@
 #include <gonio/solve/float_product.hpp>
 #include <gonio/solve/gram.hpp>
 #include <gonio/solve/growing_cholesky.hpp>
+#include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/lasso.hpp>
@@ -26,9 +27,12 @@
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/quadratic_program.hpp>
+#include <gonio/solve/row_active_set.hpp>
+#include <gonio/solve/row_equations.hpp>
 #include <gonio/solve/row_source.hpp>
 #include <gonio/solve/scaled_program.hpp>
 #include <gonio/solve/semidefinite.hpp>
+#include <gonio/solve/signed_solution.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 #include <gonio/solve/thin_product.hpp>

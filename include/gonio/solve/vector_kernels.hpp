@@ -1,5 +1,5 @@
 #pragma once
-/// The two loops that dense algebra is made of, on contiguous numbers, compiled once: whoever writes them as
+/// The loops that dense algebra is made of, on contiguous numbers, compiled once: whoever writes them as
 /// expressions pays for each combination of matrices, columns and parts of columns that occurs.
 
 #include <Eigen/Core>
@@ -9,6 +9,12 @@ namespace gonio {
 /// The sum of a[i] b[i].
 [[nodiscard]] double dot(const double* a, const double* b, Eigen::Index count);
 [[nodiscard]] float dot(const float* a, const float* b, Eigen::Index count);
+
+/// The root of the sum of a[i]^2, also where these squares are out of range.
+[[nodiscard]] double norm(const double* a, Eigen::Index count);
+
+/// A power of two that brings a positive length to [1/2, 1), or as near as there is one; 1 for zero.
+[[nodiscard]] double near_inverse(double length);
 
 /// Adds factor a[i] to sum[i].
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);

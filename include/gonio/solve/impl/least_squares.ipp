@@ -18,30 +18,11 @@ namespace gonio {
 
 namespace detail {
 
-GONIO_INLINE Eigen::MatrixXd triangular_equations(const least_squares_problem& problem) {
-  const Eigen::MatrixXd& right = problem.right_hand_side();
-  const Eigen::Index k = problem.unknowns(), columns = k + right.cols();
-  const Eigen::Index room = columns + std::max<Eigen::Index>(columns, 1024);
-  Eigen::MatrixXd stacked(std::min(problem.equations(), room), columns);
-  Eigen::Index filled = 0;
-  const auto triangularise = [&] {
-    if (filled <= columns) return;
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked.topRows(filled));
-    stacked.topRows(columns) = qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
-    filled = columns;
-  };
-  problem.for_each_row_block([&](block range, const row_matrix& part) {
-    for (Eigen::Index row = 0; row < part.rows(); ++row) {
-      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
-      if (filled == stacked.rows()) triangularise();
-      const double root = std::sqrt(problem.weights()[at]);
-      stacked.row(filled).head(k) = root * part.row(row);
-      stacked.row(filled).tail(right.cols()) = root * right.row(at);
-      ++filled;
-    }
-  });
-  triangularise();
-  return stacked.topRows(filled);
+/// Norms of columns to divide by: 1 for a column of zeros.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
+  for (double& norm : norms)
+    if (!(norm > 0.0)) norm = 1.0;
+  return norms;
 }
 
 /// A matrix each row of which is multiplied by a number.
@@ -60,48 +41,6 @@ GONIO_INLINE Eigen::MatrixXd triangular_equations(const least_squares_problem& p
   x.topRows(right.rows()) = right;
   x.applyOnTheLeft(qr.householderQ());
   return x;
-}
-
-/// Norms of columns to divide by: 1 for a column of zeros.
-[[nodiscard]] GONIO_INLINE Eigen::VectorXd divisors(Eigen::VectorXd norms) {
-  for (double& norm : norms)
-    if (!(norm > 0.0)) norm = 1.0;
-  return norms;
-}
-
-GONIO_INLINE std::vector<scaled_gradient> gradients_of_rows(const least_squares_problem& problem,
-                                                            const Eigen::MatrixXd& x) {
-  Eigen::MatrixXd gradient = Eigen::MatrixXd::Zero(x.rows(), x.cols());
-  Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.rows());
-  problem.for_each_row_block([&](block range, const row_matrix& part) {
-    for (Eigen::Index row = 0; row < part.rows(); ++row) {
-      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
-      const double weight = problem.weights()[at];
-      // A row lies contiguous, as a column of the transpose.
-      const Eigen::Map<const Eigen::VectorXd> a(part.row(row).data(), part.cols());
-      for (Eigen::Index column = 0; column < x.cols(); ++column) {
-        const double misfit = weight * (a.dot(x.col(column)) - problem.right_hand_side()(at, column));
-        gradient.col(column) += misfit * a;
-      }
-      squares += weight * a.cwiseAbs2();
-    }
-  });
-  const Eigen::VectorXd norms = divisors(squares.cwiseSqrt());
-  std::vector<scaled_gradient> gradients;
-  for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    const double energy = problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights());
-    const double scale = std::sqrt(energy) + norms.dot(x.col(column).cwiseAbs());
-    gradients.push_back({gradient.col(column).cwiseQuotient(norms), scale > 0.0 ? scale : 1.0, norms});
-  }
-  return gradients;
-}
-
-GONIO_INLINE Eigen::VectorXd stationarity_of_rows(const least_squares_problem& problem, const Eigen::MatrixXd& x) {
-  Eigen::VectorXd violation(x.cols());
-  Eigen::Index column = 0;
-  for (const scaled_gradient& gradient : gradients_of_rows(problem, x))
-    violation[column++] = gradient.value.cwiseAbs().maxCoeff() / gradient.scale;
-  return violation;
 }
 
 /// W^(1/2) [A, b] D^-1, where D scales the columns of A to length 1, and the QR factorisation of its left part.

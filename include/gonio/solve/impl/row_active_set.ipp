@@ -3,12 +3,13 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/compensated.hpp>
+#include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/row_active_set.hpp>
 #include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/vector_kernels.hpp>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -21,22 +22,6 @@ namespace detail {
 
 /// A column is taken for a combination of others if they say it to this share of its length.
 inline constexpr double dependent_share = 3e-11;
-
-/// A power of two that brings a positive length to [1/2, 1); 1 for zero.
-[[nodiscard]] inline double near_inverse(double length) {
-  return length > 0.0 ? std::ldexp(1.0, -(std::ilogb(length) + 1)) : 1.0;
-}
-
-/// The norm of a column whose squares may underflow.
-[[nodiscard]] GONIO_INLINE double safe_norm(const double* values, Eigen::Index count) {
-  double largest = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) largest = std::max(largest, std::abs(values[i]));
-  if (largest == 0.0) return 0.0;
-  const double inverse = near_inverse(largest);
-  double sum = 0.0;
-  for (Eigen::Index i = 0; i < count; ++i) sum += (inverse * values[i]) * (inverse * values[i]);
-  return std::sqrt(sum) / inverse;
-}
 
 }  // namespace detail
 
@@ -54,10 +39,10 @@ GONIO_INLINE row_active_set::row_active_set(Eigen::MatrixXd rows, Eigen::VectorX
       signs_(signs),
       barred_(static_cast<std::size_t>(columns_.cols()), false) {
   const Eigen::Index n = columns_.rows(), k = columns_.cols();
-  const double inverse = detail::near_inverse(detail::safe_norm(right_.data(), n));
+  const double inverse = near_inverse(norm(right_.data(), n));
   for (double& value : right_) value *= inverse;
   for (Eigen::Index j = 0; j < k; ++j) {
-    unit_[j] = detail::near_inverse(detail::safe_norm(&columns_(0, j), n));
+    unit_[j] = near_inverse(norm(&columns_(0, j), n));
     for (Eigen::Index i = 0; i < n; ++i) columns_(i, j) *= unit_[j];
     penalty_[j] = lambda * unit_[j] * inverse;
     unit_[j] /= inverse;
@@ -98,8 +83,11 @@ GONIO_INLINE bool row_active_set::enter(Eigen::Index column) {
 /// See `active_set::exchange`.
 GONIO_INLINE bool row_active_set::exchange(Eigen::Index column) {
   if (penalty_[column] == 0.0 || state_.passive.empty()) return false;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns_of(state_.passive));
-  const Eigen::VectorXd combination = qr.solve(columns_.col(column));
+  const householder_qr qr(columns_of(state_.passive));
+  Eigen::VectorXd entering = columns_.col(column);
+  qr.apply_transposed(entering.data());
+  qr.solve(entering.data());
+  const Eigen::VectorXd combination = entering.head(qr.cols());
   const double sign = state_.sign[column];
   double length = std::numeric_limits<double>::infinity();
   std::ptrdiff_t first = -1;
@@ -130,15 +118,13 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
   const Eigen::Index n = columns.rows(), p = columns.cols();
   passive_optimum found{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(n)};
   if (p > n) return found;
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
+  const householder_qr qr(columns);
   for (Eigen::Index i = 0; i < p; ++i)
-    if (!(std::abs(qr.matrixQR()(i, i)) > detail::dependent_share * qr.matrixQR().col(i).head(i + 1).norm()))
-      return found;
-  const auto triangle = qr.matrixQR().topRows(p).triangularView<Eigen::Upper>();
+    if (!(std::abs(qr.triangle(i, i)) > detail::dependent_share * qr.length(i))) return found;
   // The equations misfit + A_P z = b, A_P' misfit = penalties, solved, and solved again for what is left of them in
   // twice the precision.
   constexpr int refinements = 2;
-  Eigen::VectorXd above(n), below(p);
+  Eigen::VectorXd above(n), below(p), z(p);
   for (int round = 0; round <= refinements; ++round) {
     for (Eigen::Index i = 0; i < n; ++i) {
       compensated_sum left(right_[i]);
@@ -152,16 +138,16 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
       for (Eigen::Index i = 0; i < n; ++i) left.add_product(-columns(i, j), found.misfit[i]);
       below[j] = left.value();
     }
-    above.applyOnTheLeft(qr.householderQ().adjoint());
-    triangle.transpose().solveInPlace(below);
-    Eigen::VectorXd z = above.head(p) - below;
-    triangle.solveInPlace(z);
-    above.head(p) = below;
-    above.applyOnTheLeft(qr.householderQ());
+    qr.apply_transposed(above.data());
+    qr.solve_transposed(below.data());
+    for (Eigen::Index j = 0; j < p; ++j) z[j] = above[j] - below[j];
+    qr.solve(z.data());
+    std::copy_n(below.data(), p, above.data());
+    qr.apply(above.data());
     add_scaled(1.0, z.data(), found.z.data(), p);
     add_scaled(1.0, above.data(), found.misfit.data(), n);
   }
-  found.independent = found.z.allFinite();
+  found.independent = std::all_of(found.z.begin(), found.z.end(), [](double weight) { return std::isfinite(weight); });
   return found;
 }
 

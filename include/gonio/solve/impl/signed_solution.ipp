@@ -6,9 +6,9 @@
 #include <gonio/solve/growing_cholesky.hpp>
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/kkt.hpp>
-#include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/row_active_set.hpp>
+#include <gonio/solve/row_equations.hpp>
 #include <gonio/solve/signed_solution.hpp>
 
 #include <Eigen/Core>

@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
+
 namespace gonio {
 
 GONIO_INLINE double dot(const double* a, const double* b, Eigen::Index count) {
@@ -14,6 +17,20 @@ GONIO_INLINE double dot(const double* a, const double* b, Eigen::Index count) {
 
 GONIO_INLINE float dot(const float* a, const float* b, Eigen::Index count) {
   return Eigen::Map<const Eigen::VectorXf>(a, count).dot(Eigen::Map<const Eigen::VectorXf>(b, count));
+}
+
+GONIO_INLINE double near_inverse(double length) {
+  return length > 0.0 ? std::ldexp(1.0, std::min(-(std::ilogb(length) + 1), 1023)) : 1.0;
+}
+
+GONIO_INLINE double norm(const double* a, Eigen::Index count) {
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) largest = std::max(largest, std::abs(a[i]));
+  if (largest == 0.0) return 0.0;
+  const double inverse = near_inverse(largest);
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < count; ++i) sum += (inverse * a[i]) * (inverse * a[i]);
+  return std::sqrt(sum) / inverse;
 }
 
 GONIO_INLINE void add_scaled(double factor, const double* a, double* sum, Eigen::Index count) {
