@@ -41,6 +41,16 @@ TEST_CASE("Q R is A, Q is orthogonal, for tall, square and wide matrices of any 
   }));
 }
 
+TEST_CASE("a column that depends on another, at the lower end of the numbers, leaves Q orthogonal") {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    Eigen::MatrixXd a = 1e-300 * random_matrix(5, 2, seed), q = Eigen::MatrixXd::Identity(5, 5);
+    a.col(1) = a.col(0);
+    const gonio::householder_qr qr(a);
+    for (Eigen::Index column = 0; column < 5; ++column) qr.apply(&q(0, column));
+    CHECK((q.transpose() * q - Eigen::MatrixXd::Identity(5, 5)).norm() <= 1e-13);
+  }
+}
+
 TEST_CASE("triangular systems") {
   const Eigen::MatrixXd a = random_matrix(12, 7, 1);
   const gonio::householder_qr qr(a);

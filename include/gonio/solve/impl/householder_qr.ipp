@@ -19,12 +19,14 @@ GONIO_INLINE householder_qr::householder_qr(Eigen::MatrixXd a) : packed_(std::mo
   for (Eigen::Index number = 0; number < factors_.size(); ++number) {
     double* top = &packed_(number, number);
     const Eigen::Index below = n - number - 1;
-    const double tail = norm(top + 1, below);
-    if (tail == 0.0) continue;
-    const double reflected = -std::copysign(std::hypot(*top, tail), *top);
-    factors_[number] = (reflected - *top) / reflected;
-    for (Eigen::Index i = 1; i <= below; ++i) top[i] /= *top - reflected;
-    *top = reflected;
+    if (norm(top + 1, below) == 0.0) continue;
+    // What is left of a column that depends on others may be denormal: a power of two gives its digits back.
+    const double inverse = near_inverse(norm(top, below + 1));
+    for (Eigen::Index i = 0; i <= below; ++i) top[i] *= inverse;
+    const double reflected = -std::copysign(norm(top, below + 1), *top), first = *top - reflected;
+    factors_[number] = -first / reflected;
+    for (Eigen::Index i = 1; i <= below; ++i) top[i] /= first;
+    *top = reflected / inverse;
     for (Eigen::Index column = number + 1; column < k; ++column) reflect(number, &packed_(0, column));
   }
 }
