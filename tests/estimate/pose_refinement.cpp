@@ -34,15 +34,19 @@ Eigen::Matrix3d turn_of(const Eigen::Vector3d& turn) {
   return angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
 }
 
-/// A picture by a camera around the mirror direction of a light, both of which are turned, unknown to who takes it.
+/// A picture by a camera around the mirror direction of a light, both of which are turned, unknown to who takes it: its
+/// radiance is divided by the cosine of where the light should be, or by that of where it is if a white reference
+/// lay in place.
 template <class Material>
-picture_samples picture_of(const Material& truth, double theta, const picture_turns& turns = {}) {
-  const direction wi = gonio::spherical_direction(theta, 0.0);
+picture_samples picture_of(const Material& truth, double theta, const picture_turns& turns = {},
+                           gonio::light_calibration calibrated_by = gonio::light_calibration::irradiance) {
+  const direction wi = gonio::spherical_direction(theta, 0.0), turned_wi = turn_of(turns.light) * wi;
+  const double cosines = calibrated_by == gonio::light_calibration::irradiance ? turned_wi.z() / wi.z() : 1.0;
   picture_samples samples;
-  for (double polar = theta - 0.25; polar <= theta + 0.26; polar += 0.05)
+  for (double polar = theta - 0.25; polar <= std::min(theta + 0.26, 1.5); polar += 0.05)
     for (double azimuth = -0.4; azimuth <= 0.41; azimuth += 0.1) {
       const direction wo = gonio::spherical_direction(polar, std::numbers::pi + azimuth);
-      samples.push_back({{wi, wo}, truth(turn_of(turns.light) * wi, turn_of(turns.camera) * wo)});
+      samples.push_back({{wi, wo}, cosines * truth(turned_wi, turn_of(turns.camera) * wo)});
     }
   return samples;
 }
@@ -68,7 +72,7 @@ TEST_CASE("where light and camera are is found with the material") {
       for (const gonio::pair_sample& s : picture_of(truth, theta, turns))
         samples.push_back(
             {gonio::to_half_difference(turn_of(turns.light) * s.directions.wi, turn_of(turns.camera) * s.directions.wo),
-             s.value, s.weight});
+             s.value * s.directions.wi.z() / (turn_of(turns.light) * s.directions.wi).z(), s.weight});
     return gonio::decomposition{picture_prior(), gonio::tikhonov{slight_eta}}.fit(samples);
   };
   for (std::size_t number = 0; number < 12; ++number) {
@@ -82,6 +86,30 @@ TEST_CASE("where light and camera are is found with the material") {
     CHECK(refinement.objective() < 0.01 * objective);
     CHECK(mapped_error(refinement.fit(), truth) < 0.3 * before);
     CHECK(mapped_error(refinement.fit(), truth) < 1.25 * mapped_error(known_places(truth), truth));
+  }
+}
+
+TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of it is 6 % of all values") {
+  using gonio::light_calibration;
+  const picture_turns lower{{0.0, radians(1.0), 0.0}, Eigen::Vector3d::Zero()};
+  for (const auto taken : {light_calibration::irradiance, light_calibration::reference_in_place}) {
+    double right = 0.0, wrong = 0.0;
+    for (std::size_t number = 0; number < 12; ++number) {
+      const auto truth = material(number);
+      const std::vector<picture_samples> pictures{picture_of(truth, radians(75.0), lower, taken)};
+      const auto error = [&](light_calibration believed) {
+        pose_refinement refinement(picture_prior(), pictures,
+                                   {.eta = slight_eta, .deviation = radians(2.0), .calibrated_by = believed});
+        refinement.solve();
+        return mapped_error(refinement.fit(), truth);
+      };
+      right += error(taken);
+      wrong += error(taken == light_calibration::irradiance ? light_calibration::reference_in_place
+                                                            : light_calibration::irradiance);
+    }
+    CAPTURE(right);
+    CAPTURE(wrong);
+    CHECK(right < 0.2 * wrong);  // measured: 0.076
   }
 }
 

@@ -24,11 +24,18 @@ struct picture_turns {
   Eigen::Vector3d light = Eigen::Vector3d::Zero(), camera = Eigen::Vector3d::Zero();
 };
 
+/// How pictures were turned into reflectance, which says what a light that is off its place does to their values.
+enum class light_calibration {
+  irradiance,  ///< by the irradiance of a surface that faces the light, and the cosine of where the light should be
+  reference_in_place  ///< by a white reference that lay where the sample lies: the cosine of where the light is
+};
+
 /// What the refinement expects.
 struct pose_refinement_options {
   double eta = 40.0;                ///< Tikhonov's penalty of the weights
   double deviation = radians(0.5);  ///< of light and of camera: the root mean square of the angle of their turns
-  int iterations = 20;              ///< at most
+  light_calibration calibrated_by = light_calibration::irradiance;
+  int iterations = 20;  ///< at most
   thread_count threads = {};
 };
 
@@ -73,6 +80,7 @@ class pose_iteration {
   };
 
   void require_sensible() const;
+  [[nodiscard]] sample turned(const pair_sample& s, const picture_turns& turns) const;
   /// The equations of one picture from row `begin` on.
   void add_picture(const picture_samples& picture, const picture_turns& turns, const reader& read, Eigen::Index begin,
                    equations& out) const;
@@ -99,7 +107,8 @@ class pose_iteration {
 ///   sum over samples and channels of w |y(t) - Q(t) c|^2 + eta |c|^2 + (eta / m) 3 |t|^2 / deviation^2,
 ///
 /// the most probable ones if every sample's error has the variance eta / m, which is what the penalty says. The mapped
-/// values y, less the prior's mean, and its rows Q depend on t through the directions. For given turns the weights are
+/// values y, less the prior's mean, and its rows Q depend on t through the directions, and y through the light's cosine
+/// that was divided by. For given turns the weights are
 /// Tikhonov's and leave F(t) = eta y'(Q Q' + eta I)^-1 y; turns are found by Gauss and Newton's steps on F (variable
 /// projection with Kaufman's derivative, BIT 15, 1975), shortened until they help. O(n k^2 + k^3) a step.
 ///
@@ -129,7 +138,7 @@ class pose_refinement {
     return {prior_, std::move(found)};
   }
 
-  /// The samples where they were found to be, for any estimator.
+  /// The samples where they were found to be, with the values that they have there, for any estimator.
   [[nodiscard]] sample_set samples() const { return iteration_.samples(); }
 
   /// One step of Gauss and Newton.

@@ -26,11 +26,14 @@ namespace gonio::detail {
   return cosine * w + along * axis + std::sin(angle) * cross_product(axis, w);
 }
 
-/// Where one sample of a picture is after the turns; where that would be below the horizon, where it was.
-[[nodiscard]] GONIO_INLINE half_difference turned_angles(const pair_sample& s, const picture_turns& turns) {
-  const direction wi = turned_by(s.directions.wi, turns.light), wo = turned_by(s.directions.wo, turns.camera);
-  const bool above = wi.z() > 0.0 && wo.z() > 0.0;
-  return above ? to_half_difference(wi, wo) : to_half_difference(s.directions.wi, s.directions.wo);
+/// One sample of a picture after the turns; where that would be below the horizon, as it was. Its radiance is what was
+/// measured: reflectance is radiance over irradiance and the light's cosine, which turns with the light.
+[[nodiscard]] GONIO_INLINE sample turned_sample(const pair_sample& s, const picture_turns& turns, bool by_irradiance) {
+  const auto& [nominal_wi, nominal_wo] = s.directions;
+  const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
+  if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {to_half_difference(nominal_wi, nominal_wo), s.value, s.weight};
+  const double cosines = by_irradiance ? nominal_wi.z() / wi.z() : 1.0;
+  return {to_half_difference(wi, wo), cosines * s.value, s.weight};
 }
 
 GONIO_INLINE pose_iteration::pose_iteration(std::vector<picture_samples> pictures,
@@ -56,10 +59,14 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   for (const picture_samples& picture : pictures_) require_usable(as_sample_set(picture));
 }
 
+GONIO_INLINE sample pose_iteration::turned(const pair_sample& s, const picture_turns& turns) const {
+  return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
+}
+
 GONIO_INLINE sample_set pose_iteration::samples() const {
   sample_set all;
   for (std::size_t p = 0; p < pictures_.size(); ++p)
-    for (const pair_sample& s : pictures_[p]) all.push_back({turned_angles(s, turns_[p]), s.value, s.weight});
+    for (const pair_sample& s : pictures_[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
 
@@ -89,9 +96,10 @@ GONIO_INLINE void pose_iteration::add_picture(const picture_samples& picture, co
         for (std::size_t i = range.begin; i < range.end; ++i) {
           const Eigen::Index sample = begin + static_cast<Eigen::Index>(i);
           const double root = std::sqrt(picture[i].weight);
+          const auto [angles, value, weight] = turned(picture[i], turns);
           rgb right;
           auto column = out.columns.col(sample);
-          read(turned_angles(picture[i], turns), picture[i].value, column.transpose(), right);
+          read(angles, value, column.transpose(), right);
           column *= root;
           for (Eigen::Index c = 0; c < 3; ++c) out.right(sample, c) = root * right[c];
         }
