@@ -84,15 +84,15 @@ TEST_CASE("property: weights average the mapped luminances, and what is between 
       const bool between = s.angles.theta_h > wide.in_peak && s.angles.theta_h < wide.off_peak;
       if (between) s.value *= doubled;
       if (s.angles.theta_h > wide.in_peak) continue;
-      mapped += s.weight * contrast_reference().forward(s.value.x(), gonio::locate(small_cells(), s.angles));
-      weights += s.weight;
+      mapped += s.weight.mean() * contrast_reference().forward(s.value.x(), gonio::locate(small_cells(), s.angles));
+      weights += s.weight.mean();
     }
     samples.push_back({{0.7, 0.1, 0.2}, gonio::rgb::Constant(0.2), 1.0});
     const auto found = highlight_contrast(contrast_reference(), samples, wide);
     RC_ASSERT(found.has_value() == (weights > 0.0));
     if (!found) return;
     const double in_peak = mapped / weights;
-    for (auto& s : samples) s.weight *= 2.0;
+    for (auto& s : samples) s.weight = 2.0 * s.weight.mean();
     RC_ASSERT(std::abs(*highlight_contrast(contrast_reference(), samples, wide) - *found) < 1e-9);
     for (auto& s : samples)
       if (s.angles.theta_h > wide.in_peak) s.weight = 0.0;

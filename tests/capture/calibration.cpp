@@ -40,7 +40,7 @@ TEST_CASE("calibration: the ratio to the white reference is the BRDF") {
   CHECK(found.relative_deviation() > 0.004);
   CHECK(found.relative_deviation() < 0.012);
   const gonio::sample as_sample = found.as_sample();
-  CHECK(as_sample.weight == doctest::Approx(gonio::weight_of(found.relative_deviation())));
+  CHECK(as_sample.weight == found.weights());
   CHECK(as_sample.angles.theta_d == doctest::Approx(gonio::to_half_difference(somewhere.wi, somewhere.wo).theta_d));
 }
 
@@ -67,7 +67,23 @@ TEST_CASE("calibration: what means nothing says why") {
   CHECK(yellow.is_usable());
   CHECK(yellow.value.z() == 0.0);
   CHECK(yellow.deviation.z() > 0.0);
-  CHECK(yellow.as_sample().weight > 0.3);
+  CHECK(yellow.as_sample().weight[0] > 0.3);
+}
+
+TEST_CASE(
+    "calibration: a channel counts by its own deviation: the near-black one of a paint less than the bright ones") {
+  const auto measured = [](const gonio::rgb& value, const gonio::rgb& deviation) {
+    return gonio::measured_reflectance{somewhere, value, deviation}.as_sample().weight;
+  };
+  // Noise of 0.002 is a percent of one channel and all of another.
+  const auto red = measured({0.2, 0.002, 0.0}, gonio::rgb::Constant(0.002));
+  CHECK(red[0] > 0.9);
+  CHECK(red[1] < 0.1 * red[0]);
+  CHECK(red[2] < red[1]);
+  CHECK(red[2] > 0.0);  // that it is dark is known
+  // Below the offset of the logarithm a deviation means no more than that.
+  CHECK(measured({0.0, 0.0, 0.0}, gonio::rgb::Constant(1e-6)).is_uniform());
+  CHECK(measured({0.0, 0.0, 0.0}, gonio::rgb::Constant(1e-6))[0] == doctest::Approx(1.0).epsilon(0.01));
 }
 
 TEST_CASE("calibration: the responses of the three colours come from the times that all readings share") {

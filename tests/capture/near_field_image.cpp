@@ -140,10 +140,11 @@ TEST_CASE("blocks average their pixels, and count by their share") {
   double weights = 0.0;
   for (const gonio::sample& s : pixels) sum_of_pixels += s.value;
   for (const gonio::sample& s : blocks) {
-    CHECK(s.weight > 0.0);
-    CHECK(s.weight <= 1.0);
-    sum_of_blocks += 49.0 * s.weight * s.value;
-    weights += 49.0 * s.weight;
+    CHECK(s.weight.is_uniform());
+    CHECK(s.weight.counts());
+    CHECK(s.weight.mean() <= 1.0);
+    sum_of_blocks += 49.0 * s.weight.of_each() * s.value;
+    weights += 49.0 * s.weight.mean();
   }
   CHECK(weights == doctest::Approx(static_cast<double>(pixels.size())));
   CHECK((sum_of_blocks / sum_of_pixels - 1.0).abs().maxCoeff() < 1e-6);

@@ -372,6 +372,22 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
   CHECK_THROWS_WITH_AS(automatic.fit(with_ignored), doctest::Contains("weight zero"), gonio::error);
 }
 
+TEST_CASE("a channel's corrections follow the weights of that channel") {
+  const correction_iteration estimator{combination{world().others}, world().corrections, gonio::trust_all{}};
+  auto apart = world().samples(60), alike = apart;
+  for (std::size_t i = 0; i < apart.size(); ++i) {
+    const double own = i % 3 == 0 ? 5.0 : 0.5;
+    apart[i].weight = gonio::rgb(1.0, own, 2.0);
+    alike[i].weight = own;
+  }
+  const auto one = estimator.fit(apart), other = estimator.fit(alike);
+  for (std::size_t round = 0; round < one.weights().size(); ++round) {
+    CHECK((one.weights()[round].col(1) - other.weights()[round].col(1)).norm() <
+          1e-6 * other.weights()[round].col(1).norm());
+    CHECK((one.weights()[round].col(0) - other.weights()[round].col(0)).norm() > 0.0);
+  }
+}
+
 TEST_CASE("difficult samples give a finite, non-negative BRDF with every weighting") {
   for (const auto& named : difficult_samples()) {
     CAPTURE(named.first);

@@ -6,6 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <random>
+
 using gonio::decomposition;
 using gonio::rgb;
 using gonio::sample_set;
@@ -60,6 +63,52 @@ TEST_CASE("the system is what the equations say") {
     CHECK(problem.right_hand_side()(row, 1) ==
           doctest::Approx(prior().metric().forward(truth.at(chosen[i]).y(), chosen[i]) - prior().offset(chosen[i])));
   }
+}
+
+TEST_CASE("channels that count apart are fitted each with its own weights") {
+  auto samples = gonio::measure(made_up_materials(cells(), 8).table(2), gonio::random_cells(cells(), 20, 3));
+  const auto weight = [](std::size_t i, Eigen::Index c) {
+    return 0.1 + static_cast<double>((3 * static_cast<Eigen::Index>(i) + 7 * c) % 5);
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) samples[i].weight = rgb(weight(i, 0), weight(i, 1), weight(i, 2));
+  CHECK(gonio::basis_equations{prior(), samples}.systems() == 3);
+  const auto apart = decomposition{prior(), tikhonov{0.3}}.fit(samples).found();
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < samples.size(); ++i) samples[i].weight = weight(i, c);
+    CHECK(gonio::basis_equations{prior(), samples}.systems() == 1);
+    const auto alike = decomposition{prior(), tikhonov{0.3}}.fit(samples).found();
+    CHECK((apart.weights.col(c) - alike.weights.col(c)).norm() < 1e-12 * alike.weights.norm());
+    CHECK(apart.residual[c] == doctest::Approx(alike.residual[c]).epsilon(1e-12));
+    CHECK((apart.weights.col((c + 1) % 3) - alike.weights.col((c + 1) % 3)).norm() > 1e-3 * alike.weights.norm());
+  }
+}
+
+TEST_CASE("noise in a channel that says so by its weight does less harm, and none to the other channels") {
+  const auto truth = made_up_materials(cells(), 8).table(5);
+  double heeded = 0.0, ignored = 0.0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    auto samples = gonio::measure(truth, gonio::random_cells(cells(), 30, seed));
+    std::mt19937_64 generator(seed);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < samples.size(); i += 2) samples[i].value.z() *= std::exp(0.7 * normal(generator));
+    const auto error = [&](const gonio::sample_set& measured, Eigen::Index channel) {
+      const auto fit = decomposition{prior(), tikhonov{0.1}}.fit(measured);
+      double sum = 0.0;
+      for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+        const auto at = gonio::locate_cell(cells(), cell);
+        const double expected = prior().metric().forward(truth.at(cell)[channel], at);
+        sum += std::pow(fit.mapped(cell)[channel] - expected, 2);
+      }
+      return sum;
+    };
+    auto weighted = samples;
+    for (std::size_t i = 0; i < samples.size(); i += 2) weighted[i].weight = rgb(1.0, 1.0, 0.01);
+    heeded += error(weighted, 2);
+    ignored += error(samples, 2);
+    CHECK(error(weighted, 0) == doctest::Approx(error(samples, 0)).epsilon(1e-9));
+  }
+  CAPTURE(heeded / ignored);
+  CHECK(heeded < 0.5 * ignored);
 }
 
 TEST_CASE("an infinite penalty gives the mean material, whatever was measured") {

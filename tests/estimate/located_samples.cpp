@@ -7,6 +7,7 @@
 #include <rapidcheck.h>
 
 using gonio::locate_samples;
+using gonio::rgb;
 
 namespace {
 
@@ -27,29 +28,37 @@ const gonio::brdf_table& some_table() {
 TEST_CASE("samples are placed where they are, with their values and weights") {
   CHECK(rc::check([] {
     const auto seed = *rc::gen::inRange(0, 1000);
+    const bool apart = *rc::gen::arbitrary<bool>();
+    const auto count = [] { return static_cast<double>(*rc::gen::inRange(0, 3)); };
     auto samples =
         gonio::measure(some_table(), gonio::random_cells(small_cells(), 12, static_cast<std::uint64_t>(seed)));
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      samples[i].weight = *rc::gen::inRange(0, 3);
+      samples[i].weight = count();
+      if (apart) samples[i].weight = rgb(count(), count(), count());
       if (*rc::gen::arbitrary<bool>()) samples[i].angles.theta_h *= 0.9;
       if (*rc::gen::arbitrary<bool>()) samples[i].value.x() = -1.5;
     }
-    samples[5].weight = 0.25;
+    samples[5].weight = apart ? gonio::channel_weights(rgb(0.0, 0.0, 0.25)) : 0.25;
     const auto found = locate_samples(small_cells(), samples);
     std::size_t next = 0;
     for (const gonio::sample& s : samples) {
-      if (s.weight == 0.0) continue;
+      if (!s.weight.counts()) continue;
       RC_ASSERT(next < found.size());
       const auto expected = gonio::locate(small_cells(), s.angles);
       RC_ASSERT(found.at[next].cell == expected.cell);
       RC_ASSERT(found.at[next].weight == expected.weight);
       RC_ASSERT((found.values.row(static_cast<Eigen::Index>(next)).transpose().array() == s.value).all());
-      RC_ASSERT(found.weights[static_cast<Eigen::Index>(next)] == s.weight);
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        RC_ASSERT(found.weights_of(c)[static_cast<Eigen::Index>(next)] == s.weight[c]);
+        RC_ASSERT(found.channel_weights()(c, static_cast<Eigen::Index>(next)) == static_cast<float>(s.weight[c]));
+      }
       ++next;
     }
     RC_ASSERT(next == found.size());
     RC_ASSERT(found.values.rows() == static_cast<Eigen::Index>(next));
-    RC_ASSERT(found.weights.size() == static_cast<Eigen::Index>(next));
+    RC_ASSERT(found.weighs_channels_apart() == apart);
+    RC_ASSERT(found.weights.rows() == static_cast<Eigen::Index>(next));
+    RC_ASSERT(found.weights.cols() == (apart ? 3 : 1));
   }));
 }
 
@@ -59,7 +68,7 @@ TEST_CASE("a view of a laboratory's own struct is taken in place") {
   REQUIRE(found.size() == 2);
   CHECK(found.at[1].angles.theta_h == 0.2);
   CHECK(found.values(1, 2) == 2.0);
-  CHECK(found.weights[0] == 0.5);
+  CHECK(found.weights(0, 0) == 0.5);
 }
 
 TEST_CASE("a subset has the chosen samples in the order given") {

@@ -80,6 +80,13 @@ TEST_CASE("weights count, threads do not") {
   const misplaced_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
   CHECK((estimator.fit(samples).found().weights - estimator.fit(doubled).found().weights).norm() <
         1e-8 * one.found().weights.norm());
+  // Nor do the weights of other channels matter to one.
+  for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
+  CHECK((estimator.fit(samples).found().weights.col(0) - one.found().weights.col(0)).norm() > 0.0);
+  const auto apart = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  for (auto& s : samples) s.weight = 3.0;
+  const auto alike = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  CHECK((apart.col(2) - alike.col(2)).norm() < 1e-10 * alike.norm());
 }
 
 TEST_CASE("what cannot be is refused by who expects misplacement") {

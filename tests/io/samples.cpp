@@ -37,6 +37,16 @@ TEST_CASE("half and difference angles are read in degrees") {
   CHECK(samples[1].weight == 0.0);
 }
 
+TEST_CASE("a weight for each channel") {
+  const std::string columns = "weight_g,theta_h,theta_d,phi_d,r,g,b,weight_r,weight_b\n";
+  const auto samples = parse_samples(columns + "0.5,10,20,30,1,2,3,2,0\n", "x");
+  CHECK(samples[0].weight == gonio::channel_weights(gonio::rgb(2.0, 0.5, 0.0)));
+  check_text_refused(columns + "0.5,10,20,30,1,2,3,2,-1\n", {"line 2", "weight_b", "-1", "negative"});
+  check_text_refused("theta_h,theta_d,phi_d,r,g,b,weight_r,weight_b\n1,2,3,1,1,1,1,1\n", {"weight_g", "missing"});
+  check_text_refused("theta_h,theta_d,phi_d,r,g,b,weight,weight_r,weight_g,weight_b\n1,2,3,1,1,1,1,1,1,1\n",
+                     {"line 1", "two ways", "weight_r,weight_g,weight_b"});
+}
+
 TEST_CASE("all three ways to give directions agree") {
   const gonio::direction wi = gonio::spherical_direction(radians(30), radians(40));
   const gonio::direction wo = gonio::spherical_direction(radians(50), radians(200));
@@ -183,6 +193,7 @@ TEST_CASE("a written set reads back") {
       return low + (high - low) * *rc::gen::inRange(0, 1 << 30) / (1 << 30);
     };
     gonio::sample_set samples(static_cast<std::size_t>(*rc::gen::inRange(1, 20)));
+    const bool apart = *rc::gen::arbitrary<bool>();
     for (gonio::sample& s : samples) {
       const auto polar = [&] { return radians(number(0.0, 89.9)); };
       const auto wi = gonio::spherical_direction(polar(), radians(number(0.0, 360.0)));
@@ -190,6 +201,7 @@ TEST_CASE("a written set reads back") {
       s = {gonio::to_half_difference(wi, wo),
            {number(-1.0, 1.0), number(0.0, 1e-7), number(0.0, 1e9)},
            number(0.0, 5.0)};
+      if (apart) s.weight = gonio::rgb(number(0.0, 5.0), number(0.0, 5.0), 1.0);
     }
     write_samples(here / "a", samples);
     const auto again = read_samples(here / "a");

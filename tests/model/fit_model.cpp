@@ -144,6 +144,26 @@ TEST_CASE("the same bytes for any number of threads, and weights count") {
   CHECK(one.model.lobes()[1].parameters()[0] == doctest::Approx(30.0).epsilon(1e-6));
 }
 
+TEST_CASE("a channel of weight zero does not matter, the others of the same measurement do") {
+  const lobe_kind &lambert = lobe_kind::of<gonio::lambert_shape>(), &phong = lobe_kind::of<gonio::phong_shape>();
+  const auto exact = observed(gonio::analytic_brdf({{lambert, {0.1, 0.3, 0.5}, {}}, {phong, {0.4, 0.2, 0.1}, {30.0}}}),
+                              scattered_pairs(600));
+  auto samples = exact;
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    samples[i].value[2] *= 5.0;
+    samples[i].weight = rgb(1.0, 2.0, 0.0);
+  }
+  const auto check = [&](const auto& metric, gonio::fit_norm norm) {
+    const auto fit = gonio::fit_model({&lambert, &phong}, samples, metric, {.norm = norm});
+    CHECK((fit.model.lobes()[0].colour() - rgb(0.1, 0.3, 0.5)).abs().maxCoeff() < 1e-3);
+    CHECK((fit.model.lobes()[1].colour() - rgb(0.4, 0.2, 0.1)).abs().maxCoeff() < 1e-3);
+    CHECK(fit.model.lobes()[1].parameters()[0] == doctest::Approx(30.0).epsilon(1e-3));
+    CHECK(fit.loss < 1e-3);
+  };
+  check(gonio::lin(), gonio::fit_norm::l2);
+  check(gonio::log(), gonio::fit_norm::l1);
+}
+
 TEST_CASE("a table is fitted as its cells are") {
   const gonio::valid_cells cells(gonio::grid({18, 12, 18}));
   const gonio::ward paint(rgb(0.1, 0.2, 0.3), {.roughness = 0.3});

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 using gonio::automatic_tikhonov;
 using gonio::choose_eta;
@@ -84,6 +85,25 @@ TEST_CASE("leave-one-out is refitting without each row, generalised cross-valida
       RC_ASSERT(std::abs(generalised[e] - defined) < 1e-8 * defined);
     }
   }));
+}
+
+TEST_CASE("several problems with one eta: their criteria add up, and those with too few observations say nothing") {
+  for (const eta_criterion criterion : criteria)
+    for (unsigned seed = 0; seed < 5; ++seed) {
+      const auto both = noisy_problem(12, 20, 0.3, seed);
+      const auto column = [&](Eigen::Index c) {
+        return least_squares_problem(both.rows(), Eigen::MatrixXd(both.right_hand_side().col(c)), both.weights());
+      };
+      const std::vector<least_squares_problem> apart{column(0), column(1)};
+      const double eta = choose_eta(both, criterion);
+      CHECK(choose_eta(apart, criterion) == doctest::Approx(eta).epsilon(1e-9));
+      Eigen::VectorXd nothing = Eigen::VectorXd::Zero(12);
+      nothing[3] = 1.0;
+      const std::vector<least_squares_problem> with_one{
+          column(0), {both.rows(), Eigen::MatrixXd(both.right_hand_side().col(1)), nothing}};
+      CHECK(choose_eta(with_one, criterion) == choose_eta(column(0), criterion));
+    }
+  CHECK_THROWS_AS(choose_eta(std::vector<least_squares_problem>{}, criteria[0]), gonio::error);
 }
 
 TEST_CASE("more rows than a block holds") {

@@ -92,7 +92,7 @@ Eigen::MatrixXd information(const gonio::analytic_brdf& f, const std::vector<gon
         row[j + channel] = value;
         j += 3;
       }
-      sum += seen.weight * row * row.transpose();
+      sum += seen.weight[channel] * row * row.transpose();
     }
   return sum;
 }

@@ -84,8 +84,8 @@ template <sample_range Samples>
     const bool in_peak = s.angles.theta_h <= regions.in_peak;
     if (!in_peak && s.angles.theta_h < regions.off_peak) continue;
     const double mapped = reference.forward(luminance(s.value), locate(reference.cells(), s.angles));
-    (in_peak ? sums.in_peak : sums.off_peak)[0] += s.weight * mapped;
-    (in_peak ? sums.in_weight : sums.off_weight) += s.weight;
+    (in_peak ? sums.in_peak : sums.off_peak)[0] += s.weight.mean() * mapped;
+    (in_peak ? sums.in_weight : sums.off_weight) += s.weight.mean();
   }
   if (!sums.complete()) return {};
   return sums.contrasts()[0];

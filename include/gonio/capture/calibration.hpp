@@ -54,10 +54,11 @@ struct measured_reflectance {
   /// Of the sum of the channels: a colour in which the material is black need not be known well.
   [[nodiscard]] double relative_deviation() const noexcept;
 
-  /// The sample that estimators take, with the weight of its deviation. Not for values that mean nothing.
-  [[nodiscard]] sample as_sample() const {
-    return {to_half_difference(at.wi, at.wo), value, weight_of(relative_deviation())};
-  }
+  /// How much each channel counts, by what its deviation does to the logarithm that estimators compare.
+  [[nodiscard]] channel_weights weights() const;
+
+  /// The sample that estimators take, with these weights. Not for values that mean nothing.
+  [[nodiscard]] sample as_sample() const { return {to_half_difference(at.wi, at.wo), value, weights()}; }
 };
 
 /// The BRDF of a material from a reading of it and one of the reference at the same pair of directions (Eq. 18), by

@@ -6,7 +6,6 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/solver.hpp>
 
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,15 +13,12 @@
 namespace gonio {
 
 /// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
-/// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis in common
-/// share one system, with a right-hand side for each. Rows are read from the basis block by block, never copied as a
-/// whole.
+/// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis and weights
+/// in common share one system, with a right-hand side for each. Rows are read from the basis block by block, never
+/// copied as a whole.
 template <colour_basis Basis>
 class basis_equations {
  public:
-  /// Systems to solve: one if the channels share their basis, else three.
-  static constexpr std::size_t systems = basis<Basis> ? 1 : 3;
-
   basis_equations(Basis functions, located_samples samples, thread_count threads = {})
       : basis_(std::move(functions)),
         measured_(std::make_shared<const located_samples>(std::move(samples))),
@@ -34,9 +30,14 @@ class basis_equations {
   basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
       : basis_equations(functions, locate_samples(functions.cells(), samples, threads), threads) {}
 
-  /// The system of one channel, or of all if they have the basis in common, over all functions of the basis.
-  [[nodiscard]] least_squares_problem problem(std::size_t channel = 0) const {
-    const auto functions = channel_of(basis_, channel);
+  /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
+  [[nodiscard]] std::size_t systems() const noexcept {
+    return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : static_cast<std::size_t>(channels());
+  }
+
+  /// A system over all functions of the basis: of a channel, or of all if there is but one.
+  [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const {
+    const auto functions = channel_of(basis_, system);
     const std::shared_ptr<const located_samples> measured = measured_;
     const row_source rows{static_cast<Eigen::Index>(measured->at.size()), static_cast<Eigen::Index>(functions.size()),
                           [functions, measured](block range, row_block out) {
@@ -44,7 +45,15 @@ class basis_equations {
                               read_row_at(functions, measured->at[i],
                                           out.row(static_cast<Eigen::Index>(i - range.begin)));
                           }};
-    return {rows, mapped(functions, static_cast<Eigen::Index>(channel)), measured->weights, threads_};
+    const auto first = static_cast<Eigen::Index>(system);
+    return {rows, mapped(functions, first), measured->weights_of(first), threads_};
+  }
+
+  /// All systems.
+  [[nodiscard]] std::vector<least_squares_problem> problems() const {
+    std::vector<least_squares_problem> all;
+    for (std::size_t system = 0; system < systems(); ++system) all.push_back(problem(system));
+    return all;
   }
 
   /// The weights of all functions, size() x channels, by `solver(problem)` for each system, which returns a solution;
@@ -53,9 +62,9 @@ class basis_equations {
   [[nodiscard]] solution solve(const Solve& solver) const {
     const std::vector<Eigen::Index> columns = columns_of(basis_);
     const auto unknowns = static_cast<Eigen::Index>(basis_.size());
-    std::array<solution, systems> found;
+    std::vector<solution> found(systems());
     for_each_block(
-        systems, 1,
+        found.size(), 1,
         [&](block system) {
           const least_squares_problem whole = problem(system.begin);
           const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
@@ -66,10 +75,13 @@ class basis_equations {
   }
 
  private:
+  [[nodiscard]] Eigen::Index channels() const noexcept { return measured_->values.cols(); }
+
+  /// The mapped values of the channels of a system, of which `first` is the first.
   template <class Functions>
   [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
-    const Eigen::Index channels = measured_->values.cols() / static_cast<Eigen::Index>(systems);
-    Eigen::MatrixXd right(measured_->values.rows(), channels);
+    const Eigen::Index together = systems() == 1 ? channels() : 1;
+    Eigen::MatrixXd right(measured_->values.rows(), together);
     for_each_block(
         measured_->at.size(), 4096,
         [&](block range) {
@@ -77,7 +89,7 @@ class basis_equations {
             const location& at = measured_->at[i];
             const double offset = offset_at(functions, at);
             const auto row = static_cast<Eigen::Index>(i);
-            for (Eigen::Index c = 0; c < channels; ++c)
+            for (Eigen::Index c = 0; c < together; ++c)
               right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
           }
         },

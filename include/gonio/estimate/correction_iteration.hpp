@@ -61,7 +61,7 @@ class correction_run {
         places_(samples.at),
         functions_(corrections_, samples.at, threads),
         measured_(samples.channels()),
-        confidence_(samples.weights.array().template cast<float>()),
+        confidence_(samples.channel_weights()),
         started_(values_at(initial_, corrections_.cells(), samples.at, threads)),
         total_(channel_values::Ones(3, measured_.cols())) {}
 
@@ -79,7 +79,7 @@ class correction_run {
   /// One round with given outlier weights. As long as they stay the same, only the right-hand sides of the normal
   /// equations are new (Eq. 9-10 with Eq. 16).
   correction_round step(const channel_values& trust) {
-    const channel_values wanted = sigma(), weights = trust.rowwise() * confidence_.transpose();
+    const channel_values wanted = sigma(), weights = trust * confidence_;
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
       assemble(weights, wanted);
     else
@@ -149,7 +149,7 @@ class correction_run {
   std::vector<location> places_;
   sampled_functions<correction> functions_;
   channel_values measured_;
-  Eigen::ArrayXf confidence_;
+  channel_values confidence_;
   channel_values started_, total_;
   channel_values gram_weights_;  // for which these were built:
   std::array<Eigen::MatrixXd, 3> grams_;

@@ -11,7 +11,10 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/choose_eta.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
+#include <vector>
 
 namespace gonio {
 
@@ -27,9 +30,21 @@ template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_noise(const pca<Metric>& prior, const Samples& samples, double noise,
                                   thread_count threads = {}) {
   const located_samples located = locate_samples(prior.cells(), samples, threads);
-  const left_out_error error(prior, located.at, located.weights, noise, threads);
+  std::vector<left_out_error> errors;  // of each channel, if these do not count alike
+  double largest = 0.0;
+  for (Eigen::Index column = 0; column < located.weights.cols(); ++column) {
+    const Eigen::VectorXd weights = located.weights.col(column);
+    if (weights.isZero(0.0)) continue;
+    errors.emplace_back(prior, located.at, weights, noise, threads);
+    largest = std::max(largest, errors.back().largest());
+  }
+  const auto sum = [&](const Eigen::VectorXd& etas) {
+    Eigen::VectorXd all = errors.front()(etas);
+    for (std::size_t i = 1; i < errors.size(); ++i) all += errors[i](etas);
+    return all;
+  };
   // Less than 1e-7 of the largest eigenvalue is no penalty; a hundred times that eigenvalue leaves the mean material.
-  return detail::eta_of_least(error, 1e-7 * error.largest(), 1e2 * error.largest());
+  return detail::eta_of_least(sum, 1e-7 * largest, 1e2 * largest);
 }
 
 /// The etas of no noise and of the largest that is plausible, for cross-validation to choose between: of a few rows GCV
@@ -53,7 +68,7 @@ template <error_metric Metric, class Samples>
 template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_unknown_noise(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
                                           thread_count threads = {}) {
-  return choose_eta(basis_equations<pca<Metric>>(prior, samples, threads).problem(),
+  return choose_eta(basis_equations<pca<Metric>>(prior, samples, threads).problems(),
                     eta_criterion::generalised_cross_validation,
                     plausible_etas(prior, samples, largest_noise, threads));
 }

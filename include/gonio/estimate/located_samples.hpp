@@ -20,9 +20,20 @@ using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 struct located_samples {
   std::vector<location> at;
   Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or whatever is observed over the domain
-  Eigen::VectorXd weights;
+  /// n x channels, or n x 1 if each measurement counts the same in all channels.
+  Eigen::MatrixXd weights;
 
   [[nodiscard]] std::size_t size() const noexcept { return at.size(); }
+
+  /// Is there a measurement that counts more in one channel than in another?
+  [[nodiscard]] bool weighs_channels_apart() const noexcept { return weights.cols() > 1; }
+  /// What the measurements count in one channel.
+  [[nodiscard]] Eigen::VectorXd weights_of(Eigen::Index channel) const {
+    return weights.col(weighs_channels_apart() ? channel : 0);
+  }
+
+  /// The weights as estimators keep them.
+  [[nodiscard]] channel_values channel_weights() const;
 
   /// The values as estimators keep them.
   [[nodiscard]] channel_values channels() const;
@@ -33,8 +44,8 @@ struct located_samples {
 
 namespace detail {
 
-/// Throws gonio::error if there is room for none.
-[[nodiscard]] located_samples room_for_samples(Eigen::Index count);
+/// With a weight for each channel if these are `apart`. Throws gonio::error if there is room for none.
+[[nodiscard]] located_samples room_for_samples(Eigen::Index count, bool apart);
 /// Without its location but for the angles. `number` is the sample's among all, for the message.
 void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number);
 /// Completes the locations.
@@ -42,21 +53,25 @@ void locate_angles(located_samples& samples, const valid_cells& cells, thread_co
 
 }  // namespace detail
 
-/// Samples on given cells. Those of weight zero are left out: whatever looks at all samples, as outlier weights do,
-/// must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond the range of
-/// float, or if all weights are zero. O(samples).
+/// Samples on given cells. Those of weight zero in all channels are left out: whatever looks at all samples, as outlier
+/// weights do, must not see them. Throws gonio::error for unusable ones (`require_usable`), for a reflectance beyond
+/// the range of float, or if all weights are zero. O(samples).
 template <sample_range Samples>
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const Samples& samples,
                                              thread_count threads = {}) {
   require_usable(samples);
   Eigen::Index count = 0;
-  for (const sample& s : samples) count += s.weight > 0.0 ? 1 : 0;
-  located_samples found = detail::room_for_samples(count);
+  bool apart = false;
+  for (const sample& s : samples) {
+    count += s.weight.counts() ? 1 : 0;
+    apart = apart || !s.weight.is_uniform();
+  }
+  located_samples found = detail::room_for_samples(count, apart);
   Eigen::Index i = 0;
   std::size_t number = 0;
   for (const sample& s : samples) {
     ++number;
-    if (s.weight > 0.0) detail::put_sample(found, i++, s, number);
+    if (s.weight.counts()) detail::put_sample(found, i++, s, number);
   }
   detail::locate_angles(found, cells, threads);
   return found;

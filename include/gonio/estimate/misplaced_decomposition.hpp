@@ -12,6 +12,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gonio {
 
@@ -125,11 +126,18 @@ class misplaced_decomposition {
     return etas;
   }
 
-  [[nodiscard]] solution solve(const system& equations, const Eigen::VectorXd& sample_weights,
+  /// `sample_weights`: as `located_samples` has them.
+  [[nodiscard]] solution solve(const system& equations, const Eigen::MatrixXd& sample_weights,
                                const Eigen::VectorXd& own_eta) const {
     const double eta = solver_.eta();
-    return solver_.solve(
-        least_squares_problem(equations.rows, equations.right, sample_weights.array() * eta / (eta + own_eta.array())));
+    const Eigen::ArrayXd share = eta / (eta + own_eta.array());
+    const Eigen::Index systems = sample_weights.cols(), together = equations.right.cols() / systems;
+    std::vector<solution> found;
+    for (Eigen::Index column = 0; column < systems; ++column)
+      found.push_back(solver_.solve(least_squares_problem(
+          equations.rows, Eigen::MatrixXd(equations.right.middleCols(column * together, together)),
+          Eigen::VectorXd(sample_weights.col(column).array() * share))));
+    return side_by_side(found);
   }
 
   [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }

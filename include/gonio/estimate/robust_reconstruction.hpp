@@ -23,7 +23,7 @@ class reweighted_combination {
       : materials_(std::move(materials)),
         functions_(materials_, samples.at, threads),
         places_(samples.at),
-        confidence_(samples.weights.array().template cast<float>()),
+        confidence_(samples.channel_weights()),
         mapped_(map_values(materials_.metric(), samples.channels(), places_, threads)) {}
 
   /// Weights of the materials, k x 3, with x >= 0.
@@ -64,7 +64,7 @@ class reweighted_combination {
  private:
   [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& trust) const {
     const auto row = static_cast<Eigen::Index>(channel);
-    return functions_.normal(channel, trust.row(row) * confidence_.transpose(), mapped_.row(row))
+    return functions_.normal(channel, trust.row(row) * confidence_.row(row), mapped_.row(row))
         .subset(functions_.columns());
   }
 
@@ -79,7 +79,7 @@ class reweighted_combination {
   measured<Metric> materials_;
   sampled_functions<measured<Metric>> functions_;
   std::vector<location> places_;
-  Eigen::ArrayXf confidence_;
+  channel_values confidence_;
   channel_values mapped_;
 };
 
@@ -242,7 +242,7 @@ class robust_reconstruction {
     for (std::size_t i = 0; i < count; ++i) expected.at.push_back(locate_cell(cells, i * cells.size() / count));
     expected.values = nearest.values(chosen, expected.at).template cast<double>().matrix().transpose();
     expected.weights =
-        Eigen::VectorXd::Constant(std::ssize(expected.at), start_.expectation / static_cast<double>(count));
+        Eigen::MatrixXd::Constant(std::ssize(expected.at), 1, start_.expectation / static_cast<double>(count));
     return expected;
   }
 

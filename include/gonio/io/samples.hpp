@@ -2,7 +2,8 @@
 /// Measurements as CSV: a header line names the columns, in any order; each further line is a sample.
 /// Directions are `theta_h,theta_d,phi_d` or `theta_i,phi_i,theta_o,phi_o` in degrees, or unit vectors
 /// `wi_x,wi_y,wi_z,wo_x,wo_y,wo_z` (normal +z); the reflectance is `r,g,b` in sr^-1 without the cosine; a
-/// `weight` is optional. Empty lines and lines that start with # are skipped.
+/// `weight`, or one for each channel, `weight_r,weight_g,weight_b`, is optional. Empty lines and lines that start with
+/// # are skipped.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
@@ -22,7 +23,7 @@ namespace gonio::io {
 /// Reads measurements. Throws gonio::error naming file, line, column and value of what is wrong.
 [[nodiscard]] sample_set read_samples(const std::filesystem::path& path);
 
-/// Reads directions alone; the file may have `r,g,b` and `weight` columns, which are checked and left out.
+/// Reads directions alone; the file may have columns of reflectance and weights, which are checked and left out.
 [[nodiscard]] std::vector<half_difference> read_directions(const std::filesystem::path& path);
 
 /// Reads the same files as pairs, in which light and viewer are told apart.
@@ -33,20 +34,23 @@ void write_direction_pairs(const std::filesystem::path& path, std::span<const di
 
 namespace detail {
 
-inline constexpr std::string_view sample_header_line = "theta_h,theta_d,phi_d,r,g,b,weight\n";
-
-/// Appends a line.
-void format_sample(std::string& text, const sample& s);
+/// Appends a line, with one weight or one for each channel.
+void format_sample(std::string& text, const sample& s, bool weighs_channels_apart);
 
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace detail
 
-/// Samples as CSV text, every number in the fewest digits that read back as the same number.
+/// Samples as CSV text, every number in the fewest digits that read back as the same number. The columns are
+/// `theta_h,theta_d,phi_d,r,g,b,weight`, or `weight_r,weight_g,weight_b` if a sample counts more in one channel than in
+/// another.
 template <sample_range Samples>
 [[nodiscard]] std::string format_samples(const Samples& samples) {
-  std::string text(detail::sample_header_line);
-  for (auto&& each : samples) detail::format_sample(text, each);
+  bool apart = false;
+  for (const sample& each : samples) apart = apart || !each.weight.is_uniform();
+  std::string text("theta_h,theta_d,phi_d,r,g,b,");
+  text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
+  for (auto&& each : samples) detail::format_sample(text, each, apart);
   return text;
 }
 

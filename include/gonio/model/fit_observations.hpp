@@ -15,7 +15,7 @@ namespace gonio {
 struct fit_observation {
   lobe_geometry at;
   rgb value;
-  double weight;
+  channel_weights weight;
 };
 
 /// Samples. Throws gonio::error for those that cannot be used (`require_usable`).
@@ -30,7 +30,7 @@ template <sample_range Samples>
   return all;
 }
 
-/// All cells of a table, each of which counts once. 88 bytes a cell.
+/// All cells of a table, each of which counts once. 104 bytes a cell.
 [[nodiscard]] std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {});
 
 }  // namespace gonio

@@ -72,11 +72,12 @@ class model_loss {
   [[nodiscard]] analytic_brdf model(const Eigen::VectorXd& x) const;
 
   /// The products of all columns with one another: L values of shapes, then P slopes by coded parameters, then three
-  /// measured channels. Everything that is linear in the colours follows from them. O(N (L + P)^2).
-  [[nodiscard]] Eigen::MatrixXd products(const Eigen::VectorXd& u) const;
+  /// measured channels. Everything that is linear in the colours follows from them. One matrix for all channels if each
+  /// observation counts the same in them, else one for each. O(N (L + P)^2).
+  [[nodiscard]] std::vector<Eigen::MatrixXd> products(const Eigen::VectorXd& u) const;
 
-  /// The best colours by squares of linear residuals. Lobes that are dark everywhere stay black.
-  [[nodiscard]] Eigen::MatrixXd solve_colours(const Eigen::MatrixXd& products) const;
+  /// The best colours by squares of linear residuals, L x 3. Lobes that are dark everywhere stay black.
+  [[nodiscard]] Eigen::MatrixXd solve_colours(const std::vector<Eigen::MatrixXd>& products) const;
 
   /// Half the mean square of linear residuals with the best colours, as a function of the shapes alone.
   [[nodiscard]] local_parabola projected(const Eigen::VectorXd& u) const;
@@ -110,6 +111,12 @@ class model_loss {
   /// L x 3.
   [[nodiscard]] Eigen::MatrixXd colours(const Eigen::VectorXd& x) const;
 
+  /// The products with the weights of one channel.
+  [[nodiscard]] Eigen::MatrixXd products(const Eigen::VectorXd& u, Eigen::Index channel) const;
+  /// The best colours of `channels` channels from `first` on, which have these products in common.
+  [[nodiscard]] Eigen::MatrixXd solve_colours(const Eigen::MatrixXd& products, Eigen::Index first,
+                                              Eigen::Index channels) const;
+
   [[nodiscard]] double cosine(const fit_observation& seen) const {
     return options_.cosine_weighted ? seen.at.cosine_i : 1.0;
   }
@@ -131,6 +138,7 @@ class model_loss {
   std::span<const fit_observation> observations_;
   chosen_metric metric_;
   const model_fit_options& options_;
+  bool weighs_channels_apart_ = false;
   double total_weight_ = 0.0, median_size_ = 0.0, loss_of_nothing_ = 0.0;
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace gonio {
 
@@ -71,6 +72,11 @@ void require_etas(const eta_range& range);
 /// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3), and leave-one-out reads the rows twice for O(n k (k + E r)) with
 /// the number of candidates E.
 [[nodiscard]] double choose_eta(const least_squares_problem& problem, eta_criterion criterion,
+                                const eta_range& plausible = {});
+
+/// The same for several problems whose eta is one: the sum of their criteria is minimised. Problems with less than two
+/// observations say nothing, if others do.
+[[nodiscard]] double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                 const eta_range& plausible = {});
 
 /// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows: normal equations alone do not

@@ -11,11 +11,33 @@
 
 namespace gonio {
 
+/// How much a measurement counts in each colour channel. A number alone counts in all three: `sample.weight = 0.5`.
+class channel_weights {
+ public:
+  channel_weights(double of_all = 1.0) : of_each_(rgb::Constant(of_all)) {}
+  channel_weights(const rgb& of_each) : of_each_(of_each) {}
+
+  [[nodiscard]] double operator[](Eigen::Index channel) const { return of_each_[channel]; }
+  [[nodiscard]] const rgb& of_each() const noexcept { return of_each_; }
+  [[nodiscard]] double mean() const { return of_each_.sum() / 3.0; }
+  /// Do all channels count alike?
+  [[nodiscard]] bool is_uniform() const noexcept { return of_each_[0] == of_each_[1] && of_each_[1] == of_each_[2]; }
+  /// Does the measurement count in any channel?
+  [[nodiscard]] bool counts() const noexcept { return of_each_[0] > 0.0 || of_each_[1] > 0.0 || of_each_[2] > 0.0; }
+
+  [[nodiscard]] friend bool operator==(const channel_weights& a, const channel_weights& b) noexcept {
+    return a.of_each_[0] == b.of_each_[0] && a.of_each_[1] == b.of_each_[1] && a.of_each_[2] == b.of_each_[2];
+  }
+
+ private:
+  rgb of_each_;
+};
+
 /// One measurement: where, what (sr^-1, without the cosine; may be negative), and how much it counts.
 struct sample {
   half_difference angles;
   rgb value{0.0, 0.0, 0.0};
-  double weight = 1.0;
+  channel_weights weight = {};
 };
 
 /// Any range of measurements. A laboratory with a struct of its own hands it over in place:

@@ -64,6 +64,15 @@ GONIO_INLINE double measured_reflectance::relative_deviation() const noexcept {
   return deviation.matrix().norm() / std::max(value.sum(), 0.0);
 }
 
+GONIO_INLINE channel_weights measured_reflectance::weights() const {
+  // What metrics add before they take a logarithm: where the material is black, noise is not endless.
+  constexpr double offset = 0.001;
+  rgb of_each;
+  for (Eigen::Index channel = 0; channel < 3; ++channel)
+    of_each[channel] = weight_of(deviation[channel] / (std::max(value[channel], 0.0) + offset));
+  return of_each;
+}
+
 GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, const reading& reference,
                                                       const direction_pair& at, const calibration& known,
                                                       const illumination& material_at,

@@ -15,9 +15,10 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE located_samples room_for_samples(Eigen::Index count) {
+GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart) {
   if (count == 0) throw error("all samples have weight zero: nothing is known");
-  return {std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  return {std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3),
+          Eigen::MatrixXd(count, apart ? 3 : 1)};
 }
 
 GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number) {
@@ -27,7 +28,8 @@ GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sam
     samples.values(i, channel) = s.value[channel];
   }
   samples.at[static_cast<std::size_t>(i)].angles = s.angles;
-  samples.weights[i] = s.weight;
+  for (Eigen::Index channel = 0; channel < samples.weights.cols(); ++channel)
+    samples.weights(i, channel) = s.weight[channel];
 }
 
 GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
@@ -51,14 +53,23 @@ GONIO_INLINE channel_values located_samples::channels() const {
   return transposed;
 }
 
+GONIO_INLINE channel_values located_samples::channel_weights() const {
+  channel_values transposed(3, weights.rows());
+  for (Eigen::Index i = 0; i < weights.rows(); ++i)
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      transposed(channel, i) = static_cast<float>(weights(i, weighs_channels_apart() ? channel : 0));
+  return transposed;
+}
+
 GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size_t>& positions) const {
   const auto count = std::ssize(positions);
-  located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3), Eigen::VectorXd(count)};
+  located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3),
+                       Eigen::MatrixXd(count, weights.cols())};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
     some.at[i] = at[positions[i]];
     for (Eigen::Index channel = 0; channel < 3; ++channel) some.values(to, channel) = values(from, channel);
-    some.weights[to] = weights[from];
+    for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
   }
   return some;
 }
@@ -67,7 +78,7 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf
   const bool own = table.cells() == cells;
   const auto count = static_cast<Eigen::Index>(table.cells().size());
   located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
-                        Eigen::VectorXd::Ones(count)};
+                        Eigen::MatrixXd::Ones(count, 1)};
   for_each_block(
       found.size(), 4096,
       [&](block range) {

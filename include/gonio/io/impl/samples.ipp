@@ -21,9 +21,9 @@
 namespace gonio::io::detail {
 
 // The columns, grouped; the numbers below index this list.
-inline constexpr std::array<std::string_view, 17> sample_columns{
-    "theta_h", "theta_d", "phi_d", "theta_i", "phi_i", "theta_o", "phi_o", "wi_x",  "wi_y",
-    "wi_z",    "wo_x",    "wo_y",  "wo_z",    "r",     "g",       "b",     "weight"};
+inline constexpr std::array<std::string_view, 20> sample_columns{
+    "theta_h", "theta_d", "phi_d", "theta_i", "phi_i", "theta_o", "phi_o",  "wi_x",     "wi_y",     "wi_z",
+    "wo_x",    "wo_y",    "wo_z",  "r",       "g",     "b",       "weight", "weight_r", "weight_g", "weight_b"};
 
 struct column_group {
   std::size_t first = 0;
@@ -33,7 +33,8 @@ inline constexpr column_group half_difference_group{0, 3};
 inline constexpr column_group angle_group{3, 4};
 inline constexpr column_group vector_group{7, 6};
 inline constexpr column_group colour_group{13, 3};
-inline constexpr std::size_t weight_column = 16;
+inline constexpr column_group weight_group{16, 1};
+inline constexpr column_group channel_weight_group{17, 3};
 
 using sample_row = std::array<double, sample_columns.size()>;
 
@@ -53,6 +54,10 @@ class sample_header {
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
+  /// The columns that say how much a sample counts: one, or one for each channel.
+  [[nodiscard]] column_group weights() const {
+    return has_any(channel_weight_group) ? channel_weight_group : weight_group;
+  }
 
  private:
   void add(std::string_view field, const text_place& place);
@@ -71,6 +76,10 @@ GONIO_INLINE void sample_header::read(std::string_view line, bool needs_colour, 
   for (const std::string_view field : fields) add(field, place);
   find_directions(place);
   if (needs_colour || has_any(colour_group)) require(colour_group, place);
+  if (!has_any(channel_weight_group)) return;
+  if (has_any(weight_group))
+    place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
+  require(channel_weight_group, place);
 }
 
 GONIO_INLINE void sample_header::add(std::string_view field, const text_place& place) {
@@ -78,7 +87,8 @@ GONIO_INLINE void sample_header::add(std::string_view field, const text_place& p
   while (column < sample_columns.size() && sample_columns[column] != field) ++column;
   if (column == sample_columns.size())
     place.refuse({"column ", quoted(field), " is unknown, expected theta_h,theta_d,phi_d or ",
-                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z, and r,g,b and perhaps weight"});
+                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z, and r,g,b and perhaps weight or "
+                  "weight_r,weight_g,weight_b"});
   if (has(column)) place.refuse({"column ", quoted(field), " appears twice"});
   columns_.push_back(column);
 }
@@ -111,7 +121,8 @@ GONIO_INLINE void sample_header::require(const column_group& group, const text_p
 /// A line of numbers, in its place.
 struct parsed_row {
   const sample_row& numbers;
-  const column_group& group;  ///< how directions are given
+  const column_group& group;   ///< how directions are given
+  const column_group weights;  ///< how weights are given
   const text_place& place;
 
   [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
@@ -123,13 +134,13 @@ class row_reader {
  public:
   row_reader(std::string_view text, const std::string& name, bool needs_colour)
       : left_(without_byte_order_mark(text)), place_{name, 0}, needs_colour_(needs_colour) {
-    numbers_[weight_column] = 1.0;
+    numbers_[weight_group.first] = 1.0;
   }
 
   /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
   [[nodiscard]] bool next();
 
-  [[nodiscard]] parsed_row row() const noexcept { return {numbers_, header_.directions(), place_}; }
+  [[nodiscard]] parsed_row row() const noexcept { return {numbers_, header_.directions(), header_.weights(), place_}; }
 
  private:
   void read_numbers(std::string_view line);
@@ -167,8 +178,11 @@ GONIO_INLINE void row_reader::read_numbers(std::string_view line) {
   for (std::size_t i = 0; i < fields_.size(); ++i)
     if (const char* wrong = read_number(fields_[i], numbers_[columns[i]]))
       place_.refuse({"column ", sample_columns[columns[i]], ": ", quoted(fields_[i]), wrong});
-  const double weight = numbers_[weight_column];
-  if (weight < 0.0) place_.refuse({"column weight: ", shortest(weight), " is negative, expected at least 0"});
+  const column_group weights = header_.weights();
+  for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
+    if (numbers_[column] < 0.0)
+      place_.refuse(
+          {"column ", sample_columns[column], ": ", shortest(numbers_[column]), " is negative, expected at least 0"});
 }
 
 /// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
@@ -218,7 +232,7 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
 
 /// Light and viewer of a row that gives directions.
 [[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
-  const auto& [numbers, group, place] = row;
+  const auto& [numbers, group, weights, place] = row;
   if (group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
   const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
   return {spherical_direction(theta_i, azimuth(numbers, 4, place)),
@@ -244,14 +258,23 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return pair;
 }
 
-GONIO_INLINE void format_sample(std::string& text, const sample& s) {
+[[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
+  const double* first = &row.numbers[row.weights.first];
+  return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
+}
+
+GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
   const half_difference& at = s.angles;
   for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
                              s.value.y(), s.value.z()}) {
     text += shortest(value);
     text += ',';
   }
-  text += shortest(s.weight);
+  text += shortest(s.weight[0]);
+  for (Eigen::Index channel = 1; weighs_channels_apart && channel < 3; ++channel) {
+    text += ',';
+    text += shortest(s.weight[channel]);
+  }
   text += '\n';
 }
 
@@ -269,7 +292,7 @@ GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& 
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
     const double* colour = &row.numbers[detail::colour_group.first];
-    samples.push_back({detail::row_angles(row), {colour[0], colour[1], colour[2]}, row.numbers[detail::weight_column]});
+    samples.push_back({detail::row_angles(row), {colour[0], colour[1], colour[2]}, detail::row_weight(row)});
   }
   return samples;
 }

@@ -78,8 +78,8 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
   if (3 * observations.size() < parameters)
     throw error(std::to_string(observations.size()) + " samples of three channels are too few for " +
                 std::to_string(parameters) + " parameters");
-  if (std::ranges::all_of(observations,
-                          [](const fit_observation& seen) { return (seen.value == 0.0).all() || seen.weight == 0.0; }))
+  if (std::ranges::all_of(
+          observations, [](const fit_observation& seen) { return (seen.value * seen.weight.of_each() == 0.0).all(); }))
     throw error("all measurements are zero, or count for nothing");
 
   const model_loss loss(kinds, observations, std::move(metric), options);

@@ -46,7 +46,8 @@ GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::sp
     for (std::size_t p = 0; p < kinds_[l]->parameters().size(); ++p) owners_.push_back({l, p});
   std::vector<double> sizes;
   for (const fit_observation& seen : observations_) {
-    total_weight_ += 3.0 * seen.weight;
+    total_weight_ += seen.weight.of_each().sum();
+    weighs_channels_apart_ = weighs_channels_apart_ || !seen.weight.is_uniform();
     for (Eigen::Index c = 0; c < 3; ++c) sizes.push_back(std::abs(mapped(seen, seen.value[c])));
   }
   const auto middle = sizes.begin() + std::ssize(sizes) / 2;
@@ -55,7 +56,7 @@ GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::sp
   if (!(median_size_ > 0.0)) median_size_ = *std::ranges::max_element(sizes);
   for (const fit_observation& seen : observations_)
     for (Eigen::Index c = 0; c < 3; ++c)
-      loss_of_nothing_ += seen.weight * norm_of(mapped(seen, seen.value[c])).loss / total_weight_;
+      loss_of_nothing_ += seen.weight[c] * norm_of(mapped(seen, seen.value[c])).loss / total_weight_;
 }
 
 GONIO_INLINE Eigen::VectorXd model_loss::coded(std::span<const lobe_kind::values> parameters) const {
@@ -101,7 +102,12 @@ GONIO_INLINE analytic_brdf model_loss::model(const Eigen::VectorXd& x) const {
   return analytic_brdf(std::move(all));
 }
 
-GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u) const {
+GONIO_INLINE std::vector<Eigen::MatrixXd> model_loss::products(const Eigen::VectorXd& u) const {
+  if (!weighs_channels_apart_) return {products(u, 0)};
+  return {products(u, 0), products(u, 1), products(u, 2)};
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u, Eigen::Index channel) const {
   const Eigen::Index all = lobes() + shapes() + 3;
   const auto parameters = decoded(u);
   return sum_over_blocks(
@@ -113,16 +119,24 @@ GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u) cons
           auto column = columns.col(static_cast<Eigen::Index>(i - range.begin));
           evaluate(seen.at, parameters, column);
           column.tail(3) = seen.value.matrix();
-          column *= std::sqrt(seen.weight) * cosine(seen);
+          column *= std::sqrt(seen.weight[channel]) * cosine(seen);
         }
         sum += product_with_transpose(columns);
       },
       options_.threads);
 }
 
-GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& products) const {
+GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const std::vector<Eigen::MatrixXd>& products) const {
+  if (products.size() == 1) return solve_colours(products.front(), 0, 3);
+  Eigen::MatrixXd found(lobes(), 3);
+  for (Eigen::Index c = 0; c < 3; ++c) found.col(c) = solve_colours(products[static_cast<std::size_t>(c)], c, 1);
+  return found;
+}
+
+GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& products, Eigen::Index first,
+                                                       Eigen::Index channels) const {
   const Eigen::Index count = lobes();
-  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(count, 3);
+  Eigen::MatrixXd found = Eigen::MatrixXd::Zero(count, channels);
   const double brightest = products.diagonal().head(count).maxCoeff();
   std::vector<Eigen::Index> bright;
   for (Eigen::Index l = 0; l < count; ++l)
@@ -130,7 +144,7 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
   if (bright.empty()) return found;
   // Columns of length one, so that a narrow lobe of huge values does not hide a dim one.
   Eigen::MatrixXd gram = entries(products, bright, bright),
-                  moment = entries(products, bright, numbers_from(count + shapes(), 3));
+                  moment = entries(products, bright, numbers_from(count + shapes() + first, channels));
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
     moment.row(i) *= scale[i];
@@ -143,11 +157,12 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
 }
 
 GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) const {
-  const Eigen::MatrixXd all = products(u);
-  const Eigen::MatrixXd found = solve_colours(all);
+  const std::vector<Eigen::MatrixXd> of_channels = products(u);
+  const Eigen::MatrixXd found = solve_colours(of_channels);
   const Eigen::Index count = lobes(), p = shapes();
   local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
   for (Eigen::Index c = 0; c < 3; ++c) {
+    const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? static_cast<std::size_t>(c) : 0];
     // The residual is G x - y, its slopes D times the colours of their lobes.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
     residual.head(count) = found.col(c);
@@ -195,8 +210,8 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
             const double modelled = value.head(count).dot(colour.col(c));
             const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
             const auto [loss, curvature] = norm_of(residual);
-            losses[static_cast<std::size_t>(c)] += seen.weight * loss;
-            const double root = std::sqrt(seen.weight * curvature);
+            losses[static_cast<std::size_t>(c)] += seen.weight[c] * loss;
+            const double root = std::sqrt(seen.weight[c] * curvature);
             const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
             auto column = columns[static_cast<std::size_t>(c)].col(static_cast<Eigen::Index>(i - range.begin));
             for (Eigen::Index j = 0; j < p; ++j)

@@ -91,17 +91,17 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
   located_samples found;
   found.at.reserve(3 * known.vertices.size());
   found.values.resize(static_cast<Eigen::Index>(3 * known.vertices.size()), 1);
-  found.weights = Eigen::VectorXd::Ones(found.values.rows());
+  found.weights = Eigen::MatrixXd::Ones(found.values.rows(), 1);
   for (std::size_t i = 0; i < known.vertices.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     if (known.normals.cols() != 0) {
       axes = detail::axes_about(known.normals.col(column));
-      found.weights[3 * column + 1] = found.weights[3 * column + 2] = known.tangential;
+      found.weights(3 * column + 1, 0) = found.weights(3 * column + 2, 0) = known.tangential;
     }
     detail::locate_along(axes, known.vertices[i], found.at);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (known.trust.size() != 0) found.weights[3 * column + axis] *= known.trust[column];
+      if (known.trust.size() != 0) found.weights(3 * column + axis, 0) *= known.trust[column];
       found.values(3 * column + axis, 0) = axes.col(axis).dot(known.positions.col(column));
     }
   }

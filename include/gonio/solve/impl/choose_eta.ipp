@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -180,11 +181,28 @@ GONIO_INLINE Eigen::VectorXd cross_validate(const least_squares_problem& problem
 
 GONIO_INLINE double choose_eta(const least_squares_problem& problem, eta_criterion criterion,
                                const eta_range& plausible) {
+  return choose_eta({&problem, 1}, criterion, plausible);
+}
+
+GONIO_INLINE double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
+                               const eta_range& plausible) {
   detail::require_etas(plausible);
-  if (problem.observations() < 2 && std::isfinite(plausible.highest)) return plausible.highest;
-  const detail::eta_scores scores(problem, criterion);
+  if (problems.empty()) throw error("choosing eta needs a problem");
+  const auto is_telling = [](const least_squares_problem& problem) { return problem.observations() >= 2; };
+  const bool any_tells = std::ranges::any_of(problems, is_telling);
+  if (!any_tells && std::isfinite(plausible.highest)) return plausible.highest;
+  std::vector<detail::eta_scores> all;
+  for (const least_squares_problem& problem : problems)
+    if (is_telling(problem) || !any_tells) all.emplace_back(problem, criterion);
+  double largest = 0.0;
+  for (const detail::eta_scores& each : all) largest = std::max(largest, each.largest());
+  const auto scores = [&](const Eigen::VectorXd& etas) {
+    Eigen::VectorXd sum = all.front()(etas);
+    for (std::size_t i = 1; i < all.size(); ++i) sum += all[i](etas);
+    return sum;
+  };
   const auto bounded = [&](double eta) { return std::clamp(eta, plausible.lowest, plausible.highest); };
-  return bounded(detail::eta_of_least(scores, bounded(1e-10 * scores.largest()), bounded(1e2 * scores.largest())));
+  return bounded(detail::eta_of_least(scores, bounded(1e-10 * largest), bounded(1e2 * largest)));
 }
 
 }  // namespace gonio
