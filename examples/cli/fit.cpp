@@ -22,6 +22,7 @@ namespace {
 struct fit_command_options {
   std::filesystem::path measurements, output, picture, pbrt, mitsuba;
   std::string model = "ggx", metric = "lin";
+  gonio::cell_weighting cell_weights = gonio::cell_weighting::equal;
   bool fresnel = false, print_json = false;
   gonio::model_fit_options fit;
 };
@@ -44,11 +45,13 @@ void print(const gonio::model_fit& fit, std::size_t measurements) {
 }
 
 void fit(const fit_command_options& options) {
+  if (options.cell_weights != gonio::cell_weighting::equal && !is_table(options.measurements))
+    throw gonio::error("--cell-weights needs a table: samples have weights of their own");
   auto kinds = lobes_named(options.model);
   if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
   std::optional<gonio::brdf_table> table;
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
-  const auto observations = table ? gonio::fit_observations(*table, options.fit.threads)
+  const auto observations = table ? gonio::fit_observations(*table, options.fit.threads, options.cell_weights)
                                   : gonio::fit_observations(read_measurements(options.measurements));
   const gonio::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
 
@@ -99,6 +102,7 @@ void add_fit(command& app) {
   command.add_flag("--fresnel", options->fresnel,
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->fit);
+  add_cell_weights_option(command, options->cell_weights);
   command.add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
   command.add_option("--image", options->picture,
                      "Spheres of measurement (if it is a table) and model to write (.png)");

@@ -48,6 +48,16 @@ void add_fit_options(command& to, gonio::model_fit_options& options) {
   to.add_option("--seed", options.seed, "Seed of the random starts").capture_default_str();
 }
 
+void add_cell_weights_option(command& to, gonio::cell_weighting& weighting) {
+  to.add_choice(
+        "--cell-weights", [&weighting](int chosen) { weighting = static_cast<gonio::cell_weighting>(chosen); },
+        {{"equal", static_cast<int>(gonio::cell_weighting::equal)},
+         {"solid-angle", static_cast<int>(gonio::cell_weighting::solid_angle)},
+         {"cosine", static_cast<int>(gonio::cell_weighting::cosine)}},
+        "What a table's cells count: all the same, by their solid angle, or by that times both cosines")
+      .default_str("equal");
+}
+
 gonio::model_fit fit_by_metric(const std::string& metric, const std::vector<const gonio::lobe_kind*>& kinds,
                                std::span<const gonio::fit_observation> observations,
                                const gonio::model_fit_options& options) {

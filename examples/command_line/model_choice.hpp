@@ -20,6 +20,9 @@ namespace cli {
 /// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
 void add_fit_options(command& to, gonio::model_fit_options& options);
 
+/// Adds `--cell-weights`.
+void add_cell_weights_option(command& to, gonio::cell_weighting& weighting);
+
 /// Fits by one of the metrics lin, log and cubic.
 [[nodiscard]] gonio::model_fit fit_by_metric(const std::string& metric,
                                              const std::vector<const gonio::lobe_kind*>& kinds,

@@ -3,6 +3,8 @@
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
 #include <gonio/model/fit_model.hpp>
+#include <gonio/model/sum_of_lobes.hpp>
+#include <gonio/model/ward.hpp>
 
 #include <random>
 
@@ -172,6 +174,62 @@ TEST_CASE("a table is fitted as its cells are") {
   const auto ward = fit.model.lobes()[0].as<gonio::ward_shape>();
   CHECK(ward.shape().roughness == doctest::Approx(0.3).epsilon(1e-6));  // the table is of floats
   CHECK(((ward.colour() - paint.colour()).abs() < 1e-6).all());
+}
+
+TEST_CASE("cells may count by the pairs of directions in them, or by these times the cosines") {
+  for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
+    const gonio::valid_cells cells(gonio::grid({60, 60, 90}, anchor));
+    double pairs = 0.0, reflected = 0.0;
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      const auto at = gonio::cosines(cells.angles(cell));
+      const double own = gonio::detail::solid_angle_of_pairs(cells.grid(), cells.grid().cell(cells.linear(cell)));
+      pairs += own;
+      reflected += own * at.i * at.o;
+    }
+    // Half vectors at all azimuths, and phi_d over all 360 degrees: two hemispheres of directions, and of cosines.
+    const double all = 2.0 * std::numbers::pi * 2.0;
+    CHECK(all * pairs == doctest::Approx(std::pow(2.0 * std::numbers::pi, 2)).epsilon(0.03));
+    CHECK(all * reflected == doctest::Approx(std::pow(std::numbers::pi, 2)).epsilon(0.01));
+  }
+  const auto table = gonio::tabulate(gonio::ward(rgb(0.1, 0.2, 0.3), {.roughness = 0.3}), gonio::valid_cells());
+  const auto share_near_highlight = [&](gonio::cell_weighting weighting) {
+    const auto all = gonio::fit_observations(table, {}, weighting);
+    double near = 0.0, sum = 0.0;
+    for (std::size_t cell = 0; cell < all.size(); ++cell) {
+      sum += all[cell].weight.mean();
+      if (table.cells().angles(cell).theta_h < gonio::radians(22.5)) near += all[cell].weight.mean();
+    }
+    CHECK(sum == doctest::Approx(static_cast<double>(all.size())).epsilon(1e-9));
+    return near / sum;
+  };
+  CHECK(share_near_highlight(gonio::cell_weighting::equal) == doctest::Approx(0.63).epsilon(0.01));
+  CHECK(share_near_highlight(gonio::cell_weighting::solid_angle) == doctest::Approx(0.146).epsilon(0.01));
+  CHECK(share_near_highlight(gonio::cell_weighting::cosine) == doctest::Approx(0.271).epsilon(0.01));
+}
+
+TEST_CASE("weights decide what a model that does not describe a table follows") {
+  const gonio::valid_cells cells(gonio::grid({45, 30, 36}));
+  const gonio::sum_of_lobes truth{gonio::ward(rgb::Constant(0.2), {.roughness = 0.1}),
+                                  gonio::ward(rgb::Constant(0.2), {.roughness = 0.7})};
+  const auto table = gonio::tabulate(truth, cells);
+  const auto fit_by = [&](gonio::cell_weighting weighting) {
+    return gonio::fit_model({&lobe_kind::of<gonio::ward_shape>()}, gonio::fit_observations(table, {}, weighting),
+                            gonio::log(), {.norm = gonio::fit_norm::l1});
+  };
+  const auto loss_of = [&](const gonio::model_fit& fit, gonio::cell_weighting weighting) {
+    double sum = 0.0, weights = 0.0;
+    const auto all = gonio::fit_observations(table, {}, weighting);
+    for (std::size_t cell = 0; cell < all.size(); ++cell) {
+      const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
+      sum += all[cell].weight[0] * std::abs(std::log1p(all[cell].value[0]) - std::log1p(fit.model(wi, wo)[0]));
+      weights += all[cell].weight[0];
+    }
+    return sum / weights;
+  };
+  const auto equal = fit_by(gonio::cell_weighting::equal), cosine = fit_by(gonio::cell_weighting::cosine);
+  CHECK(loss_of(cosine, gonio::cell_weighting::cosine) < 0.99 * loss_of(equal, gonio::cell_weighting::cosine));
+  CHECK(loss_of(equal, gonio::cell_weighting::equal) < 0.99 * loss_of(cosine, gonio::cell_weighting::equal));
+  CHECK(cosine.loss == doctest::Approx(loss_of(cosine, gonio::cell_weighting::cosine)).epsilon(0.01));
 }
 
 TEST_CASE("random starts never end worse than the consecutive scheme alone") {

@@ -15,9 +15,11 @@
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/io/networks.hpp>
 
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <sstream>
 
 namespace papers {
 
@@ -28,9 +30,17 @@ struct models_options {
   std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
       only;
   std::string metric = "lin";
+  gonio::cell_weighting cell_weights = gonio::cell_weighting::equal;
   bool print_json = false;
   gonio::thread_count threads;
 };
+
+/// Four digits, whatever the size.
+std::string significant(double value) {
+  std::ostringstream text;
+  text << std::setprecision(4) << value;
+  return text.str();
+}
 
 /// Every third theta_d and fifth phi_d: a lobe is smooth there, and the fit takes a fifteenth of the time.
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
@@ -60,10 +70,10 @@ json fit_all(const models_options& given, progress_bar& bar) {
     gonio::report(bar.listener(), materials.names[m],
                   static_cast<double>(m) / static_cast<double>(materials.names.size()));
     const gonio::brdf_table truth = materials.table(m);
-    const auto observations = gonio::fit_observations(truth, given.threads);
+    const auto observations = gonio::fit_observations(truth, given.threads, given.cell_weights);
     for (const std::string& model : given.models)
       for (const std::string& loss : given.losses) {
-        const json key{materials.names[m], model, loss, given.metric};
+        const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights)};
         if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, judge));
         rows.push_back(
             {{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", *results.find(key)}});
@@ -81,34 +91,37 @@ std::vector<json> of(const std::vector<json>& rows, const std::string& key, cons
 
 void print_means(const models_options& given, const json& rows) {
   std::cout
-      << "| model | loss | fits | converged | evaluations, mean | Delta E lights: mean | median | worst | Delta E "
-         "env: mean | median | worst |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+      << "| model | loss | fits | converged | evaluations, mean | its value: mean | median | Delta E lights: mean | "
+         "median | worst | Delta E env: mean | median | worst "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const std::string& model : given.models)
     for (const std::string& loss : given.losses) {
-      std::vector<double> lights, environment, evaluations;
+      std::vector<double> lights, environment, evaluations, losses;
       std::size_t converged = 0;
       for (const json& row : of(of(rows.elements(), "model", model), "loss", loss)) {
         const json& fit = row["fit"];
         lights.push_back(fit["delta_e_lights"].number());
         environment.push_back(fit["delta_e_env"].number());
         evaluations.push_back(fit["evaluations"].number());
+        losses.push_back(fit["loss"].number());
         if (fit["converged"].truth()) ++converged;
       }
-      const distribution l(lights), e(environment);
+      const distribution l(lights), e(environment), least(losses);
       std::cout << "| " << model << " | " << loss << " | " << lights.size() << " | " << converged << " | "
-                << fixed(distribution(evaluations).mean, 0);
+                << fixed(distribution(evaluations).mean, 0) << " | " << significant(least.mean) << " | "
+                << significant(least.median);
       for (const double value : {l.mean, l.median, l.worst, e.mean, e.median, e.worst})
         std::cout << " | " << fixed(value, 2);
       std::cout << " |\n";
     }
 }
 
-/// alpha of the variant, and what is seen of each model, by material.
+/// alpha of the variant, what is made small, and what is seen of each model, by material.
 void print_materials(const models_options& given, const json& rows) {
   std::cout << "\n| material | loss | alpha | alpha with Fresnel |";
-  for (const std::string& model : given.models) std::cout << ' ' << model << " |";
+  for (const std::string& model : given.models) std::cout << ' ' << model << ": loss | Delta E lights |";
   std::cout << "\n|---|---|---|---|";
-  for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|";
+  for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|---|";
   std::cout << '\n';
   std::map<std::pair<std::string, std::string>, std::map<std::string, json>> by_material;
   for (const json& row : rows.elements())
@@ -121,7 +134,8 @@ void print_materials(const models_options& given, const json& rows) {
         std::cout << fixed(fits.at(variant)["lobes"].elements().back()["parameters"]["alpha"].number(), 2);
     }
     for (const std::string& model : given.models)
-      std::cout << " | " << fixed(fits.at(model)["delta_e_lights"].number(), 2);
+      std::cout << " | " << significant(fits.at(model)["loss"].number()) << " | "
+                << fixed(fits.at(model)["delta_e_lights"].number(), 2);
     std::cout << " |\n";
   }
 }
@@ -150,6 +164,7 @@ void add_models(command& app) {
   command.add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log or cubic")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
+  add_cell_weights_option(command, options->cell_weights);
   command.add_option("--materials", options->only, "Only these materials");
   command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
   command.add_flag("--json", options->print_json, "Print every fit as JSON");

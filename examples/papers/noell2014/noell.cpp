@@ -208,15 +208,37 @@ void print_table(const noell_options& options, const noell_sweep& sweep) {
   print_harm(options, sweep);
 }
 
+/// The share of outliers that each estimate reports, beside the true one: a row for each amount of data.
+void print_outliers(const noell_options& options, const noell_sweep& sweep) {
+  std::cout << "\nReported share of outliers, %: mean over materials and seeds (least, most).\n\n| method | data |";
+  for (const double ratio : options.outlier_ratios) std::cout << " true: " << fixed(100.0 * ratio, 0) << " |";
+  std::cout << "\n|---|---|";
+  for (std::size_t i = 0; i < options.outlier_ratios.size(); ++i) std::cout << "---|";
+  std::optional<std::pair<std::string, double>> row;
+  for (const noell_setting& setting : sweep.settings()) {
+    std::vector<double> reported;
+    for (const json& result : sweep.results(setting))
+      if (result.contains("outliers")) reported.push_back(100.0 * result["outliers"].number());
+    if (reported.empty()) continue;
+    if (const std::pair own{setting.name(), setting.data_ratio}; row != own) {
+      row = own;
+      std::cout << "\n| " << own.first << " | " << fixed(own.second, own.second > 1.0 ? 0 : 2) << " |";
+    }
+    const auto [least, most] = std::ranges::minmax(reported);
+    std::cout << ' ' << fixed(distribution(reported).mean, 1) << " (" << fixed(least, 1) << " - " << fixed(most, 1)
+              << ") |";
+  }
+  std::cout << '\n';
+}
+
 void run_noell(const noell_options& options) {
   progress_bar bar;
   noell_sweep sweep(options, bar.listener());
   sweep.run();
   bar.wipe();
-  if (options.print_json)
-    print_json(options, sweep);
-  else
-    print_table(options, sweep);
+  if (options.print_json) return print_json(options, sweep);
+  print_table(options, sweep);
+  if (options.iterations.empty()) print_outliers(options, sweep);
 }
 
 void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults) {

@@ -111,25 +111,36 @@ struct noell_experiment::parts {
     return cache.fewer.get([&] { return all.without({material}); });
   }
 
+  /// An estimate, and which share of the samples it takes for outliers if it has an opinion.
+  struct estimated {
+    gonio::brdf_table table;
+    std::optional<double> outliers = {};
+  };
+
   /// The estimate of a material by a method, from all other materials.
   template <class Metric>
-  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const Metric& metric, const noell_case& which,
-                                           const gonio::sample_set& samples) {
-    const auto tabulated = [&](const auto& estimator) {
-      return estimator.fit(samples).tabulate(truths.cells, threads);
+  [[nodiscard]] estimated estimate(const method_name& method, const Metric& metric, const noell_case& which,
+                                   const gonio::sample_set& samples) {
+    const auto tabulated = [&](const auto& estimator) -> estimated {
+      return {estimator.fit(samples).tabulate(truths.cells, threads)};
     };
     if (method.method == "rbf")
       return tabulated(gonio::decomposition{gonio::rbf{truths.cells, metric}, gonio::tikhonov{1e-6}, threads});
     if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
 
     const auto others = materials(metric).without({which.material});
-    if (method.method == "lc") return combination(metric, which, samples).tabulate(truths.cells, threads);
+    if (method.method == "lc") return {combination(metric, which, samples).tabulate(truths.cells, threads)};
     gonio::correction_limits limits;
     limits.rounds = which.iterations.value_or(limits.rounds);
     if (which.iterations) limits.smallest_change = 0.0;
-    if (method.method == "our")
-      return tabulated(
-          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads});
+    if (method.method == "our") {
+      auto run =
+          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}.start(
+              samples);
+      while (!run.converged()) run.step();
+      const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).good_share;
+      return {run.result().tabulate(truths.cells, threads), 1.0 - good};
+    }
     limits.smallest_change = 0.0;
     const bool printed = method.method == "printed";
     const double gamma = printed ? noell_gamma(which.outlier_ratio) : method.gamma;
@@ -143,8 +154,8 @@ struct noell_experiment::parts {
                                                  gonio::nnls{}, limits, threads});
   }
 
-  [[nodiscard]] gonio::brdf_table estimate(const method_name& method, const noell_case& which,
-                                           const gonio::sample_set& samples) {
+  [[nodiscard]] estimated estimate(const method_name& method, const noell_case& which,
+                                   const gonio::sample_set& samples) {
     if (method.metric == "lin") return estimate(method, gonio::lin{}, which, samples);
     if (method.metric == "root") return estimate(method, gonio::root{}, which, samples);
     return estimate(method, gonio::log{}, which, samples);
@@ -174,11 +185,12 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
                                       {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
 
   const auto start = std::chrono::steady_clock::now();
-  const gonio::brdf_table estimate = parts_->estimate(*parse(method), which, samples);
+  const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
   json result = parts_->judges.judge(estimate, truth);
   result["seconds"] = elapsed.count();
+  if (outliers) result["outliers"] = *outliers;
   return result;
 }
 

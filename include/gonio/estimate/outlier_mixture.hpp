@@ -108,8 +108,10 @@ struct outlier_mixture {
   }
 };
 
-/// Estimates a mixture from residuals and the densities of outliers at their measurements, by expectation-maximisation
-/// from `start`. O(n) for each of at most 50 steps.
+/// Estimates a mixture from signed residuals and the densities of outliers at their measurements, from `start`: in
+/// turns the most probable share, of which the likelihood is a concave function, and the scale, by a step of
+/// expectation-maximisation. Before anything is measured the share is taken for what one good measurement leaves
+/// plausible: of twenty good ones the likelihood alone makes outliers of one or two. O(n) for each of at most 50 steps.
 [[nodiscard]] outlier_mixture estimate_mixture(const std::vector<double>& residuals,
                                                const std::vector<double>& outliers, outlier_mixture start = {});
 
@@ -121,8 +123,9 @@ template <class Measurements>
 }
 
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample
-/// is judged as a whole, by the root mean square of its three logarithmic residuals: what goes wrong in a measurement
-/// is its direction, not one of its colours.
+/// is judged as a whole: what goes wrong in a measurement is its direction, not one of its colours. The probability is
+/// that of the mean of its three logarithmic residuals, whose sign is kept: that is one number, which the densities of
+/// the mixture are of. How far it is out on the tail is said by their root mean square, which sees colours, too.
 struct automatic_weights {
   /// Weigh good samples by their place on the tail, too?
   bool down_weight_tail = true;
@@ -140,14 +143,20 @@ struct automatic_weights {
 
  private:
   struct deviations {
-    Eigen::ArrayXf residual;   // root mean square of the channels' residuals
+    Eigen::ArrayXf residual;   // mean of the channels' residuals
+    Eigen::ArrayXf distance;   // root mean square of them
     Eigen::ArrayXf logarithm;  // mean of the channels' logarithms
   };
 
   [[nodiscard]] static deviations deviate(const channel_values& measured, const channel_values& estimated);
 
-  [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const Eigen::ArrayXd& residuals,
-                                     const Eigen::ArrayXd& outliers) const;
+  /// Of some of the samples, which have a mixture of their own.
+  [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const deviations& found,
+                                     const outlier_density& density, std::span<const std::size_t> samples) const;
+
+  /// The scale of good samples' distances, where `mixture` has that of their residuals: at least that.
+  [[nodiscard]] static double scale_of_distances(const deviations& found, const outlier_density& density,
+                                                 const outlier_mixture& mixture);
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
   [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const std::size_t> samples,

@@ -4,6 +4,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/model/lobe.hpp>
 #include <gonio/table/brdf_table.hpp>
+#include <gonio/table/grid.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <cstddef>
@@ -30,8 +31,25 @@ template <sample_range Samples>
   return all;
 }
 
-/// All cells of a table, each of which counts once. 104 bytes a cell.
-[[nodiscard]] std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {});
+/// What each cell of a table counts in a fit. The cells of MERL's grid are narrow at the highlight: half of them have a
+/// theta_h below 22.5 degrees (63 % of the valid ones), where a seventh of all pairs of directions is.
+enum class cell_weighting {
+  equal,        ///< 1
+  solid_angle,  ///< the pairs of directions in it: dwi dwo = 4 cos(theta_d) dwh dwd
+  cosine        ///< these times cos(theta_i) cos(theta_o): the light that it reflects from everywhere to everywhere
+};
+
+/// All cells of a table, with weights whose mean is 1. 104 bytes a cell.
+[[nodiscard]] std::vector<fit_observation> fit_observations(const brdf_table& table, thread_count threads = {},
+                                                            cell_weighting weighting = cell_weighting::equal);
+
+namespace detail {
+
+/// The solid angle in sr^2 of the pairs of directions nearest to the node of a cell, for one azimuth of the half vector
+/// in radians: the integral of 4 cos(theta_d) sin(theta_h) sin(theta_d) over the three angles.
+[[nodiscard]] double solid_angle_of_pairs(const grid& of, const cell_index& cell);
+
+}  // namespace detail
 
 }  // namespace gonio
 

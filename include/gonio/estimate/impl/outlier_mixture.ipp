@@ -12,10 +12,29 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
 namespace gonio {
+
+namespace detail {
+
+/// The share p at which the sum of ln(p g + (1 - p) o) + ln p is largest: g and o are what good ones' and outliers'
+/// densities are at each measurement. By bisection of its slope, which falls with p.
+[[nodiscard]] GONIO_INLINE double most_probable_share(const Eigen::ArrayXd& good, const Eigen::ArrayXd& outliers) {
+  const Eigen::ArrayXd difference = good - outliers;
+  const auto slope = [&](double share) { return (difference / (outliers + share * difference)).sum() + 1.0 / share; };
+  double low = 0.02, high = 0.999;
+  if (slope(high) >= 0.0) return high;
+  for (int step = 0; step < 30; ++step) {
+    const double middle = 0.5 * (low + high);
+    (slope(middle) > 0.0 ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace detail
 
 GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residuals, const std::vector<double>& outliers,
                                               outlier_mixture start) {
@@ -27,8 +46,8 @@ GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residua
     const Eigen::ArrayXd shares = now.probability(all, densities);
     const double good = shares.sum();
     const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
-    const outlier_mixture next{std::clamp(good / static_cast<double>(all.size()), 0.02, 0.999),
-                               std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
+    outlier_mixture next{now.good_share, std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
+    next.good_share = detail::most_probable_share(next.good_density(all), densities);
     const bool settled =
         std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
     now = next;
@@ -39,21 +58,23 @@ GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residua
 
 GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measured,
                                                      const channel_values& estimated) const {
-  const deviations found = deviate(measured, estimated);
+  deviations found = deviate(measured, estimated);
   const outlier_density density(subset(found.logarithm));
   const outlier_mixture mixture = estimate_from(found, density);
-  const Eigen::ArrayXd residuals = found.residual.cast<double>();
-  const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
-  Eigen::ArrayXd weights(residuals.size());
+  // Distances are larger than residuals, the more so the less the channels have in common.
+  found.distance *= static_cast<float>(mixture.scale / scale_of_distances(found, density, mixture));
+  Eigen::ArrayXd weights(measured.cols());
   if (regions) {
-    const double typical = half_of_the_good(found.residual, regions->all(), mixture.good_share);
+    const double typical = half_of_the_good(found.distance, regions->all(), mixture.good_share);
     for (std::size_t region = 0; region < regions->count(); ++region) {
       const std::span<const std::size_t> here = (*regions)[region];
-      const double ratio = half_of_the_good(found.residual, here, mixture.good_share) / typical;
-      weights(here) = weigh(rescaled(mixture, ratio), Eigen::ArrayXd(residuals(here)), Eigen::ArrayXd(outliers(here)));
+      const double ratio = half_of_the_good(found.distance, here, mixture.good_share) / typical;
+      weights(here) = weigh(rescaled(mixture, ratio), found, density, here);
     }
   } else {
-    weights = weigh(mixture, residuals, outliers);
+    std::vector<std::size_t> all(static_cast<std::size_t>(measured.cols()));
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    weights = weigh(mixture, found, density, all);
   }
   return weights.cast<float>().transpose().replicate<3, 1>();
 }
@@ -74,13 +95,32 @@ GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const chan
   const Eigen::Array3f offset = offsets(measured);
   const channel_values logarithms = (measured.max(0.0f).colwise() + offset).log();
   const channel_values differences = logarithms - (estimated.colwise() + offset).log();
-  return {differences.square().colwise().mean().sqrt().transpose(), logarithms.colwise().mean().transpose()};
+  return {differences.colwise().mean().transpose(), differences.square().colwise().mean().sqrt().transpose(),
+          logarithms.colwise().mean().transpose()};
 }
 
-GONIO_INLINE Eigen::ArrayXd automatic_weights::weigh(const outlier_mixture& mixture, const Eigen::ArrayXd& residuals,
-                                                     const Eigen::ArrayXd& outliers) const {
+GONIO_INLINE Eigen::ArrayXd automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
+                                                     const outlier_density& density,
+                                                     std::span<const std::size_t> samples) const {
+  const Eigen::ArrayXd residuals = found.residual(samples).cast<double>(),
+                       distances = found.distance(samples).cast<double>();
+  const Eigen::ArrayXd outliers = found.logarithm(samples).unaryExpr([&](float value) { return density(value); });
   const Eigen::ArrayXd good = mixture.probability(residuals, outliers);
-  return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(residuals)) : good;
+  return down_weight_tail ? Eigen::ArrayXd(good * mixture.tail_weight(distances)) : good;
+}
+
+GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& found, const outlier_density& density,
+                                                          const outlier_mixture& mixture) {
+  constexpr double nu = outlier_mixture::degrees_of_freedom;
+  const Eigen::ArrayXd outliers = found.logarithm.unaryExpr([&](float value) { return density(value); });
+  const Eigen::ArrayXd good = mixture.probability(Eigen::ArrayXd(found.residual.cast<double>()), outliers),
+                       squares = found.distance.cast<double>().square();
+  double scale = mixture.scale;
+  for (int step = 0; step < 20; ++step) {
+    const Eigen::ArrayXd tail = 1.0 / (1.0 + squares / (nu * scale * scale));
+    scale = std::max(std::sqrt((nu + 1.0) / nu * (good * tail * squares).sum() / good.sum()), mixture.scale);
+  }
+  return scale;
 }
 
 GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
