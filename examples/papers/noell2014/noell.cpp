@@ -210,15 +210,20 @@ void print_table(const noell_options& options, const noell_sweep& sweep) {
 
 /// The share of outliers that each estimate reports, beside the true one: a row for each amount of data.
 void print_outliers(const noell_options& options, const noell_sweep& sweep) {
-  std::cout << "\nReported share of outliers, %: mean over materials and seeds (least, most).\n\n| method | data |";
+  std::cout
+      << "\nReported share of outliers, %: mean over materials and seeds (least - most); in brackets how many of the "
+         "samples are more than 5 % off.\n\n| method | data |";
   for (const double ratio : options.outlier_ratios) std::cout << " true: " << fixed(100.0 * ratio, 0) << " |";
   std::cout << "\n|---|---|";
   for (std::size_t i = 0; i < options.outlier_ratios.size(); ++i) std::cout << "---|";
   std::optional<std::pair<std::string, double>> row;
   for (const noell_setting& setting : sweep.settings()) {
-    std::vector<double> reported;
+    std::vector<double> reported, off;
     for (const json& result : sweep.results(setting))
-      if (result.contains("outliers")) reported.push_back(100.0 * result["outliers"].number());
+      if (result.contains("outliers")) {
+        reported.push_back(100.0 * result["outliers"].number());
+        off.push_back(100.0 * result["off"].number());
+      }
     if (reported.empty()) continue;
     if (const std::pair own{setting.name(), setting.data_ratio}; row != own) {
       row = own;
@@ -226,7 +231,7 @@ void print_outliers(const noell_options& options, const noell_sweep& sweep) {
     }
     const auto [least, most] = std::ranges::minmax(reported);
     std::cout << ' ' << fixed(distribution(reported).mean, 1) << " (" << fixed(least, 1) << " - " << fixed(most, 1)
-              << ") |";
+              << ") [" << fixed(distribution(off).mean, 1) << "] |";
   }
   std::cout << '\n';
 }

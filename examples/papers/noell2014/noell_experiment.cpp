@@ -177,12 +177,28 @@ std::size_t noell_experiment::samples_of(double data, std::size_t cells) noexcep
   return data <= 1.0 ? gonio::share_of(cells, data) : std::min(static_cast<std::size_t>(std::llround(data)), cells);
 }
 
+namespace {
+
+/// The share of samples that are more than 5 % off the truth: an outlier has another cell's value, which may be right.
+[[nodiscard]] double share_off(const gonio::sample_set& samples, const gonio::sample_set& right) {
+  constexpr double offset = 0.001, limit = 0.05;
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const gonio::rgb ratio = (samples[i].value.max(0.0) + offset) / (right[i].value.max(0.0) + offset);
+    off += std::abs(ratio.log().mean()) > limit ? 1 : 0;
+  }
+  return static_cast<double>(off) / static_cast<double>(samples.size());
+}
+
+}  // namespace
+
 json noell_experiment::run(const std::string& method, const noell_case& which) {
   const std::size_t material = parts_->truths.find(which.material);
   const gonio::brdf_table truth = parts_->truths.table(material);
   const std::size_t count = samples_of(which.data_ratio, truth.cells().size());
-  const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, which.seed),
-                                      {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
+  const auto cells = gonio::random_cells(truth.cells(), count, which.seed);
+  const auto samples =
+      gonio::measure(truth, cells, {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
 
   const auto start = std::chrono::steady_clock::now();
   const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
@@ -190,7 +206,9 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
 
   json result = parts_->judges.judge(estimate, truth);
   result["seconds"] = elapsed.count();
-  if (outliers) result["outliers"] = *outliers;
+  if (!outliers) return result;
+  result["outliers"] = *outliers;
+  result["off"] = share_off(samples, gonio::measure(truth, cells));
   return result;
 }
 
