@@ -5,6 +5,7 @@
 #include <gonio/core/impl/finite.ipp>
 #include <gonio/core/impl/parallel.ipp>
 #include <gonio/core/impl/pinhole_camera.ipp>
+#include <gonio/core/impl/printable.ipp>
 
 namespace gonio::detail {
 

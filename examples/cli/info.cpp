@@ -5,6 +5,7 @@
 #include "command_line/measures_as_json.hpp"
 #include "commands.hpp"
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/printable.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
@@ -83,7 +84,7 @@ json describe_file(const std::filesystem::path& path) {
 
 void print(const json& facts) {
   for (const auto& [key, value] : facts.items())
-    std::cout << key << ": " << (value.is_string() ? value.text() : value.dump()) << '\n';
+    std::cout << key << ": " << gonio::printable(value.is_string() ? value.text() : value.dump()) << '\n';
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "lab.hpp"
 #include "lab/recorded_frames.hpp"
 #include <gonio/capture/scan.hpp>
+#include <gonio/core/printable.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
@@ -70,7 +71,8 @@ void scan_into(const std::filesystem::path& output, Machine& machine, const std:
   const gonio::scan_outcome outcome = gonio::scan(machine, poses, journal, {}, bar.listener());
   bar.wipe();
   for (const auto& [number, reason] : outcome.missing)
-    std::cout << "missing: pose " << number + 1 << ", " << in_degrees(poses[number]) << ": " << reason << '\n';
+    std::cout << "missing: pose " << number + 1 << ", " << in_degrees(poses[number]) << ": " << gonio::printable(reason)
+              << '\n';
   std::cout << outcome.measured << " poses measured, " << outcome.kept_before << " were there already\n";
   if (outcome.is_complete()) return;
   throw std::runtime_error(output.string() + ": " + std::to_string(poses.size() - journal.scan().measured()) + " of " +

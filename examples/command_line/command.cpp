@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include <gonio/core/error.hpp>
+#include <gonio/core/printable.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -172,7 +173,7 @@ program::~program() = default;
 
 int program::run(int argc, char** argv) {
   const auto complain = [&](const std::string& what, int code) {
-    std::cerr << name_ << ": " << what << '\n';
+    std::cerr << name_ << ": " << gonio::printable(what) << '\n';
     return code;
   };
   try {

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <numeric>
 #include <ostream>
 #include <stdexcept>
 
@@ -124,7 +125,94 @@ bool operator==(const json& one, const json& other) {
 
 // ---- text ----------------------------------------------------------------------------------------------------------
 
-/// To and from the library that reads and writes.
+namespace {
+
+/// Builds a value from what the library's parser, which does not recurse, finds one after the other; false ends it.
+class json_reader {
+ public:
+  using number_integer_t = nlohmann::json::number_integer_t;
+  using number_unsigned_t = nlohmann::json::number_unsigned_t;
+  using number_float_t = nlohmann::json::number_float_t;
+  using string_t = nlohmann::json::string_t;
+  using binary_t = nlohmann::json::binary_t;
+
+  bool null() { return add(json()); }
+  bool boolean(bool value) { return add(value); }
+  bool number_integer(number_integer_t value) { return add(std::int64_t{value}); }
+  bool number_unsigned(number_unsigned_t value) { return add(std::uint64_t{value}); }
+  bool number_float(number_float_t value, const string_t&) { return add(value); }
+  bool string(string_t& value) { return add(std::move(value)); }
+  bool binary(binary_t&) { return false; }
+  bool start_object(std::size_t) { return open(json::object()); }
+  bool start_array(std::size_t) { return open(json::array()); }
+  bool key(string_t& name) {
+    open_.back().key = std::move(name);
+    return true;
+  }
+  bool end_object() {
+    keep_last_of_each_key(open_.back().value.items());
+    return close();
+  }
+  bool end_array() { return close(); }
+  bool parse_error(std::size_t, const std::string&, const nlohmann::json::exception&) { return false; }
+
+  [[nodiscard]] json read() && { return std::move(whole_); }
+
+ private:
+  struct opened {
+    json value;
+    std::string key;  ///< of the member that comes next
+  };
+
+  bool add(json value) {
+    if (++values_ > json::most_values) return false;
+    if (open_.empty())
+      whole_ = std::move(value);
+    else if (open_.back().value.is_object())
+      open_.back().value.items().emplace_back(std::move(open_.back().key), std::move(value));
+    else
+      open_.back().value.push_back(std::move(value));
+    return true;
+  }
+
+  bool open(json value) {
+    if (open_.size() == json::deepest) return false;
+    open_.push_back({std::move(value), {}});
+    return true;
+  }
+
+  bool close() {
+    json value = std::move(open_.back().value);
+    open_.pop_back();
+    return add(std::move(value));
+  }
+
+  /// A key that is there twice has its first place and its last value, as the library's ordered objects have it.
+  static void keep_last_of_each_key(std::vector<json::member>& members) {
+    std::vector<std::size_t> by_key(members.size());
+    std::iota(by_key.begin(), by_key.end(), std::size_t{0});
+    std::ranges::stable_sort(by_key, {}, [&](std::size_t i) -> const std::string& { return members[i].first; });
+    std::vector<bool> repeated(members.size());
+    for (std::size_t i = 1, first = 0; i < by_key.size(); ++i) {
+      if (members[by_key[i]].first != members[by_key[first]].first) {
+        first = i;
+        continue;
+      }
+      members[by_key[first]].second = std::move(members[by_key[i]].second);
+      repeated[by_key[i]] = true;
+    }
+    std::size_t i = 0;
+    std::erase_if(members, [&](const json::member&) { return repeated[i++]; });
+  }
+
+  json whole_;
+  std::vector<opened> open_;
+  std::size_t values_ = 0;
+};
+
+}  // namespace
+
+/// To the library that writes.
 struct json_text {
   static nlohmann::ordered_json library_form(const json& from) {
     return std::visit(
@@ -136,7 +224,9 @@ struct json_text {
             return values;
           } else if constexpr (std::is_same_v<held_type, std::vector<json::member>>) {
             auto members = nlohmann::ordered_json::object();
-            for (const auto& [key, each] : value) members[key] = library_form(each);
+            // Its own ways to add one look through all the others.
+            auto& list = members.get_ref<nlohmann::ordered_json::object_t&>();
+            for (const auto& [key, each] : value) list.emplace_back(key, library_form(each));
             return members;
           } else {
             return value;
@@ -144,28 +234,11 @@ struct json_text {
         },
         from.value_);
   }
-
-  static json our_form(const nlohmann::ordered_json& from) {
-    if (from.is_boolean()) return from.get<bool>();
-    if (from.is_number_unsigned()) return from.get<std::uint64_t>();
-    if (from.is_number_integer()) return from.get<std::int64_t>();
-    if (from.is_number()) return from.get<double>();
-    if (from.is_string()) return from.get<std::string>();
-    json result;
-    if (from.is_array()) result = json::array();
-    if (from.is_object()) result = json::object();
-    for (const auto& [key, value] : from.items())
-      if (from.is_object())
-        result[key] = our_form(value);
-      else
-        result.push_back(our_form(value));
-    return result;
-  }
 };
 
 json json::parse(const std::string& text) {
-  const auto read = nlohmann::ordered_json::parse(text, nullptr, false);
-  return read.is_discarded() ? json() : json_text::our_form(read);
+  json_reader reader;
+  return nlohmann::json::sax_parse(text, &reader) ? std::move(reader).read() : json();
 }
 
 std::string json::dump(int indent) const {

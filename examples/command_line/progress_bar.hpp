@@ -1,6 +1,7 @@
 #pragma once
 /// A progress bar on the terminal, for work of over a second.
 
+#include <gonio/core/printable.hpp>
 #include <gonio/core/progress.hpp>
 
 #include <unistd.h>
@@ -35,8 +36,7 @@ class progress_bar {
     const int done = static_cast<int>(fraction * width);
     const std::string bar =
         std::string(static_cast<std::size_t>(done), '#') + std::string(static_cast<std::size_t>(width - done), '.');
-    std::fprintf(stderr, "\r\033[K%s %3.0f %% %.*s", bar.c_str(), 100.0 * fraction, static_cast<int>(stage.size()),
-                 stage.data());
+    std::fprintf(stderr, "\r\033[K%s %3.0f %% %s", bar.c_str(), 100.0 * fraction, gonio::printable(stage).c_str());
   }
 
   /// What the library calls; the bar must outlive it.

@@ -6,12 +6,14 @@
 #include "command_line/json.hpp"
 #include <gonio/capture/device.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/printable.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/text.hpp>
 
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,7 +29,13 @@ class recorded_frames {
       : folder_(manifest.parent_path()), name_(manifest.string()) {
     const auto bytes = gonio::io::read_bytes(manifest);
     const auto text = cli::json::parse(std::string(gonio::io::detail::as_text(bytes)));
-    if (!text.is_object()) throw gonio::error(name_ + ": is not a JSON object");
+    if (!text.is_object())
+      throw gonio::error{name_,
+                         ": is not a JSON object, of at most ",
+                         cli::json::most_values,
+                         " values and nested at most ",
+                         cli::json::deepest,
+                         " deep"};
     largest_count_ = static_cast<std::uint16_t>(whole(text, "largest_count", 65535));
     if (largest_count_ == 0) throw gonio::error(name_ + ": 'largest_count' must be positive");
     if (text.contains("window")) window_ = parse_window(text["window"]);
@@ -81,7 +89,9 @@ class recorded_frames {
     return static_cast<std::size_t>(value);
   }
   /// The beginning of what is not what it should be.
-  [[nodiscard]] static std::string shown(const cli::json& object) { return object.dump().substr(0, 120); }
+  [[nodiscard]] static std::string shown(const cli::json& object) {
+    return gonio::printable(object.dump().substr(0, 120));
+  }
 
   [[nodiscard]] window parse_window(const cli::json& given) const {
     if (!given.is_object()) throw gonio::error(name_ + ": 'window' must have column, row, columns and rows");
@@ -108,13 +118,26 @@ class recorded_frames {
     if (!frame.contains("file") || !frame["file"].is_string())
       throw gonio::error(name_ + ": 'file' is missing or no text in " + shown(frame));
     recorded_pose* known = find(at);
-    if (known == nullptr) known = &recorded_.emplace_back(recorded_pose{at, {}});
+    if (known == nullptr) {
+      by_key_.emplace(key_of(at), recorded_.size());
+      known = &recorded_.emplace_back(recorded_pose{at, {}});
+    }
     known->frames.emplace_back(seconds, frame["file"].text());
   }
 
+  /// A number that differs where directions do, by less than twice as much.
+  [[nodiscard]] static double key_of(const gonio::direction_pair& pair) {
+    return pair.wi.dot(gonio::direction(0.61, 0.53, 0.59)) + pair.wo.dot(gonio::direction(0.37, 0.71, 0.43));
+  }
+
   [[nodiscard]] const recorded_pose* find(const gonio::direction_pair& pair) const {
-    for (const recorded_pose& each : recorded_)
-      if (each.at.wi.isApprox(pair.wi, 1e-9) && each.at.wo.isApprox(pair.wo, 1e-9)) return &each;
+    constexpr double tolerance = 1e-9;
+    const double key = key_of(pair);
+    for (auto near = by_key_.lower_bound(key - 2.0 * tolerance);
+         near != by_key_.end() && near->first <= key + 2.0 * tolerance; ++near) {
+      const recorded_pose& each = recorded_[near->second];
+      if (each.at.wi.isApprox(pair.wi, tolerance) && each.at.wo.isApprox(pair.wo, tolerance)) return &each;
+    }
     return nullptr;
   }
   [[nodiscard]] recorded_pose* find(const gonio::direction_pair& pair) {
@@ -144,6 +167,7 @@ class recorded_frames {
   std::uint16_t largest_count_ = 0;
   std::optional<window> window_;
   std::vector<recorded_pose> recorded_;
+  std::multimap<double, std::size_t> by_key_;  ///< numbers of the poses
 };
 static_assert(gonio::goniometer<recorded_frames>);
 

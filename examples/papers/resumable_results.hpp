@@ -18,6 +18,8 @@ class resumable_results {
  public:
   explicit resumable_results(const std::filesystem::path& path) : path_(path) {
     if (path.empty()) return;
+    if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+      throw gonio::error("'" + path.string() + "' is not a regular file");
     std::ifstream earlier(path);
     for (std::string line; std::getline(earlier, line);) {
       // A run that was killed may have left half a line.

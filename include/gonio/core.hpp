@@ -10,6 +10,7 @@
 #include <gonio/core/finite.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/pinhole_camera.hpp>
+#include <gonio/core/printable.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/core/sampled_direction.hpp>

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/printable.hpp>
 
 #include <array>
 #include <cstdio>
@@ -29,7 +30,8 @@ GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {
   return sentence;
 }
 
-GONIO_INLINE error::error(std::initializer_list<message_part> parts) : std::runtime_error(message_of(parts)) {}
+GONIO_INLINE error::error(std::initializer_list<message_part> parts)
+    : std::runtime_error(printable(message_of(parts))) {}
 
 GONIO_INLINE void refuse(const std::string& sentence) {
 #if defined(__cpp_exceptions)

@@ -31,7 +31,11 @@ GONIO_INLINE void apply_rule(const text_rule& rule, capture_constraint& constrai
     require_numbers(rule, {1, 2}, place);
     if (!(rule.numbers[0] > 0.0)) place.refuse("a step between lights must be positive");
     constraint.light_step = radians(rule.numbers[0]);
-    if (rule.numbers.size() == 2) constraint.light_tolerance = radians(rule.numbers[1]);
+    if (rule.numbers.size() == 2) {
+      if (!(rule.numbers[1] >= 0.0 && rule.numbers[1] <= 90.0))
+        place.refuse("lights are met to a tolerance from 0 to 90 degrees");
+      constraint.light_tolerance = radians(rule.numbers[1]);
+    }
   } else if (rule.name == "forbid") {
     require_numbers(rule, {4}, place);
     constraint.forbidden.push_back({parse_polar_range(rule, 0, place), parse_polar_range(rule, 2, place)});

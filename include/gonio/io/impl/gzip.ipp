@@ -70,7 +70,11 @@ GONIO_INLINE std::size_t expand(inflater& stream, std::vector<std::byte>& result
   while (true) {
     size += stream.read(std::span(result).subspan(size));
     if (stream.ended() || result.size() == limit) return size;
-    result.resize(std::min(std::max<std::size_t>(2 * result.size(), 4096), limit));
+    // Twice as much each time. The last step, which holds both buffers at once, is from a quarter to a half.
+    const std::size_t doubled = std::max<std::size_t>(2 * result.size(), 4096);
+    const std::size_t next = doubled < limit / 2 ? doubled : limit;
+    result.reserve(next);
+    result.resize(next);
   }
 }
 

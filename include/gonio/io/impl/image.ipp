@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/io/believable.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/image.hpp>
@@ -29,6 +30,13 @@ GONIO_INLINE void check_image_size(std::size_t rows, std::size_t columns, const 
   if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
     throw error{name,        ": a picture of ", columns, " x ", rows, " pixels, expected from 1 to ",
                 image_limit, " each way"};
+}
+
+/// Nobody's picture is so large and so empty; decoding it would take gigabytes.
+GONIO_INLINE void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
+                                          std::size_t bytes, const std::string& name) {
+  if (!claims.are_believable(rows * columns, bytes))
+    throw error{name, ": a picture of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"};
 }
 
 GONIO_INLINE int stb_size(std::span<const std::byte> bytes, const std::string& name) {
@@ -79,6 +87,17 @@ GONIO_INLINE png_header parse_png_header(std::span<const std::byte> data, const 
   return header;
 }
 
+/// Refuses pixels that do not expand to exactly so many bytes, which are not kept.
+GONIO_INLINE void check_png_pixels(std::span<const std::byte> deflated, std::size_t expected, const std::string& name) {
+  inflater stream(deflated, deflate_format::zlib, name);
+  std::vector<std::byte> some(std::min<std::size_t>(expected + 1, 1u << 16));
+  std::size_t size = 0;
+  while (!stream.ended() && size <= expected) size += stream.read(some);
+  if (size > expected) stream.refuse({"expands to more than the expected ", expected, " bytes"});
+  if (size < expected) stream.refuse({"expands to ", size, " bytes, not to the expected ", expected, " bytes"});
+  if (!stream.left().empty()) stream.refuse({stream.left().size(), " bytes follow the compressed data"});
+}
+
 GONIO_INLINE void check_png(std::span<const std::byte> bytes, const std::string& name) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   if (!std::ranges::equal(bytes.first(std::min(signature.size(), bytes.size())), std::as_bytes(std::span(signature))))
@@ -96,12 +115,15 @@ GONIO_INLINE void check_png(std::span<const std::byte> bytes, const std::string&
     const bool first = type.empty();
     type = {reinterpret_cast<const char*>(checked.data()), 4};
     if (first != (type == "IHDR")) throw error{name, ": the PNG header is missing or appears twice"};
-    if (first) header = parse_png_header(data, name);
+    if (first) {
+      header = parse_png_header(data, name);
+      check_believable_pixels(png_claims, header.rows, header.columns, bytes.size(), name);
+    }
     if (type == "IDAT") pixels.insert(pixels.end(), data.begin(), data.end());
     left = left.subspan(12 + length);
     if (type == "IEND" && !left.empty()) throw error{name, ": ", left.size(), " bytes follow the end of the PNG file"};
   }
-  static_cast<void>(decompress_bytes(pixels, header.raw_size(), name));
+  check_png_pixels(pixels, header.raw_size(), name);
 }
 
 GONIO_INLINE int byte_source::read(void* user, char* out, int wanted) {
@@ -239,6 +261,7 @@ GONIO_INLINE image read_hdr(const std::filesystem::path& path) {
              down = static_cast<std::size_t>(std::max(rows, 0));
   detail::check_image_size(down, across, name);
   if (bytes.size() < detail::least_hdr_size(down, across)) throw error{name, ": the HDR file is truncated"};
+  detail::check_believable_pixels(detail::hdr_claims, down, across, bytes.size(), name);
 
   detail::byte_source source{bytes};
   const stbi_io_callbacks callbacks{detail::byte_source::read, detail::byte_source::skip, detail::byte_source::eof};

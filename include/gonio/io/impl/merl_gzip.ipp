@@ -2,6 +2,8 @@
 /// Bodies of io/merl_gzip.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/io/believable.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -13,7 +15,11 @@ GONIO_INLINE brdf_table parse_merl_any(std::span<const std::byte> bytes, const s
   if (!is_gzip(bytes)) return parse_merl(bytes, name, options);
   // The extents at the start say how much more there may be.
   const auto header = gunzip_prefix(bytes, detail::merl_header_size, name);
-  const std::uint64_t size = detail::merl_file_size(detail::merl_extents(header, name));
+  const grid_extents extents = detail::merl_extents(header, name);
+  const std::uint64_t size = detail::merl_file_size(extents);
+  if (!detail::is_believable(size, detail::freely_claimed_table, bytes.size()))
+    throw error{name,         ": a MERL table of ", detail::to_text(extents), " cells is not believable of ",
+                bytes.size(), " compressed bytes"};
   return parse_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
 }
 

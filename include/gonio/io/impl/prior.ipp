@@ -54,6 +54,16 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   }
 }
 
+/// What `act` returns; what it throws names the file.
+template <class Act>
+[[nodiscard]] auto naming_prior(const std::string& name, const Act& act) {
+  try {
+    return act();
+  } catch (const error& refusal) {
+    throw error{name, ": ", refusal.what()};
+  }
+}
+
 [[nodiscard]] GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
@@ -62,10 +72,27 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   const auto minimum_cosine = in.take<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
     throw error{name, ": the smallest cosine of a valid cell must be in [0, 1)"};
-  const gonio::grid grid({theta_h, theta_d, phi_d}, anchor == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
-  // Components, mean and reference take at least 6 bytes a cell, most of the cells are valid.
-  if (grid.size() > 4 * in.left()) throw error{name, ": the grid has more cells than the file has values"};
-  return valid_cells(grid, minimum_cosine);
+  const gonio::grid grid = naming_prior(name, [&] {
+    return gonio::grid({theta_h, theta_d, phi_d}, anchor == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
+  });
+  // A valid cell takes 5 bytes at least: two codes of 16 bits, and one of 8 for each component. On a grid of any size
+  // half of the cells are valid, unless they are few or the smallest cosine is large.
+  constexpr std::size_t small_grid = std::size_t{1} << 21;
+  const std::size_t most = in.left() / 5;
+  std::size_t valid = 0;
+  if (grid.size() <= std::max(2 * most, small_grid))
+    for_each_smaller_cosine(grid, [&](std::size_t, double cosine) {
+      if (cosine > std::max(minimum_cosine, valid_cells::horizon)) ++valid;
+    });
+  if (valid > most || grid.size() > std::max(2 * most, small_grid))
+    throw error{name, ": the grid has more cells than the file has values"};
+  return naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); });
+}
+
+/// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
+[[nodiscard]] GONIO_INLINE double least_rest(double cells, double components, double materials) {
+  return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 12.0 * materials) + 2.0 * (8.0 + 2.0 * cells) +
+         components * (8.0 + cells);
 }
 
 [[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
@@ -78,8 +105,14 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   const valid_cells cells = take_cells(in, name);
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
-  if (components == 0 || components > 3 * std::uint64_t{materials} || materials > in.left())
+  if (components == 0 || components > 3 * std::uint64_t{materials})
     throw error{name, ": ", components, " components of ", materials, " materials are impossible"};
+  if (least_rest(static_cast<double>(cells.size()), components, materials) > static_cast<double>(in.left()))
+    throw error{name,         ": the file is truncated or its counts are wrong: ",
+                in.left(),    " bytes cannot hold ",
+                components,   " components of ",
+                materials,    " materials over ",
+                cells.size(), " cells"};
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(materials);
@@ -91,7 +124,6 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  if (cells.size() > in.left()) throw error{name, ": the file is truncated or its counts are wrong"};
   cell_matrix functions(static_cast<Eigen::Index>(cells.size()), k);
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = take_quantised<std::uint8_t>(in, cells.size());
@@ -108,9 +140,11 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
                       all_finite(values) && all_finite(mean);
   if (!finite) throw error{name, ": a value of the prior is not finite"};
-  return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names),
-                           std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
-                           explained_variance, std::move(source)});
+  return naming_prior(name, [&] {
+    return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names),
+                             std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
+                             explained_variance, std::move(source)});
+  });
 }
 
 }  // namespace gonio::io::detail

@@ -239,24 +239,31 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
 }
 
-[[nodiscard]] GONIO_INLINE half_difference row_angles(const parsed_row& row) {
+/// A row's directions in both ways. Rounding may put one that grazes the surface below it in one of the two ways alone;
+/// it is refused in both.
+struct row_place {
   half_difference angles;
+  direction_pair pair;
+};
+
+[[nodiscard]] GONIO_INLINE row_place place_of(const parsed_row& row) {
+  row_place at;
   if (row.has_half_difference()) {
-    angles = given_angles(row);
-    angles.phi_d = fold_phi_d(angles.phi_d);
+    at.angles = given_angles(row);
+    at.pair = to_directions(at.angles);
+    at.angles.phi_d = fold_phi_d(at.angles.phi_d);
   } else {
-    const direction_pair pair = given_directions(row);
-    angles = to_half_difference(pair.wi, pair.wo);
+    at.pair = given_directions(row);
+    at.angles = to_half_difference(at.pair.wi, at.pair.wo);
   }
-  require_above_horizon(cosines(angles), row);
-  return angles;
+  require_above_horizon(cosines(at.angles), row);
+  require_above_horizon({at.pair.wi.z(), at.pair.wo.z()}, row);
+  return at;
 }
 
-[[nodiscard]] GONIO_INLINE direction_pair row_directions(const parsed_row& row) {
-  const direction_pair pair = row.has_half_difference() ? to_directions(given_angles(row)) : given_directions(row);
-  require_above_horizon({pair.wi.z(), pair.wo.z()}, row);
-  return pair;
-}
+[[nodiscard]] GONIO_INLINE half_difference row_angles(const parsed_row& row) { return place_of(row).angles; }
+
+[[nodiscard]] GONIO_INLINE direction_pair row_directions(const parsed_row& row) { return place_of(row).pair; }
 
 [[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
   const double* first = &row.numbers[row.weights.first];

@@ -179,7 +179,8 @@ GONIO_INLINE void scan_journal::add(std::size_t pose, const reading& taken) {
 }
 
 GONIO_INLINE void scan_journal::open() {
-  file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
+  // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
+  file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
   if (errno == EWOULDBLOCK) throw error{path_.string(), ": another process is scanning into this file"};

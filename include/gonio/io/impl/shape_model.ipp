@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -39,18 +40,32 @@ GONIO_INLINE void put_shape_model(byte_writer& out, const shape_model& model) {
 /// A matrix of so many rows and columns, as its numbers lie in memory.
 template <class Matrix>
 [[nodiscard]] Matrix take_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
-  const auto numbers = in.take_all<typename Matrix::Scalar>(rows * columns);
+  const auto bytes = in.take_bytes(rows * columns * sizeof(typename Matrix::Scalar));
   Matrix matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
-  std::ranges::copy(numbers, matrix.data());
+  std::ranges::copy(bytes, std::as_writable_bytes(std::span(matrix.data(), rows * columns)).begin());
   return matrix;
+}
+
+/// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
+[[nodiscard]] GONIO_INLINE double least_rest(double vertices, double triangles, double components, double shapes) {
+  return 8.0 + 4.0 * (1.0 + shapes) + 12.0 * triangles + components * (8.0 + 4.0 * shapes) +
+         12.0 * vertices * (1.0 + components);
 }
 
 [[nodiscard]] GONIO_INLINE shape_model take_shape_model(byte_reader& in, const std::string& name) {
   const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
                     components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
-  if (components == 0 || components > shapes || shapes > in.left())
+  if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
     throw error(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
                 " shapes are impossible");
+  const auto as_real = [](std::size_t count) { return static_cast<double>(count); };
+  if (least_rest(as_real(vertices), as_real(triangles), as_real(components), as_real(shapes)) > as_real(in.left()))
+    throw error{name,       ": the file is truncated or its counts are wrong: ",
+                in.left(),  " bytes cannot hold ",
+                components, " components of ",
+                shapes,     " shapes of ",
+                vertices,   " vertices and ",
+                triangles,  " triangles"};
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(shapes);

@@ -1,0 +1,40 @@
+#pragma once
+/// What readers believe of the sizes that a file claims, before they ask for memory. A few bytes of deflated zeros can
+/// claim gigabytes; what instruments and this library write shrinks far less. docs/formats.md, "Limits".
+
+#include <cstddef>
+#include <cstdint>
+
+namespace gonio::io::detail {
+
+/// What may be claimed whatever the file's size: a MERL table has 35 MB, and one of a single colour shrinks 1000-fold.
+inline constexpr std::uint64_t freely_claimed_table = std::uint64_t{36} << 20;
+
+/// The payload of a prior of one component over MERL's grid has 5.5 MB.
+inline constexpr std::uint64_t freely_claimed_payload = std::uint64_t{8} << 20;
+
+/// Beyond that, how many bytes one deflated byte may stand for. The prior that ships has 33; deflate can make 1032.
+inline constexpr std::uint64_t believable_expansion = 64;
+
+[[nodiscard]] constexpr bool is_believable(std::uint64_t claimed, std::uint64_t freely,
+                                           std::size_t compressed) noexcept {
+  return claimed <= freely || (claimed - freely) / believable_expansion <= compressed;
+}
+
+/// How many pixels a kind of picture may have whatever its file's size, and beyond that, how many pixels one byte of
+/// the file may stand for.
+struct pixel_claims {
+  std::size_t freely, per_byte;
+
+  [[nodiscard]] constexpr bool are_believable(std::size_t pixels, std::size_t bytes) const noexcept {
+    return pixels <= freely || (pixels - freely) / per_byte <= bytes;
+  }
+};
+
+/// Decoding takes at most 16 bytes a pixel. Photographs have a byte or more.
+inline constexpr pixel_claims png_claims{4'000'000, 16};
+
+/// Decoding takes 24 bytes a pixel.
+inline constexpr pixel_claims hdr_claims{2'700'000, 4};
+
+}  // namespace gonio::io::detail

@@ -1,0 +1,19 @@
+/// JSON, as the files of --state hold it: what is read is written, and read again as the same.
+
+#include "harness.hpp"
+
+#include <command_line/json.hpp>
+
+#include <cstdlib>
+
+namespace {
+
+void read(fuzz::input bytes) {
+  const cli::json value = cli::json::parse(std::string(fuzz::text_of(bytes)));
+  const std::string text = value.dump();
+  if (cli::json::parse(text).dump() != text) std::abort();
+}
+
+const fuzz::registered harness("json", &read);
+
+}  // namespace

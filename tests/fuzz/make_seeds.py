@@ -1,0 +1,159 @@
+#!/usr/bin/env python3
+"""Writes the seeds of the fuzz harnesses: small files of every kind that the readers accept. python3 make_seeds.py"""
+import gzip
+import math
+import pathlib
+import struct
+import zlib
+
+here = pathlib.Path(__file__).parent / "seeds"
+
+
+def put(reader, name, content):
+    folder = here / reader
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+
+
+def valid_cells(h, d, p):
+    count = 0
+    for i in range(h):
+        theta_h = ((i + 0.5) / h) ** 2 * math.pi / 2
+        for j in range(d):
+            theta_d = (j + 0.5) / d * math.pi / 2
+            for k in range(p):
+                phi = abs(math.cos((k + 0.5) / p * math.pi))
+                smaller = math.cos(theta_h) * math.cos(theta_d) - math.sin(theta_h) * math.sin(theta_d) * phi
+                count += smaller > 1e-9
+    return count
+
+
+def text(of):
+    return struct.pack("<I", len(of)) + of.encode()
+
+
+def checked(magic, payload):
+    return magic + struct.pack("<IQI", 1, len(payload), zlib.crc32(payload)) + zlib.compress(payload, 9)
+
+
+def prior(h, d, p, k, m):
+    cells = valid_cells(h, d, p)
+    out = struct.pack("<4IdIId", h, d, p, 0, 0.0, k, m, 0.99) + text("made up")
+    out += b"".join(text(f"m{i}") for i in range(m)) + struct.pack(f"<{k}d", *range(k, 0, -1))
+    out += struct.pack(f"<{3 * m * k}f", *(0.1 * i for i in range(3 * m * k)))
+    for low, step in ((-3.0, 1e-4), (0.5, 1e-3)):
+        out += struct.pack("<ff", low, step) + bytes(i % 3 for i in range(cells)) + bytes(i % 7 for i in range(cells))
+    for i in range(k):
+        out += struct.pack("<ff", -1.0, 0.01) + bytes((i + c) % 5 for c in range(cells))
+    return out
+
+
+def shapes(p, k, m):
+    triangles = [v for t in range(p - 2) for v in (0, t + 1, t + 2)]
+    out = struct.pack("<4Id", p, p - 2, k, m, 0.9) + text("made up") + b"".join(text(f"s{i}") for i in range(m))
+    out += struct.pack(f"<{len(triangles)}i", *triangles) + struct.pack(f"<{k}d", *range(k, 0, -1))
+    out += struct.pack(f"<{m * k}f", *(0.1 * i for i in range(m * k)))
+    points = [c for v in range(p) for c in (math.cos(v), math.sin(v), 0.1 * v)]
+    return out + struct.pack(f"<{3 * p}f", *points) + struct.pack(f"<{3 * p * k}f", *(0.01 * i for i in range(3 * p * k)))
+
+
+def merl(h, d, p):
+    return struct.pack("<3i", h, d, p) + struct.pack(f"<{3 * h * d * p}d", *(float(i % 9) for i in range(3 * h * d * p)))
+
+
+def npy(values, shape, descr="<f4", version=1):
+    dictionary = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}\n"
+    length = struct.pack("<H" if version == 1 else "<I", len(dictionary))
+    code = "f" if descr.endswith("4") else "d"
+    return b"\x93NUMPY" + bytes([version, 0]) + length + dictionary.encode() + struct.pack(f"<{len(values)}{code}", *values)
+
+
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def png(columns, rows, depth, kind, channels, interlaced=0, extra=b"", filter=1):
+    row = (columns * channels * depth + 7) // 8
+    raw = b"".join(bytes([(filter + r) % 5]) + bytes((7 * r + c) % 256 for c in range(row)) for r in range(rows))
+    if interlaced:  # one pixel: the first pass alone
+        raw = b"\0" + bytes(row)
+    head = struct.pack(">IIBBBBB", columns, rows, depth, kind, 0, 0, interlaced)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + extra + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
+
+
+put("merl", "small", merl(3, 2, 4))
+put("merl", "small.gz", gzip.compress(merl(3, 2, 4), mtime=0))
+put("merl", "marked", struct.pack("<3i", 2, 2, 2) + struct.pack("<24d", *([1.0] * 7 + [-1.0]) * 3))
+put("gzip", "text.gz", gzip.compress(b"one, two, three, three, three, three", mtime=0))
+put("gzip", "two.gz", gzip.compress(b"one", mtime=0) + gzip.compress(b"two", mtime=0))
+put("gzip", "zlib", struct.pack("<H", 300) + zlib.compress(bytes(300)))
+put("gzip", "stored", struct.pack("<H", 5) + zlib.compress(b"plain", 0))
+for extents, k, m in (((2, 2, 2), 1, 1), ((3, 4, 5), 3, 2)):
+    put("prior", f"payload-{k}", prior(*extents, k, m))
+    put("prior", f"whole-{k}.prior", checked(b"gonio-pca", prior(*extents, k, m)))
+for p, k, m in ((3, 1, 1), (6, 2, 3)):
+    put("shape_model", f"payload-{k}", shapes(p, k, m))
+    put("shape_model", f"whole-{k}.shapes", checked(b"gonio-shapes", shapes(p, k, m)))
+put("npy", "one.npy", npy([1, 2, 3], "(3,)"))
+put("npy", "two.npy", npy([1, 2, 3, 4], "(2, 2)", "<f8"))
+put("npy", "three.npy", npy([1, 2], "(1, 2, 1)", "<f4", 2))
+put("npy", "none.npy", npy([], "(0, 5)", "<f8", 3))
+put("networks", "one", b"red paint\n\0" + npy([0.01 * (i % 50) for i in range(675)], "(1, 675)"))
+put("networks", "two", b"red\n blue \n\0" + npy([0.0] * 1350, "(2, 675)", "<f8"))
+put("samples", "half.csv", "theta_h,theta_d,phi_d,r,g,b,weight\n1,2,3,0.1,0.2,0.3,1\n# a comment\n40, 30, -170, 1e-3,+2,-0.5,0\n")
+put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1,1\n-45,0,45,360,.5,.5,.5\n")
+put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")
+put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
+put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")
+put("cornell", "two.brdf", "2\n400\n700\n0 0 0 0 0.5 0.25\n")
+put("capture_constraint", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparation 15 # degrees\nlight_step 7.5 0.5\nforbid 60 90 60 90\n")
+put("capture_constraint", "step.txt", "light_step 7.5\n")
+put("near_field_setup", "target.txt", "size 640 480\nfocal_length 1210.5\nposition 0.5 0 0.3\ntarget 0 0 0\nlight_angles 50 180\nregion 0.1\nblock 4\nsaturation 2\n")
+put("near_field_setup", "rotation.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nwindow 1 2 30 20\nregion 0.2 0.1 0\nup 0 1 0\n")
+put("scan_journal", "small.scan", "# gonio scan\nlargest_count 255\npose 0 0 1 0.6 0 0.8\npose 0 0 1 0 0.6 0.8\nreading 0 2 0.1 1 1 9 8 7 99 88 77 ?\nreading 1 1 0.5 2 1 2 3 4 5 6 ?\n")
+put("scan_journal", "cut.scan", "largest_count 65535\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 99")
+palette = chunk(b"PLTE", bytes(range(12)))
+put("png", "rgb.png", png(3, 4, 8, 2, 3))
+put("png", "rgba16.png", png(2, 5, 16, 6, 4))
+put("png", "grey1.png", png(9, 3, 1, 0, 1))
+put("png", "grey16.png", png(2, 2, 16, 0, 1))
+put("png", "palette2.png", png(5, 2, 2, 3, 1, extra=palette))
+put("png", "alpha.png", png(2, 2, 8, 4, 2))
+put("png", "interlaced.png", png(1, 1, 8, 2, 3, interlaced=1))
+hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 2 +X "
+put("hdr", "flat.hdr", hdr + b"3\n" + bytes(range(100, 124)))
+put("hdr", "runs.hdr", hdr + b"8\n" + 2 * (bytes([2, 2, 0, 8]) + 2 * bytes([136, 65]) + bytes([8]) + bytes(range(60, 68)) + bytes([136, 130])))
+ascii_ply = "ply\nformat ascii 1.0\ncomment made up\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n3 0 1 2\n4 0 1 2 3\n"
+put("ply", "ascii.ply", ascii_ply)
+for order, name in (("<", "little"), (">", "big")):
+    head = f"ply\nformat binary_{name}_endian 1.0\nelement vertex 3\nproperty double x\nproperty float y\nproperty short z\nelement face 1\nproperty list ushort uint vertex_index\nelement edge 1\nproperty list uchar uchar a\nend_header\n"
+    put("ply", f"{name}.ply", head.encode() + b"".join(struct.pack(order + "dfh", x, y, 0) for x, y in ((0, 0), (1, 0), (0, 1))) + struct.pack(order + "H3I", 3, 0, 1, 2) + bytes([2, 1, 2]))
+put("obj", "small.obj", "# made up\no thing\nv 0 0 0\nv 1 0 0\nv 1 1 0 1 0.5 0.5\nv 0 1 0\nvn 0 0 1\nvt 0 0\nf 1 2 3\nf -4/1/1 -2//1 -1/1\nf 1 2 3 4\n")
+frames = '{"largest_count": 4095, "window": {"column": 1, "row": 0, "columns": 2, "rows": 2}, "frames": [{"theta_i": 30, "phi_i": 0, "theta_o": 10.5, "phi_o": -180, "seconds": 0.1, "file": "a.png"}, {"theta_i": 30, "phi_i": 0, "theta_o": 10.5, "phi_o": -180, "seconds": 1, "file": "b.png"}]}'
+put("recorded_frames", "manifest.json", frames)
+put("recorded_frames", "one.json", '{"largest_count":1,"frames":[{"theta_i":0,"phi_i":0,"theta_o":0,"phi_o":0,"seconds":1e-3,"file":""}]}')
+put("json", "state.json", '{"key":{"n":5,"set":"a"},"result":[1,-2.5e-3,null,true,false,"\\u00e9\\n",{"x":[]}]}')
+put("json", "twice.json", '{"a":1,"b":{},"a":[18446744073709551615,-9223372036854775808,1.0]}')
+
+words = {
+    "merl": ['\\x5A\\x00\\x00\\x00', '\\xB4\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x1F\\x8B\\x08', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF0\\xBF', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF8\\x7F'],
+    "gzip": ['\\x1F\\x8B\\x08', '\\x78\\x9C', '\\x78\\xDA', '\\x00\\x00\\xFF\\xFF', '\\x03\\x00'],
+    "prior": ['gonio-pca', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F', '\\x00\\x00\\xC0\\x7F'],
+    "shape_model": ['gonio-shapes', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x00\\x80', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F'],
+    "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
+    "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],
+    "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF'],
+    "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
+    "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
+    "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
+    "scan_journal": ['largest_count', 'pose', 'reading', '?', '#', '\\x0A', '65535', '0 0 1', '0.6 0 0.8', '1000', '1000000', '1e9', 'nan'],
+    "png": ['\\x89PNG\\x0D\\x0A\\x1A\\x0A', 'IHDR', 'IDAT', 'IEND', 'PLTE', 'tRNS', 'gAMA', 'CgBI', '\\x00\\x00\\x40\\x00', '\\x00\\x00\\x00\\x0D', '\\x78\\x9C'],
+    "hdr": ['#?RADIANCE', '#?RGBE', 'FORMAT=32-bit_rle_rgbe', 'EXPOSURE=', '-Y ', '+X ', '+Y ', '\\x0A\\x0A', '16384', '\\x02\\x02\\x00\\x08', '\\x88', '\\xFF'],
+    "ply": ['ply', 'format ascii 1.0', 'format binary_little_endian 1.0', 'format binary_big_endian 1.0', 'element vertex ', 'element face ', 'property list ', 'property ', 'uchar', 'char', 'short', 'ushort', 'int', 'uint', 'float', 'double', 'int8', 'float64', 'vertex_indices', 'vertex_index', 'end_header', 'comment', 'obj_info', '\\x0A', '4294967295', '18446744073709551615', 'nan'],
+    "obj": ['v ', 'f ', 'vn ', 'vt ', 'o ', 'g ', 's ', 'usemtl ', '/', '//', '-1', '9223372036854775807', '-9223372036854775808', '\\x0A', '#', 'nan', '1e308'],
+    "recorded_frames": ['"largest_count"', '"window"', '"frames"', '"theta_i"', '"phi_i"', '"theta_o"', '"phi_o"', '"seconds"', '"file"', '"column"', '"row"', '"columns"', '"rows"', '{', '}', '[', ']', ':', ',', '65535', '1e308', '\\\\u001b', 'null', '89.9999999999'],
+    "json": ['{', '}', '[', ']', ':', ',', '"key"', '"result"', 'null', 'true', 'false', '1e308', '1e400', '-0.0', '18446744073709551616', '\\\\u001b', '\\\\ud83d\\\\ude00', '\\\\ud800', '\\xEF\\xBB\\xBF', '""'],
+}
+for reader, entries in words.items():
+    lines = "".join('"' + entry.replace('"', '\\"') + '"\n' for entry in entries)
+    (here.parent / "dictionaries" / f"{reader}.dict").write_text(lines)

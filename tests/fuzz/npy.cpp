@@ -1,0 +1,29 @@
+/// Arrays of one to three dimensions.
+
+#include "harness.hpp"
+#include <gonio/io/npy.hpp>
+
+namespace {
+
+/// Calls `act`; what it refuses is refused.
+template <class Act>
+bool accepts(Act&& act) {
+  try {
+    static_cast<void>(act());
+    return true;
+  } catch (const gonio::error& refusal) {
+    if (!fuzz::fault_of(refusal).empty()) throw;
+    return false;
+  }
+}
+
+void read(fuzz::input bytes) {
+  using gonio::io::parse_npy;
+  if (accepts([&] { return parse_npy<float, 1>(bytes, fuzz::bytes_name); })) return;
+  if (accepts([&] { return parse_npy<double, 2>(bytes, fuzz::bytes_name); })) return;
+  static_cast<void>(parse_npy<float, 3>(bytes, fuzz::bytes_name));
+}
+
+const fuzz::registered harness("npy", &read);
+
+}  // namespace

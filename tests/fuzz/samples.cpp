@@ -1,0 +1,49 @@
+/// Samples, and the same file as directions: what is accepted as one of a kind is as the other, and what is written is
+/// read.
+
+#include "harness.hpp"
+#include <gonio/io/samples.hpp>
+
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+namespace {
+
+/// How many directions a reader finds, or what it says against them.
+struct answer {
+  std::size_t count = 0;
+  std::optional<gonio::error> refusal;
+};
+
+template <class Read>
+answer ask(const Read& read) {
+  try {
+    return {read().size(), {}};
+  } catch (const gonio::error& refusal) {
+    return {0, refusal};
+  }
+}
+
+void require_same(const answer& one, const answer& other) {
+  if (one.count == other.count) return;
+  for (const answer& each : {one, other})
+    std::fprintf(stderr, "%s\n", each.refusal ? each.refusal->what() : "accepted");
+  std::abort();
+}
+
+void read(fuzz::input bytes) {
+  const fuzz::memory_file file(bytes);
+  const answer angles = ask([&] { return gonio::io::read_directions(file.path()); });
+  require_same(angles, ask([&] { return gonio::io::read_direction_pairs(file.path()); }));
+  if (angles.refusal) throw *angles.refusal;
+  const auto samples = gonio::io::read_samples(file.path());
+  const std::string text = gonio::io::format_samples(samples);
+  require_same({samples.size(), {}}, ask([&] { return gonio::io::parse_samples(text, fuzz::bytes_name); }));
+}
+
+const fuzz::registered harness("samples", &read);
+
+}  // namespace
