@@ -51,8 +51,8 @@ void compare_tables(const compare_options& options) {
 void add_compare(command& app) {
   auto command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
   const auto options = std::make_shared<compare_options>();
-  command.add_option("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
-  command.add_option("truth", options->truth, "True table (.binary or .binary.gz)").required();
+  command.add_input("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
+  command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
   add_prior_option(command, options->prior);
   command.add_flag("--json", options->print_json, "Print the errors as JSON");
   add_threads_option(command, options->threads);

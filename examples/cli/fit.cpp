@@ -82,8 +82,8 @@ void add_fit(command& app) {
   auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
   const auto options = std::make_shared<fit_command_options>();
   command
-      .add_option("measurements", options->measurements,
-                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      .add_input("measurements", options->measurements,
+                 "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
       .required();
   std::string names;
   for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
@@ -99,11 +99,12 @@ void add_fit(command& app) {
   command.add_flag("--fresnel", options->fresnel,
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->fit);
-  command.add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
-  command.add_option("--image", options->picture,
+  command.add_output("-o,--output", options->output, {".binary", ".npy"},
+                     "The model as a table to write (.binary, or .npy)");
+  command.add_output("--image", options->picture, {".png"},
                      "Spheres of measurement (if it is a table) and model to write (.png)");
-  command.add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");
-  command.add_option("--mitsuba", options->mitsuba, "Material of Mitsuba 3 to write (.xml)");
+  command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");
+  command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->fit.threads);
   command.callback([options] { fit(*options); });

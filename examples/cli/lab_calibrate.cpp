@@ -100,8 +100,8 @@ void run(const calibrate_command& options) {
 void add_lab_calibrate(command& lab) {
   auto command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
   const auto options = std::make_shared<calibrate_command>();
-  command.add_option("material", options->material, "Scan of the material (.scan)").required();
-  command.add_option("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
+  command.add_input("material", options->material, "Scan of the material (.scan)").required();
+  command.add_input("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
       .required();
   command.add_option("--reflectance", options->reflectance, "Of the white reference")
       .check(check::range(0.01, 1.0))
@@ -122,8 +122,8 @@ void add_lab_calibrate(command& lab) {
   command.add_option("--flicker", options->noise.relative, "Relative deviation of each exposure")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--response", options->response, "The camera's response, to write (.csv)");
-  command.add_option("-o,--output", options->output, "Samples to write (.csv)").required();
+  command.add_output("--response", options->response, {".csv"}, "The camera's response, to write (.csv)");
+  command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] { run(*options); });
 }
 

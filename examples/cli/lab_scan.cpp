@@ -93,9 +93,9 @@ void run(const replay_command& options) {
 void add_lab_scan(command& lab) {
   auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
   const auto options = std::make_shared<scan_command>();
-  command.add_option("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
+  command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
   auto what = command.add_option_group("what", "What lies in the machine (one of)");
-  what.add_option("--material", options->material, "A material's table (.binary or .binary.gz)");
+  what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
   what.add_flag("--white", options->white, "The white reference");
   what.require_option(1);
   command.add_option("--reflectance", options->reflectance, "Of the white reference")
@@ -119,15 +119,17 @@ void add_lab_scan(command& lab) {
   command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
   command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
       .capture_default_str();
-  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
+      .required();
   command.callback([options] { run(*options); });
 }
 
 void add_lab_replay(command& lab) {
   auto command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
   const auto options = std::make_shared<replay_command>();
-  command.add_option("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
-  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.add_input("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
+      .required();
   command.callback([options] { run(*options); });
 }
 

@@ -133,10 +133,10 @@ void add_correction_options(command& to, reconstruct_options& options) {
   to.add_option("--iterations", options.iterations, "Rounds of correction at most")
       .check(check::range(1, 10'000))
       .capture_default_str();
-  to.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
-  to.add_option("--story", options.story,
-                "Folder for a picture of the first rounds of correction and the last, and their history");
-  to.add_option("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
+  to.add_output("--history", options.history, {".csv"}, "What each round of correction did, to write (.csv)");
+  to.add_output_folder("--story", options.story, {"story.png", "history.csv"},
+                       "Folder for a picture of the first rounds of correction and the last, and their history");
+  to.add_input("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
   to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
       .capture_default_str();
 }
@@ -146,7 +146,7 @@ void add_correction_options(command& to, reconstruct_options& options) {
 void add_reconstruct(command& app) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
-  command.add_option("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
+  command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);
@@ -166,8 +166,8 @@ void add_reconstruct(command& app) {
                   "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
                   "of highlights count less then (for pictures: gonio near-field --misplaced)")
       .capture_default_str();
-  command.add_option("-o,--output", options->output, "Table to write (.binary, or .npy)");
-  command.add_option("--image", options->picture, "Picture of a sphere to write (.png)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
+  command.add_output("--image", options->picture, {".png"}, "Picture of a sphere to write (.png)");
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
   command.callback([command, options] {

@@ -48,12 +48,12 @@ void add_render(command& app) {
   auto command = app.add_subcommand(
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
-  command.add_option("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
-  command.add_option("-o,--output", options->output, "Picture to write (.png)").required();
+  command.add_input("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
+  command.add_output("-o,--output", options->output, {".png"}, "Picture to write (.png)").required();
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
-  auto environment = command.add_option("--environment", options->environment,
-                                        "Light from all around: a latitude-longitude picture (.hdr)");
+  auto environment = command.add_input("--environment", options->environment,
+                                       "Light from all around: a latitude-longitude picture (.hdr)");
   environment.excludes(slices);
   command
       .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")

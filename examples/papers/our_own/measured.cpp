@@ -119,7 +119,10 @@ void add_measured_materials(command& app) {
   auto command =
       app.add_subcommand("measured-materials", "Reconstruct each table of a folder from random samples of it");
   const auto options = std::make_shared<measured_options>();
-  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)").required();
+  command
+      .add_input_folder("--tables", options->tables, {".binary", ".gz"},
+                        "Folder of MERL tables (.binary or .binary.gz)")
+      .required();
   add_prior_option(command, options->prior);
   command.add_option("--counts", options->counts, "Numbers of samples")
       .check(check::positive_number())
@@ -129,7 +132,7 @@ void add_measured_materials(command& app) {
   command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--spheres", options->picture,
+  command.add_output("--spheres", options->picture, {".png"},
                      "Picture to write (.png): a row for each table, the truth at the right");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
