@@ -23,6 +23,7 @@ struct fit_command_options {
   std::filesystem::path measurements, output, picture, pbrt, mitsuba;
   std::string model = "ggx", metric = "lin";
   bool fresnel = false, print_json = false;
+  picture_options how;
   gonio::model_fit_options fit;
 };
 
@@ -63,8 +64,9 @@ void fit(const fit_command_options& options) {
     if (!options.output.empty()) write_table(options.output, fitted);
     if (!options.picture.empty()) {
       std::vector<gonio::image> pictures;
-      if (table) pictures.push_back(sphere_picture(*table, options.fit.threads));
-      pictures.push_back(sphere_picture(fitted, options.fit.threads));
+      if (table) pictures.push_back(sphere_picture(*table, options.how, options.fit.threads));
+      pictures.push_back(sphere_picture(fitted, options.how, options.fit.threads));
+      expose_spheres(pictures, std::span(pictures).first(1), options.how);  // by what was measured
       gonio::io::write_png(options.picture, gonio::side_by_side(pictures, 8));
     }
   }
@@ -101,8 +103,9 @@ void add_fit(command& app) {
   add_fit_options(command, options->fit);
   command.add_output("-o,--output", options->output, {".binary", ".npy"},
                      "The model as a table to write (.binary, or .npy)");
-  command.add_output("--image", options->picture, {".png"},
-                     "Spheres of measurement (if it is a table) and model to write (.png)");
+  auto image = command.add_output("--image", options->picture, {".png"},
+                                  "Spheres of measurement (if it is a table) and model to write (.png)");
+  add_image_options(command, options->how, image);
   command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");
   command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
   command.add_flag("--json", options->print_json, "Print the fit as JSON");

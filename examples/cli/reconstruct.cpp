@@ -102,11 +102,17 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
   std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
 }
 
-void reconstruct(const reconstruct_options& options, const method& chosen) {
+void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const picture_options& how) {
+  std::array spheres{sphere_picture(table, how, options.threads)};
+  expose_spheres(spheres, how);
+  gonio::io::write_png(options.picture, spheres.front());
+}
+
+void reconstruct(const reconstruct_options& options, const picture_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
   if (!options.output.empty()) write_table(options.output, result.table);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(result.table, options.threads));
+  if (!options.picture.empty()) write_sphere(options, result.table, how);
   if (!options.history.empty()) write_history(options.history, result.history);
   if (result.story) {
     gonio::io::write_png(options.story / "story.png", *result.story);
@@ -146,6 +152,7 @@ void add_correction_options(command& to, reconstruct_options& options) {
 void add_reconstruct(command& app) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
+  const auto how = std::make_shared<picture_options>();
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
@@ -167,13 +174,14 @@ void add_reconstruct(command& app) {
                   "of highlights count less then (for pictures: gonio near-field --misplaced)")
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
-  command.add_output("--image", options->picture, {".png"}, "Picture of a sphere to write (.png)");
+  auto image = command.add_output("--image", options->picture, {".png"}, "Picture of a sphere to write (.png)");
+  add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
-  command.callback([command, options] {
+  command.callback([command, options, how] {
     const method& chosen = method_named(options->method);
     require_taken(command, chosen);
-    reconstruct(*options, chosen);
+    reconstruct(*options, *how, chosen);
   });
 }
 
