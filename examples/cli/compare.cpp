@@ -30,7 +30,7 @@ void print(const gonio::comparison& errors) {
        fixed(errors.cosine_rms.mean(), 4) + "   sr^-1, values weighted by max(cos_i cos_o, 0.001)");
   line("Delta E, lights   ", fixed(errors.delta_e_lights, 2) + "   CIELAB 1976, sphere under two lights");
   line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   the same under the closed-form environment");
-  line("peak ratio        ", fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5 degrees");
+  line("peak ratio        ", fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5, theta_d <= 70 degrees");
   line("spheres: sRGB, D65, exposed so that a white Lambertian sphere has mean luminance 1", "");
 }
 
@@ -51,8 +51,8 @@ void compare_tables(const compare_options& options) {
 void add_compare(command& app) {
   auto command = app.add_subcommand("compare", "Measure how an estimated table differs from the truth");
   const auto options = std::make_shared<compare_options>();
-  command.add_option("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
-  command.add_option("truth", options->truth, "True table (.binary or .binary.gz)").required();
+  command.add_input("estimate", options->estimate, "Estimated table (.binary or .binary.gz)").required();
+  command.add_input("truth", options->truth, "True table (.binary or .binary.gz)").required();
   add_prior_option(command, options->prior);
   command.add_flag("--json", options->print_json, "Print the errors as JSON");
   add_threads_option(command, options->threads);

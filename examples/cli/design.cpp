@@ -93,13 +93,14 @@ void add_design(command& app) {
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
-  command.add_option("--constraint", options->constraint,
-                     "What the apparatus cannot do (a text file, docs/formats.md)");
-  command.add_option("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  command.add_input("--constraint", options->constraint, "What the apparatus cannot do (a text file, docs/formats.md)");
+  command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", options->print_json, "Print the result as JSON");
   add_threads_option(command, design.threads);
-  command.add_option("-o,--output", options->output, "Directions to write; of pictures, those of the centre (.csv)")
+  command
+      .add_output("-o,--output", options->output, {".csv"},
+                  "Directions to write; of pictures, those of the centre (.csv)")
       .required();
   command.callback([options] { run(*options); });
 }

@@ -50,14 +50,15 @@ void add_expand(command& app) {
       app.add_subcommand("expand", "Write a material given by a network, the prior or a formula as a MERL table");
   const auto options = std::make_shared<expand_options>();
   auto networks =
-      command.add_option("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
+      command.add_input("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
   add_prior_option(command, options->prior);
   command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
   std::string known;
   for (const std::string& formula : gonio::formula_material_names()) known += (known.empty() ? "" : ", ") + formula;
   command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
       .excludes(networks);
-  command.add_option("-o,--output", options->output, "Table to write (.binary, or .npy)").required();
+  command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)")
+      .required();
   add_threads_option(command, options->threads);
   command.callback([options] {
     if (options->formula.empty() && options->name.empty())

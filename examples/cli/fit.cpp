@@ -24,6 +24,7 @@ struct fit_command_options {
   std::string model = "ggx", metric = "lin";
   gonio::cell_weighting cell_weights = gonio::cell_weighting::equal;
   bool fresnel = false, print_json = false;
+  picture_options how;
   gonio::model_fit_options fit;
 };
 
@@ -66,8 +67,9 @@ void fit(const fit_command_options& options) {
     if (!options.output.empty()) write_table(options.output, fitted);
     if (!options.picture.empty()) {
       std::vector<gonio::image> pictures;
-      if (table) pictures.push_back(sphere_picture(*table, options.fit.threads));
-      pictures.push_back(sphere_picture(fitted, options.fit.threads));
+      if (table) pictures.push_back(sphere_picture(*table, options.how, options.fit.threads));
+      pictures.push_back(sphere_picture(fitted, options.how, options.fit.threads));
+      expose_spheres(pictures, std::span(pictures).first(1), options.how);  // by what was measured
       gonio::io::write_png(options.picture, gonio::side_by_side(pictures, 8));
     }
   }
@@ -85,8 +87,8 @@ void add_fit(command& app) {
   auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
   const auto options = std::make_shared<fit_command_options>();
   command
-      .add_option("measurements", options->measurements,
-                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
+      .add_input("measurements", options->measurements,
+                 "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
       .required();
   std::string names;
   for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
@@ -103,11 +105,13 @@ void add_fit(command& app) {
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->fit);
   add_cell_weights_option(command, options->cell_weights);
-  command.add_option("-o,--output", options->output, "The model as a table to write (.binary, or .npy)");
-  command.add_option("--image", options->picture,
-                     "Spheres of measurement (if it is a table) and model to write (.png)");
-  command.add_option("--pbrt", options->pbrt, "Material of pbrt-v4 to write");
-  command.add_option("--mitsuba", options->mitsuba, "Material of Mitsuba 3 to write (.xml)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy"},
+                     "The model as a table to write (.binary, or .npy)");
+  auto image = command.add_output("--image", options->picture, {".png"},
+                                  "Spheres of measurement (if it is a table) and model to write (.png)");
+  add_image_options(command, options->how, image);
+  command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");
+  command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->fit.threads);
   command.callback([options] { fit(*options); });

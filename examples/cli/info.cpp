@@ -92,7 +92,7 @@ void print(const json& facts) {
 void add_info(command& app) {
   auto command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
   const auto options = std::make_shared<info_options>();
-  command.add_option("file", options->file, "The file").required();
+  command.add_input("file", options->file, "The file").required();
   command.add_flag("--json", options->print_json, "Print as JSON");
   command.callback([options] {
     const json facts = describe_file(options->file);

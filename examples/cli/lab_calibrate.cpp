@@ -19,6 +19,7 @@ struct calibrate_command {
   double gamma = 0.0;  ///< of a camera that is known; 0: find its response
   double reflectance = 0.99, saturation = 0.98;
   gonio::sensor_noise noise{.read = 1.6, .shot = 0.2};
+  bool brighter = false;  ///< the material than the reference
 };
 
 /// The readings of a scan that are there.
@@ -64,12 +65,20 @@ void require_same_poses(const calibrate_command& options, const gonio::io::recor
                        ": expected scans of the same poses by the same camera");
 }
 
+void require_reference(const calibrate_command& options, const std::vector<gonio::measured_reflectance>& usable) {
+  if (!options.brighter) try {
+      gonio::require_bright_reference(usable, options.reflectance);
+    } catch (const gonio::error& refusal) {
+      throw gonio::error{options.reference.native(), ": ", refusal.what(),
+                         " (if not, as where only a highlight was measured: --brighter)"};
+    }
+}
+
 void run(const calibrate_command& options) {
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
   require_same_poses(options, material, reference);
   const gonio::calibration known = calibration_of(options, material, reference);
-  gonio::sample_set samples;
-  std::vector<double> deviations;
+  std::vector<gonio::measured_reflectance> usable;
   const auto leave_out = [&](std::size_t pose, const std::string& reason) {
     std::cout << "left out: pose " << pose + 1 << ", " << in_degrees(material.poses[pose]) << ": " << reason << '\n';
   };
@@ -80,19 +89,26 @@ void run(const calibrate_command& options) {
       continue;
     }
     const auto found = gonio::measure_reflectance(*seen, *white, material.poses[i], known);
-    if (!found.is_usable()) {
+    if (found.is_usable())
+      usable.push_back(found);
+    else
       leave_out(i, found.doubt);
-      continue;
-    }
-    samples.push_back(found.as_sample());
-    deviations.push_back(found.relative_deviation());
   }
-  if (samples.empty()) throw gonio::error(options.material.string() + ": no pose can be used");
+  if (usable.empty()) throw gonio::error(options.material.string() + ": no pose can be used");
+  require_reference(options, usable);
+  gonio::sample_set samples;
+  std::vector<double> deviations;
+  for (const auto& each : usable) {
+    samples.push_back(each.as_sample());
+    deviations.push_back(each.relative_deviation());
+  }
   gonio::io::write_samples(options.output, samples);
   if (!options.response.empty()) write_responses(options.response, known);
   std::ranges::nth_element(deviations, deviations.begin() + std::ssize(deviations) / 2);
   std::cout << samples.size() << " samples, each known to " << fixed(100.0 * deviations[deviations.size() / 2], 2)
             << " % (median)\n";
+  if (material.subject && reference.subject)
+    std::cout << "of '" << material.subject->sample << "' beside '" << reference.subject->sample << "'\n";
 }
 
 }  // namespace
@@ -100,8 +116,8 @@ void run(const calibrate_command& options) {
 void add_lab_calibrate(command& lab) {
   auto command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
   const auto options = std::make_shared<calibrate_command>();
-  command.add_option("material", options->material, "Scan of the material (.scan)").required();
-  command.add_option("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
+  command.add_input("material", options->material, "Scan of the material (.scan)").required();
+  command.add_input("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
       .required();
   command.add_option("--reflectance", options->reflectance, "Of the white reference")
       .check(check::range(0.01, 1.0))
@@ -122,8 +138,10 @@ void add_lab_calibrate(command& lab) {
   command.add_option("--flicker", options->noise.relative, "Relative deviation of each exposure")
       .check(check::non_negative_number())
       .capture_default_str();
-  command.add_option("--response", options->response, "The camera's response, to write (.csv)");
-  command.add_option("-o,--output", options->output, "Samples to write (.csv)").required();
+  command.add_flag("--brighter", options->brighter,
+                   "The material is brighter than the reference in most samples, and that is right");
+  command.add_output("--response", options->response, {".csv"}, "The camera's response, to write (.csv)");
+  command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
   command.callback([options] { run(*options); });
 }
 

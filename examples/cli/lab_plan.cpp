@@ -75,12 +75,12 @@ void add_lab_plan(command& lab) {
   auto command = lab.add_subcommand("plan", "Directions as poses of a machine, in the order of a short way");
   const auto options = std::make_shared<plan_command>();
   auto what = command.add_option_group("what", "What to measure (one of)");
-  what.add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
+  what.add_input("directions", options->directions, "Directions, as `gonio design` writes them (.csv)");
   what.add_flag("--whole", options->whole,
                 "Every camera pose of the half hemisphere under every lamp of the robot's arc");
   what.require_option(1);
   add_machine_options(command, options->machine);
-  command.add_option("-o,--output", options->output, "Poses to write (.csv)").required();
+  command.add_output("-o,--output", options->output, {".csv"}, "Poses to write (.csv)").required();
   command.callback([options] { run(*options); });
 }
 

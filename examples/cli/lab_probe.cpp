@@ -111,29 +111,30 @@ void add_distance_option(command& to, double& distance) {
 void add_lab_probe(command& lab) {
   auto command = lab.add_subcommand("probe", "Photograph a mirror sphere in an environment");
   const auto options = std::make_shared<probe_command>();
-  command.add_option("environment", options->input, "Light all around, latitude-longitude (.hdr)").required();
+  command.add_input("environment", options->input, "Light all around, latitude-longitude (.hdr)").required();
   add_distance_option(command, options->distance);
   command.add_option("--size", options->pixels, "Pixels of the picture each way")
       .check(check::range(8, 8192))
       .capture_default_str();
-  command.add_option("-o,--output", options->output, "Picture to write, filled by the sphere (.hdr)").required();
+  command.add_output("-o,--output", options->output, {".hdr"}, "Picture to write, filled by the sphere (.hdr)")
+      .required();
   command.callback([options] { photograph(*options); });
 }
 
 void add_lab_unwrap(command& lab) {
   auto command = lab.add_subcommand("unwrap", "Turn a picture of a mirror sphere into the light all around");
   const auto options = std::make_shared<probe_command>();
-  command.add_option("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
+  command.add_input("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
       .required();
   add_distance_option(command, options->distance);
   command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
       .check(check::range(1, 8192))
       .capture_default_str();
   command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
-  command.add_option("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
-  command.add_option("--image", options->picture, "The picture beside the map, to look at (.png)");
+  command.add_input("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
+  command.add_output("--image", options->picture, {".png"}, "The picture beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
-  command.add_option("-o,--output", options->output, "Map to write, latitude-longitude (.hdr)").required();
+  command.add_output("-o,--output", options->output, {".hdr"}, "Map to write, latitude-longitude (.hdr)").required();
   command.callback([options] { unwrap(*options); });
 }
 

@@ -25,13 +25,14 @@ struct scan_command {
   std::filesystem::path plan, material, output;
   machine_choice machine;
   bool white = false, ideal = false;
-  std::string camera = "linear";
+  std::string camera = "linear", label;
   double reflectance = 0.99, misalignment = 0.5, outliers = 0.0, noise = 1.0;
   std::uint64_t room_seed = 1, seed = 1;
 };
 
 struct replay_command {
   std::filesystem::path manifest, output;
+  std::string label;
 };
 
 lab::response_curve curve_named(const std::string& name) {
@@ -63,10 +64,43 @@ lab::dark_room room_of(const scan_command& options) {
   return {surface_of(options), chip, wrong, options.room_seed, 2 * options.seed + (options.white ? 1 : 0)};
 }
 
+using gonio::io::detail::shortest;
+
+/// What the journal says that it is of. Options that change no count are left out.
+gonio::io::scan_subject subject_of(const scan_command& options) {
+  gonio::io::scan_subject subject;
+  subject.seed = options.seed;
+  if (options.white) {
+    subject.sample = "white reference, reflectance " + shortest(options.reflectance);
+  } else {
+    subject.sample = options.material.filename().string();
+    subject.checksum = gonio::io::checksum_of_file(options.material);
+  }
+  if (!options.label.empty()) subject.sample = options.label;
+  subject.setup = "machine " + options.machine.name;
+  if (options.machine.name == "robot") subject.setup += ", lamp tolerance " + shortest(options.machine.tolerance);
+  subject.setup += ", camera " + options.camera;
+  if (options.ideal)
+    subject.setup += ", ideal";
+  else
+    subject.setup += ", noise " + shortest(options.noise) + ", misaligned " + shortest(options.misalignment);
+  subject.setup += ", outliers " + shortest(options.outliers) + ", room seed " + std::to_string(options.room_seed);
+  return subject;
+}
+
+/// The list of frames, and the folder that it lies in: lists of two materials may be the same.
+gonio::io::scan_subject subject_of(const replay_command& options) {
+  const auto folder = std::filesystem::absolute(options.manifest).lexically_normal().parent_path().filename();
+  return {.sample = options.label.empty() ? (folder / options.manifest.filename()).string() : options.label,
+          .checksum = gonio::io::checksum_of_file(options.manifest),
+          .setup = "recorded frames"};
+}
+
 /// Scans what the journal does not have yet. Throws where poses stay missing.
 template <class Machine>
-void scan_into(const std::filesystem::path& output, Machine& machine, const std::vector<gonio::direction_pair>& poses) {
-  gonio::io::scan_journal journal(output, poses, machine.largest_count());
+void scan_into(const std::filesystem::path& output, const gonio::io::scan_subject& subject, Machine& machine,
+               const std::vector<gonio::direction_pair>& poses) {
+  gonio::io::scan_journal journal(output, subject, poses, machine.largest_count());
   progress_bar bar;
   const gonio::scan_outcome outcome = gonio::scan(machine, poses, journal, {}, bar.listener());
   bar.wipe();
@@ -82,12 +116,19 @@ void scan_into(const std::filesystem::path& output, Machine& machine, const std:
 void run(const scan_command& options) {
   const auto poses = gonio::io::read_direction_pairs(options.plan);
   lab::dark_room room = room_of(options);
-  with_machine(options.machine, room, [&](auto& machine) { scan_into(options.output, machine, poses); });
+  with_machine(options.machine, room,
+               [&](auto& machine) { scan_into(options.output, subject_of(options), machine, poses); });
 }
 
 void run(const replay_command& options) {
   lab::recorded_frames recorded(options.manifest);
-  scan_into(options.output, recorded, recorded.poses());
+  scan_into(options.output, subject_of(options), recorded, recorded.poses());
+}
+
+void add_label_option(command& to, std::string& label) {
+  to.add_option("--label", label,
+                "What lies in the machine, in words: a journal is gone on with only for the same (default: the name "
+                "of the file)");
 }
 
 }  // namespace
@@ -95,14 +136,15 @@ void run(const replay_command& options) {
 void add_lab_scan(command& lab) {
   auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
   const auto options = std::make_shared<scan_command>();
-  command.add_option("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
+  command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
   auto what = command.add_option_group("what", "What lies in the machine (one of)");
-  what.add_option("--material", options->material, "A material's table (.binary or .binary.gz)");
+  what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
   what.add_flag("--white", options->white, "The white reference");
   what.require_option(1);
   command.add_option("--reflectance", options->reflectance, "Of the white reference")
       .check(check::range(0.01, 1.0))
       .capture_default_str();
+  add_label_option(command, options->label);
   add_machine_options(command, options->machine);
   command.add_option("--camera", options->camera, "The camera's response")
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
@@ -121,15 +163,18 @@ void add_lab_scan(command& lab) {
   command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
   command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
       .capture_default_str();
-  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
+      .required();
   command.callback([options] { run(*options); });
 }
 
 void add_lab_replay(command& lab) {
   auto command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
   const auto options = std::make_shared<replay_command>();
-  command.add_option("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
-  command.add_option("-o,--output", options->output, "Journal to write, or to go on with (.scan)").required();
+  command.add_input("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
+  add_label_option(command, options->label);
+  command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
+      .required();
   command.callback([options] { run(*options); });
 }
 

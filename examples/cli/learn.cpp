@@ -42,7 +42,7 @@ void add_learn(command& app) {
       .check(check::positive_number())
       .capture_default_str();
   add_thin_option(command, options->thin);
-  command.add_option("-o,--output", options->output, "Prior to write").required();
+  command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
   command.callback([options] {
     progress_bar bar;

@@ -147,12 +147,15 @@ gonio::image label_map(const gonio::colour_clusters& clusters, const std::vector
 }
 
 /// A file of samples for each material. Its pixels are those of its cluster in the last picture.
-void write_samples_of_each(std::vector<taken_picture> pictures, const near_field_command& options) {
+void write_samples_of_each(std::vector<taken_picture> pictures, const command& given,
+                           const near_field_command& options) {
   require_fixed_camera(pictures);
   const taken_picture& diffuse = pictures.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
   const std::vector<std::size_t> region = gonio::pixels_of_region(diffuse.setup);
   const gonio::colour_clusters clusters = clusters_of(diffuse, region, options);
+  for (std::size_t material = 0; material < clusters.count(); ++material)
+    given.require_writable(path_of_material(options.output, material));
   if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
   for (std::size_t material = 0; material < clusters.count(); ++material) {
     std::vector<bool> mask(size.rows * size.columns, false);
@@ -164,13 +167,13 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const near_field
   }
 }
 
-void run(const near_field_command& options) {
+void run(const command& given, const near_field_command& options) {
   if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
   std::vector<taken_picture> pictures = read_pictures(options);
   if (options.clusters.empty())
     write_samples_of_all(pictures, options, options.output);
   else
-    write_samples_of_each(std::move(pictures), options);
+    write_samples_of_each(std::move(pictures), given, options);
 }
 
 }  // namespace
@@ -179,15 +182,15 @@ void add_near_field(command& app) {
   auto command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   command
-      .add_option("pictures", options->pictures,
-                  "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
-                  "light and region of interest")
+      .add_input("pictures", options->pictures,
+                 "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
+                 "light and region of interest")
       .type_name("PICTURE SETUP")
       .required();
   command.add_option("--clusters", options->clusters,
                      "Several materials: how many, or auto; told apart by colour in the last picture, which should "
                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
-  command.add_option("--labels", options->labels, "Picture of which pixels are which material (.png)");
+  command.add_output("--labels", options->labels, {".png"}, "Picture of which pixels are which material (.png)");
   command
       .add_option("--misplaced", options->misplacement,
                   "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
@@ -196,8 +199,8 @@ void add_near_field(command& app) {
   add_prior_option(command, options->prior);
   command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
   add_threads_option(command, options->threads);
-  command.add_option("-o,--output", options->output, "Samples to write (.csv)").required();
-  command.callback([options] { run(*options); });
+  command.add_output("-o,--output", options->output, {".csv"}, "Samples to write (.csv)").required();
+  command.callback([command, options] { run(command, *options); });
 }
 
 }  // namespace cli

@@ -1,20 +1,70 @@
 #pragma once
-/// The pictures that the tool makes of tables.
+/// The pictures that the tool makes of tables, and their options.
 
+#include "command_line/command.hpp"
 #include <gonio/io/image.hpp>
+#include <gonio/render/exposure.hpp>
+#include <gonio/render/horizon_lookup.hpp>
 #include <gonio/render/slice.hpp>
 #include <gonio/render/sphere.hpp>
 
+#include <optional>
+#include <span>
+#include <vector>
+
 namespace cli {
 
-/// A sphere under the two lights of Nielsen et al. 2015, Figure 2.
-[[nodiscard]] inline gonio::image sphere_picture(const gonio::brdf_table& table, gonio::thread_count threads) {
-  return gonio::render_sphere(table, gonio::two_lights(), {.size = 256, .supersampling = 3}, threads);
+struct picture_options {
+  int size = 256;
+  std::optional<double> exposure;  ///< the mean luminance of a white Lambertian sphere; none: by the spheres
+};
+
+/// Adds `--size` and `--exposure`. Returns both, for what they need or exclude.
+inline std::pair<option, option> add_picture_options(command& to, picture_options& options,
+                                                     const char* default_exposure) {
+  auto size = to.add_option("--size", options.size, "Rows and columns of each picture")
+                  .check(check::range(8, 4096))
+                  .capture_default_str();
+  auto exposure = to.add_option("--exposure", options.exposure,
+                                "The mean luminance that a white Lambertian sphere would have, white being 1")
+                      .check(check::positive_number())
+                      .default_str(default_exposure);
+  return {size, exposure};
+}
+
+/// The same for an option that names the picture.
+inline void add_image_options(command& to, picture_options& options, option image) {
+  auto [size, exposure] =
+      add_picture_options(to, options,
+                          "such that the sphere is white at its 99th percentile; that of the measurement, "
+                          "if there is one");
+  size.needs(image);
+  exposure.needs(image);
+}
+
+/// A sphere under the two lights of Nielsen et al. 2015, Figure 2, in which a white Lambertian sphere has the mean
+/// luminance 1.
+[[nodiscard]] inline gonio::image sphere_picture(const gonio::brdf_table& table, const picture_options& options,
+                                                 gonio::thread_count threads) {
+  return gonio::render_sphere(gonio::horizon_lookup(table), gonio::two_lights(),
+                              {.size = options.size, .supersampling = 3}, threads);
+}
+
+/// Exposes spheres alike: as the options say, or such that the brightest of some is white at its 99th percentile.
+inline void expose_spheres(std::span<gonio::image> spheres, std::span<const gonio::image> by,
+                           const picture_options& options) {
+  const double exposure = options.exposure ? *options.exposure : gonio::exposure_of_spheres(by);
+  for (gonio::image& sphere : spheres) gonio::expose(sphere, exposure);
+}
+
+inline void expose_spheres(std::span<gonio::image> spheres, const picture_options& options) {
+  expose_spheres(spheres, spheres, options);
 }
 
 /// A slice at phi_d = 90 degrees: theta_h to the right, theta_d upwards.
-[[nodiscard]] inline gonio::image slice_picture(const gonio::brdf_table& table, gonio::thread_count threads) {
-  return gonio::render_slice(table, {.rows = 256, .columns = 256}, threads);
+[[nodiscard]] inline gonio::image slice_picture(const gonio::brdf_table& table, const picture_options& options,
+                                                gonio::thread_count threads) {
+  return gonio::render_slice(table, {.rows = options.size, .columns = options.size}, threads);
 }
 
 }  // namespace cli

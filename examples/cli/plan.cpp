@@ -137,8 +137,8 @@ void run(const plan_options& options) {
 void add_plan(command& app) {
   auto command = app.add_subcommand("plan", "Print directions as poses of a goniometer, and draw them");
   const auto options = std::make_shared<plan_options>();
-  command.add_option("directions", options->directions, "Directions, as `gonio design` writes them (.csv)").required();
-  command.add_option("--image", options->picture,
+  command.add_input("directions", options->directions, "Directions, as `gonio design` writes them (.csv)").required();
+  command.add_output("--image", options->picture, {".png"},
                      "Drawing of the hemisphere from above: discs are lights, rings are viewers (.png)");
   command.add_flag("--json", options->print_json, "Print the poses as JSON");
   command.callback([options] { run(*options); });

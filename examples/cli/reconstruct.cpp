@@ -102,11 +102,17 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
   std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
 }
 
-void reconstruct(const reconstruct_options& options, const method& chosen) {
+void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const picture_options& how) {
+  std::array spheres{sphere_picture(table, how, options.threads)};
+  expose_spheres(spheres, how);
+  gonio::io::write_png(options.picture, spheres.front());
+}
+
+void reconstruct(const reconstruct_options& options, const picture_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
   if (!options.output.empty()) write_table(options.output, result.table);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, sphere_picture(result.table, options.threads));
+  if (!options.picture.empty()) write_sphere(options, result.table, how);
   if (!options.history.empty()) write_history(options.history, result.history);
   if (result.story) {
     gonio::io::write_png(options.story / "story.png", *result.story);
@@ -133,10 +139,10 @@ void add_correction_options(command& to, reconstruct_options& options) {
   to.add_option("--iterations", options.iterations, "Rounds of correction at most")
       .check(check::range(1, 10'000))
       .capture_default_str();
-  to.add_option("--history", options.history, "What each round of correction did, to write (.csv)");
-  to.add_option("--story", options.story,
-                "Folder for a picture of the first rounds of correction and the last, and their history");
-  to.add_option("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
+  to.add_output("--history", options.history, {".csv"}, "What each round of correction did, to write (.csv)");
+  to.add_output_folder("--story", options.story, {"story.png", "history.csv"},
+                       "Folder for a picture of the first rounds of correction and the last, and their history");
+  to.add_input("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
   to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
       .capture_default_str();
 }
@@ -146,7 +152,8 @@ void add_correction_options(command& to, reconstruct_options& options) {
 void add_reconstruct(command& app) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
-  command.add_option("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
+  const auto how = std::make_shared<picture_options>();
+  command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);
@@ -166,14 +173,15 @@ void add_reconstruct(command& app) {
                   "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
                   "of highlights count less then (for pictures: gonio near-field --misplaced)")
       .capture_default_str();
-  command.add_option("-o,--output", options->output, "Table to write (.binary, or .npy)");
-  command.add_option("--image", options->picture, "Picture of a sphere to write (.png)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
+  auto image = command.add_output("--image", options->picture, {".png"}, "Picture of a sphere to write (.png)");
+  add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
-  command.callback([command, options] {
+  command.callback([command, options, how] {
     const method& chosen = method_named(options->method);
     require_taken(command, chosen);
-    reconstruct(*options, chosen);
+    reconstruct(*options, *how, chosen);
   });
 }
 

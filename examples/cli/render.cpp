@@ -16,12 +16,15 @@ namespace cli {
 
 namespace {
 
+/// In light from all around no highlight is much brighter than what is around it.
+constexpr double exposure_in_environment = 0.4;
+
 struct render_options {
   std::vector<std::filesystem::path> tables;
   std::filesystem::path output, environment;
   bool slices = false;
   int quality = 64;
-  double white = 0.4;
+  picture_options picture;
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -31,14 +34,18 @@ void render(const render_options& options) {
   if (!options.environment.empty()) light.emplace(gonio::environment_map(gonio::io::read_hdr(options.environment)));
   progress_bar bar;
   const auto picture_of = [&](const gonio::brdf_table& table) {
-    if (options.slices) return slice_picture(table, options.threads);
-    if (!light) return sphere_picture(table, options.threads);
+    if (options.slices) return slice_picture(table, options.picture, options.threads);
+    if (!light) return sphere_picture(table, options.picture, options.threads);
     const gonio::half_vector_sampler material(gonio::lookup_table<>::of(table));
-    const gonio::sampled_sphere_view view{.samples = options.quality, .seed = options.seed, .white = options.white};
+    const gonio::sampled_sphere_view view{.size = options.picture.size,
+                                          .samples = options.quality,
+                                          .seed = options.seed,
+                                          .white = options.picture.exposure.value_or(exposure_in_environment)};
     return gonio::render_sphere(material, *light, view, options.threads, bar.listener());
   };
   std::vector<gonio::image> pictures;
   for (const auto& path : options.tables) pictures.push_back(picture_of(gonio::io::read_merl_any(path)));
+  if (!options.slices && !light) expose_spheres(pictures, options.picture);
   gonio::io::write_png(options.output, gonio::side_by_side(pictures, 8));
 }
 
@@ -48,23 +55,22 @@ void add_render(command& app) {
   auto command = app.add_subcommand(
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
-  command.add_option("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
-  command.add_option("-o,--output", options->output, "Picture to write (.png)").required();
+  command.add_input("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
+  command.add_output("-o,--output", options->output, {".png"}, "Picture to write (.png)").required();
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
-  auto environment = command.add_option("--environment", options->environment,
-                                        "Light from all around: a latitude-longitude picture (.hdr)");
+  auto environment = command.add_input("--environment", options->environment,
+                                       "Light from all around: a latitude-longitude picture (.hdr)");
   environment.excludes(slices);
   command
       .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
-  command
-      .add_option("--white", options->white, "Exposure: the mean luminance that a white Lambertian sphere would have")
-      .check(check::positive_number())
-      .needs(environment)
-      .capture_default_str();
+  add_picture_options(command, options->picture,
+                      "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
+                      "percentile")
+      .second.excludes(slices);
   command.add_option("--seed", options->seed, "Seed of the samples").needs(environment).capture_default_str();
   add_threads_option(command, options->threads);
   command.callback([options] { render(*options); });

@@ -1,10 +1,13 @@
 #include "command.hpp"
 
+#include "declared_files.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/io/file.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <map>
@@ -54,21 +57,17 @@ option option::excludes(option other) { return option(*known_->excludes(other.kn
 // ---- commands ------------------------------------------------------------------------------------------------------
 
 command command::add_subcommand(const std::string& name, const std::string& description) {
-  return command(*known_->add_subcommand(name, description));
+  return {*known_->add_subcommand(name, description), std::make_shared<declared_files>()};
 }
 
 option_group command::add_option_group(const std::string& name, const std::string& description) {
-  return option_group(*known_->add_option_group(name, description));
+  return {*known_->add_option_group(name, description), files_};
 }
 
 void command::require_subcommand() { known_->require_subcommand(1); }
 void command::allow_extras() { known_->allow_extras(); }
 
 option command::add_option(const std::string& names, std::string& value, const std::string& description) {
-  return option(*known_->add_option(names, value, description));
-}
-
-option command::add_option(const std::string& names, std::filesystem::path& value, const std::string& description) {
   return option(*known_->add_option(names, value, description));
 }
 
@@ -100,11 +99,6 @@ option command::add_option(const std::string& names, std::vector<std::string>& v
   return option(*known_->add_option(names, values, description));
 }
 
-option command::add_option(const std::string& names, std::vector<std::filesystem::path>& values,
-                           const std::string& description) {
-  return option(*known_->add_option(names, values, description));
-}
-
 option command::add_option(const std::string& names, std::vector<int>& values, const std::string& description) {
   return option(*known_->add_option(names, values, description));
 }
@@ -127,11 +121,6 @@ option command::add_option(const std::string& names, std::pair<int, int>& values
   return option(*known_->add_option(names, values, description));
 }
 
-option command::add_option(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
-                           const std::string& description) {
-  return option(*known_->add_option(names, values, description));
-}
-
 option command::add_choice(const std::string& names, std::function<void(int)> choose,
                            std::initializer_list<std::pair<const char*, int>> words, const std::string& description) {
   std::map<std::string, word_number> numbers;
@@ -151,14 +140,101 @@ option command::add_flag(const std::string& names, bool& value, const std::strin
   return option(*known_->add_flag(names, value, description));
 }
 
-void command::callback(std::function<void()> work) { known_->callback(std::move(work)); }
+void command::callback(std::function<void()> work) {
+  known_->callback([work = std::move(work), files = files_] {
+    files->require_writable();
+    work();
+  });
+}
 
 std::size_t command::count(const std::string& name) const { return known_->count(name); }
+
+// ---- files ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+declared_files::paths paths_in(const std::filesystem::path& value) {
+  return [&value] { return std::vector{value}; };
+}
+
+std::vector<std::string> strings(std::initializer_list<const char*> words) { return {words.begin(), words.end()}; }
+
+}  // namespace
+
+option command::add_input(const std::string& names, std::filesystem::path& value, const std::string& description) {
+  auto* added = known_->add_option(names, value, description);
+  files_->add_input(added->get_name(), paths_in(value));
+  return option(*added);
+}
+
+option command::add_input(const std::string& names, std::vector<std::filesystem::path>& values,
+                          const std::string& description) {
+  auto* added = known_->add_option(names, values, description);
+  files_->add_input(added->get_name(), [&values] { return values; });
+  return option(*added);
+}
+
+option command::add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
+                          const std::string& description) {
+  auto* added = known_->add_option(names, values, description);
+  files_->add_input(added->get_name(), [&values] {
+    std::vector<std::filesystem::path> all;
+    for (const auto& [first, second] : values) all.insert(all.end(), {first, second});
+    return all;
+  });
+  return option(*added);
+}
+
+option command::add_input_folder(const std::string& names, std::filesystem::path& value,
+                                 std::initializer_list<const char*> extensions, const std::string& description) {
+  auto* added = known_->add_option(names, value, description);
+  files_->add_input_folder(added->get_name(), paths_in(value), strings(extensions));
+  return option(*added);
+}
+
+option command::add_output(const std::string& names, std::filesystem::path& value,
+                           std::initializer_list<const char*> extensions, const std::string& description) {
+  auto* added = known_->add_option(names, value, description);
+  files_->add_output(added->get_name(), paths_in(value), strings(extensions));
+  return option(*added);
+}
+
+option command::add_output_folder(const std::string& names, std::filesystem::path& value,
+                                  std::initializer_list<const char*> files, const std::string& description) {
+  auto* added = known_->add_option(names, value, description);
+  files_->add_output_folder(added->get_name(), paths_in(value), strings(files));
+  return option(*added);
+}
+
+void command::require_writable(const std::filesystem::path& derived) const { files_->require_writable(derived); }
+
+// ---- groups --------------------------------------------------------------------------------------------------------
 
 void option_group::require_option(std::size_t number) { known().require_option(static_cast<int>(number)); }
 void option_group::require_option(std::size_t least, std::size_t most) { known().require_option(least, most); }
 
 // ---- the program ---------------------------------------------------------------------------------------------------
+
+namespace {
+
+extern "C" void end_by_signal(int signal) {
+  gonio::io::remove_unfinished_files();
+  ::raise(signal);  // its handler is the system's again
+}
+
+/// A program that is told to end leaves no half-written file.
+void clean_up_on_signals() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction known {};
+    if (::sigaction(signal, nullptr, &known) != 0 || known.sa_handler != SIG_DFL) continue;  // nohup ignores one
+    known = {};
+    known.sa_handler = end_by_signal;
+    known.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+    ::sigaction(signal, &known, nullptr);
+  }
+}
+
+}  // namespace
 
 program::program(const std::string& name, const std::string& description, const std::string& version)
     : program(name, std::make_unique<CLI::App>(description, name)) {
@@ -167,7 +243,7 @@ program::program(const std::string& name, const std::string& description, const 
 }
 
 program::program(std::string name, std::unique_ptr<CLI::App> all)
-    : command(*all), name_(std::move(name)), all_(std::move(all)) {}
+    : command(*all, std::make_shared<declared_files>()), name_(std::move(name)), all_(std::move(all)) {}
 
 program::~program() = default;
 
@@ -176,6 +252,7 @@ int program::run(int argc, char** argv) {
     std::cerr << name_ << ": " << gonio::printable(what) << '\n';
     return code;
   };
+  clean_up_on_signals();
   try {
     all_->parse(argc, argv);
     return 0;

@@ -65,6 +65,7 @@ class option {
 };
 
 class option_group;
+class declared_files;
 
 /// A subcommand. The variables of its options must live until the program has run.
 class command {
@@ -76,7 +77,6 @@ class command {
   void allow_extras();
 
   option add_option(const std::string& names, std::string& value, const std::string& description);
-  option add_option(const std::string& names, std::filesystem::path& value, const std::string& description);
   option add_option(const std::string& names, int& value, const std::string& description);
   option add_option(const std::string& names, unsigned& value, const std::string& description);
   option add_option(const std::string& names, unsigned long& value, const std::string& description);
@@ -84,31 +84,51 @@ class command {
   option add_option(const std::string& names, double& value, const std::string& description);
   option add_option(const std::string& names, std::optional<double>& value, const std::string& description);
   option add_option(const std::string& names, std::vector<std::string>& values, const std::string& description);
-  option add_option(const std::string& names, std::vector<std::filesystem::path>& values,
-                    const std::string& description);
   option add_option(const std::string& names, std::vector<int>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<unsigned long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<unsigned long long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<double>& values, const std::string& description);
   option add_option(const std::string& names, std::pair<int, int>& values, const std::string& description);
-  option add_option(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
-                    const std::string& description);
+  /// A file is read or written, and says which: these are compared before the command does anything, so that nothing
+  /// is written over what is read.
+  option add_option(const std::string& names, std::filesystem::path& value, const std::string& description) = delete;
+  option add_option(const std::string& names, std::vector<std::filesystem::path>& values,
+                    const std::string& description) = delete;
+  option add_input(const std::string& names, std::filesystem::path& value, const std::string& description);
+  option add_input(const std::string& names, std::vector<std::filesystem::path>& values,
+                   const std::string& description);
+  /// Files two by two.
+  option add_input(const std::string& names, std::vector<std::pair<std::string, std::string>>& values,
+                   const std::string& description);
+  /// A folder of which the files with these extensions are read.
+  option add_input_folder(const std::string& names, std::filesystem::path& value,
+                          std::initializer_list<const char*> extensions, const std::string& description);
+  /// The name must end in one of the extensions; without any it may be any.
+  option add_output(const std::string& names, std::filesystem::path& value,
+                    std::initializer_list<const char*> extensions, const std::string& description);
+  /// A folder into which files of these names are written.
+  option add_output_folder(const std::string& names, std::filesystem::path& value,
+                           std::initializer_list<const char*> files, const std::string& description);
+  /// For a file whose name is made from that of an output: throws gonio::error if it is one that is read.
+  void require_writable(const std::filesystem::path& derived) const;
+
   /// One of some words, in small letters or capitals; `choose` is given the number of the word.
   option add_choice(const std::string& names, std::function<void(int)> choose,
                     std::initializer_list<std::pair<const char*, int>> words, const std::string& description);
   option add_flag(const std::string& names, bool& value, const std::string& description);
 
-  /// What is done when the command line has been read.
+  /// What is done when the command line has been read and its files have been compared.
   void callback(std::function<void()> work);
   /// How often an option was given.
   [[nodiscard]] std::size_t count(const std::string& name) const;
 
  protected:
-  explicit command(CLI::App& known) : known_(&known) {}
+  command(CLI::App& known, std::shared_ptr<declared_files> files) : known_(&known), files_(std::move(files)) {}
   [[nodiscard]] CLI::App& known() const noexcept { return *known_; }
 
  private:
   CLI::App* known_;
+  std::shared_ptr<declared_files> files_;  ///< of the subcommand, and of its groups
 };
 
 /// Options of which some number must be given.

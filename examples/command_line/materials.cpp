@@ -9,8 +9,8 @@ namespace cli {
 
 option_group add_material_options(command& to, material_source& source) {
   option_group group = to.add_option_group("source", "Where the materials come from (one of)");
-  group.add_option("--networks", source.networks, "File of networks (.npy, names in merl_names.txt beside it)");
-  group.add_option("--merl", source.tables, "Folder of MERL tables (.binary or .binary.gz)");
+  group.add_input("--networks", source.networks, "File of networks (.npy, names in merl_names.txt beside it)");
+  group.add_input_folder("--merl", source.tables, {".binary", ".gz"}, "Folder of MERL tables (.binary or .binary.gz)");
   group.require_option(0, 1);
   to.add_option("--exclude", source.exclude, "Name of a material to leave out (repeatable)").repeatable();
   return group;

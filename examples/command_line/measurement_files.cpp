@@ -12,7 +12,7 @@ gonio::sample_set read_measurements(const std::filesystem::path& path) {
 }
 
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
-  if (path.extension() == ".npy")
+  if (path.extension() == ".npy" || path.extension() == ".NPY")
     gonio::io::write_table_npy(path, table);
   else
     gonio::io::write_merl(path, table);

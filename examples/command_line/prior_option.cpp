@@ -11,7 +11,7 @@ std::filesystem::path shipped_prior() {
 
 void add_prior_option(command& to, std::filesystem::path& prior) {
   prior = shipped_prior();
-  to.add_option("--prior", prior, "The learned prior (default: the one shipped with gonio)");
+  to.add_input("--prior", prior, "The learned prior (default: the one shipped with gonio)");
 }
 
 }  // namespace cli

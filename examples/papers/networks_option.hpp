@@ -12,7 +12,7 @@ namespace papers {
 
 /// Adds `--networks FILE`, which must be given.
 inline void add_networks_option(command& to, std::filesystem::path& networks) {
-  to.add_option("--networks", networks, "File of networks of the 100 materials (.npy)").required();
+  to.add_input("--networks", networks, "File of networks of the 100 materials (.npy)").required();
 }
 
 /// A file of networks, and the cells of MERL's grid that its materials are tabulated over.

@@ -112,3 +112,29 @@ TEST_CASE("calibration: frames that saturate in a pixel take no part, nor do tho
   INFO((found.value * std::numbers::pi / 0.99).transpose());
   CHECK(((found.value * std::numbers::pi / 0.99 - 0.5).abs() < 2e-3).all());
 }
+
+TEST_CASE("calibration: a reference darker than most of what is measured beside it is refused") {
+  const gonio::direction up(0.0, 0.0, 1.0), aslant = gonio::spherical_direction(gonio::radians(50.0), 0.0);
+  // Values of a share of white, half of them highlights.
+  const auto measured = [&](std::initializer_list<double> highlights, std::initializer_list<double> others) {
+    std::vector<gonio::measured_reflectance> all;
+    const auto add = [&](const gonio::direction_pair& at, double share) {
+      all.push_back({at, gonio::rgb(0.5, 1.5, 1.0) * share * 0.99 / std::numbers::pi, gonio::rgb::Zero(), ""});
+    };
+    for (const double share : highlights) add({up, up}, share);
+    for (const double share : others) add({up, aslant}, share);
+    return all;
+  };
+  const auto accepts = [](const auto& all) { gonio::require_bright_reference(all, 0.99); };
+  accepts(measured({}, {}));
+  accepts(measured({0.5, 7.0}, {0.2, 0.9}));
+  accepts(measured({9.0, 7.0}, {0.2, 0.9}));
+  accepts(measured({9.0, 7.0, 0.1}, {1.2, 0.9, 0.8}));
+  accepts(measured({1.04, 1.04}, {1.04}));  // another white
+  using doctest::Contains;
+  CHECK_THROWS_WITH_AS(accepts(measured({9.0, 7.0}, {0.2})), Contains("darker than the material in 2 of 3 samples"),
+                       gonio::error);
+  // White beside red paint: darker only in the paint's highlights.
+  CHECK_THROWS_WITH_AS(accepts(measured({0.02, 0.1, 0.3}, {9.0, 0.7, 4.0})),
+                       Contains("in 2 of the 3 samples that are no highlight"), gonio::error);
+}

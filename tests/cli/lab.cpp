@@ -102,6 +102,47 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 
+TEST_CASE("lab: a scan goes on only with what lay in the machine, and by the same options") {
+  const laboratory room;
+  const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");
+  run("expand --formula blue-rubber -o " + room.at("rubber.binary"));
+  run("lab plan " + directions + " -o " + plan);
+  run("lab scan " + plan + " --white -o " + white);
+  run("lab scan " + plan + room.material + "-o " + paint);
+  const auto refuses_to_go_on = [&](const std::string& arguments, const std::string& scan, const std::string& words) {
+    const std::string before = scratch::get(scan);
+    refuses("lab scan " + plan + " " + arguments + " -o " + scan, words);
+    CHECK(scratch::get(scan) == before);
+  };
+  refuses_to_go_on(room.material, white, "is a scan of 'white reference, reflectance 0.99', not of 'truth.binary'");
+  refuses_to_go_on("--white", paint, "is a scan of 'truth.binary', not of 'white reference");
+  refuses_to_go_on("--white --reflectance 0.5", white, "not of 'white reference, reflectance 0.5'");
+  refuses_to_go_on("--white --camera gamma", white, "camera linear");
+  refuses_to_go_on("--white --outliers 0.1", white, "outliers 0.1");
+  refuses_to_go_on("--white --room-seed 2", white, "room seed 2");
+  refuses_to_go_on("--white --seed 2", white, "with the seed 1, not 2");
+  refuses_to_go_on("--white --label tile", white, "not of 'tile'");
+  // Half-done, and then another material, even under the same name.
+  const std::string half = scratch::get(paint).substr(0, scratch::get(paint).size() / 2);
+  scratch::put(paint, half);
+  refuses_to_go_on("--material " + room.at("rubber.binary"), paint, "not of 'rubber.binary'");
+  std::filesystem::rename(room.at("rubber.binary"), room.at("truth.binary"));
+  refuses_to_go_on(room.material, paint, "is a scan of another 'truth.binary'");
+}
+
+TEST_CASE("lab: a reference that is darker than the material is refused") {
+  const laboratory room;
+  const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");
+  run("lab plan " + directions + " -o " + plan);
+  run("lab scan " + plan + " --white -o " + white);
+  run("lab scan " + plan + room.material + "-o " + paint);
+  const std::string exchanged = "lab calibrate " + white + " --reference " + paint + " -o " + room.at("s.csv");
+  refuses(exchanged, "paint.scan: the reference is darker than the material in ");
+  CHECK(!std::filesystem::exists(room.at("s.csv")));
+  CHECK(run(exchanged + " --brighter").find("of 'white reference, reflectance 0.99' beside 'truth.binary'") !=
+        std::string::npos);
+}
+
 TEST_CASE("lab: a plan names what cannot be reached") {
   const scratch::folder folder;
   scratch::put(folder / "two.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,30,2\n20,0,50,100\n");

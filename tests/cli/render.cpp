@@ -40,6 +40,31 @@ TEST_CASE("gonio render --environment: a sphere among its surroundings, the same
   CHECK(one.size() > 50'000u);
 }
 
+TEST_CASE("gonio render: bright spheres are not blown out, and all of a picture are exposed alike") {
+  const rendered_folder given;
+  REQUIRE(gonio_tool("expand --formula red-paint -o " + given.at("red.binary")).exit_code == 0);
+  const auto draw = [&](const std::string& arguments) {
+    const auto result = gonio_tool("render --size 64 " + arguments + " -o " + given.at("spheres.png"));
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    return gonio::io::read_png(given.folder / "spheres.png");
+  };
+  // The share of a picture's pixels, of those within the margin, that are white.
+  const auto blown_out = [](const gonio::image& picture) {
+    std::size_t white = 0;
+    for (std::size_t row = 8; row < 72; ++row)
+      for (std::size_t column = 8; column < 72; ++column)
+        white += (gonio::pixel(picture, row, column) > 0.999).any() ? 1u : 0u;
+    return static_cast<double>(white) / (64.0 * 64.0);
+  };
+  const gonio::image both = draw(given.table + " " + given.at("red.binary"));
+  CHECK(both.shape(0) == 80u);
+  CHECK(both.shape(1) == 152u);
+  CHECK(blown_out(both) < 0.015);
+  CHECK(blown_out(draw("--exposure 1 " + given.table)) > 0.05);
+  // The red sphere beside the bright one is darker than by itself.
+  CHECK(gonio::pixel(both, 40, 112).x() < 0.9 * gonio::pixel(draw(given.at("red.binary")), 40, 40).x());
+}
+
 TEST_CASE("a table as an array of numpy") {
   const rendered_folder given;
   REQUIRE(gonio_tool("expand --formula gold-metal -o " + given.at("gold.npy")).exit_code == 0);
@@ -62,5 +87,8 @@ TEST_CASE("bad requests of pictures in an environment") {
   refuses("--environment " + given.sky + " --quality 0", "--quality");
   refuses("--quality 4", "--environment");
   refuses("--environment " + given.sky + " --slices", "--slices");
+  refuses("--exposure 0.5 --slices", "--slices");
+  refuses("--exposure 0", "--exposure");
+  refuses("--size 7", "--size");
   refuses("--environment " + given.table, "gold.binary");
 }

@@ -67,7 +67,7 @@ log_relative constant_reference(const valid_cells& over, float reference) {
 double percentile_by_sorting(const brdf_table& table, std::size_t channel, double limit) {
   std::vector<double> values;
   for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
-    if (table.cells().angles(cell).theta_h < limit)
+    if (table.cells().angles(cell).theta_h < limit && table.cells().angles(cell).theta_d <= gonio::radians(70.0))
       values.push_back(table.at(cell)[static_cast<Eigen::Index>(channel)]);
   std::ranges::sort(values);
   const double position = 0.999 * static_cast<double>(values.size() - 1);
@@ -162,6 +162,20 @@ TEST_CASE("the highlight's peak is the 99.9th percentile below 5 degrees: one wi
     return cells().angles(cell).theta_h >= gonio::radians(5.0) ? rgb(50.0 * value) : value;
   });
   CHECK((gonio::highlight_peak(elsewhere) == gonio::highlight_peak(truth)).all());
+}
+
+TEST_CASE("the grazing rim does not decide the peak: a lost highlight shows") {
+  const valid_cells merl;
+  const brdf_table truth = tabulate(gonio::formula_material("red-paint"), merl);
+  const auto scaled_where = [&](bool grazing, double factor) {
+    return changed(truth, [&](std::size_t cell, const rgb& value) {
+      return (merl.angles(cell).theta_d > gonio::radians(70.0)) == grazing ? rgb(factor * value) : value;
+    });
+  };
+  const rgb peak = gonio::highlight_peak(truth);
+  CHECK((gonio::highlight_peak(scaled_where(true, 50.0)) == peak).all());
+  CHECK(((gonio::highlight_peak(scaled_where(false, 0.25)) / peak - 0.25).abs() < 1e-6).all());
+  CHECK((gonio::highlight_peak(scaled_where(true, 50.0), gonio::radians(90.0)) > 2.0 * peak).all());
 }
 
 TEST_CASE("peaks of zero: a ratio of 1 where both are, of infinity where only the truth's is") {

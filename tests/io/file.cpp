@@ -3,13 +3,17 @@
 
 #include <sys/mount.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
+#include <string>
 #include <thread>
 
 using gonio::io::file_writer;
 using gonio::io::read_bytes;
+using gonio::io::staging;
 using gonio::io::write_atomically;
 using scratch::bytes_of;
 using scratch::check_refused;
@@ -55,6 +59,39 @@ struct small_disk {
   const scratch::fs::path& folder;
   ~small_disk() { CHECK(::umount2(folder.c_str(), MNT_DETACH) == 0); }
 };
+
+/// Runs `work` in a process of its own, and says which signal ended it; 0 if none did.
+template <class Work>
+int signal_that_ends(Work&& work) {
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    work();
+    ::_exit(0);
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
+/// Half of a file, and then the end.
+void write_half_and_die(const scratch::fs::path& path, staging held, int signal) {
+  file_writer file(path, held);
+  file.write(bytes_of(std::string(100'000, 'x')));
+  ::raise(signal);
+}
+
+extern "C" void clean_up(int signal) {
+  gonio::io::remove_unfinished_files();
+  ::signal(signal, SIG_DFL);
+  ::raise(signal);
+}
+
+std::string this_machine() {
+  std::array<char, 65> name{};
+  REQUIRE(::gethostname(name.data(), name.size() - 1) == 0);
+  return name.data();
+}
 
 void permit(const scratch::fs::path& path, unsigned mode) {
   scratch::fs::permissions(path, static_cast<scratch::fs::perms>(mode));
@@ -250,5 +287,70 @@ TEST_CASE("writers of one file do not disturb each other") {
   other.join();
   const std::string content = scratch::get(here / "a");
   CHECK((content == std::string(1000, 'x') || content == std::string(1000, 'y')));
+  CHECK(here.entries() == 1);
+}
+
+TEST_CASE("a process that is killed while it writes leaves nothing behind") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  CHECK(signal_that_ends([&] { write_half_and_die(here / "a", staging::unnamed, SIGKILL); }) == SIGKILL);
+  CHECK(here.entries() == 1);
+  CHECK(scratch::get(here / "a") == "old");
+}
+
+TEST_CASE("where files need a name, the next write into the folder removes what a killed process left") {
+  const scratch::folder here;
+  CHECK(signal_that_ends([&] { write_half_and_die(here / "a", staging::named, SIGKILL); }) == SIGKILL);
+  CHECK(here.entries() == 1);
+  write_atomically(here / "b", bytes_of("new"));
+  CHECK(here.entries() == 1);
+  CHECK(scratch::get(here / "b") == "new");
+}
+
+TEST_CASE("a signal's handler removes the files that have a name") {
+  const scratch::folder here;
+  const auto die_tidily = [&](int signal) {
+    return [&, signal] {
+      ::signal(signal, clean_up);
+      write_half_and_die(here / "a", staging::named, signal);
+    };
+  };
+  CHECK(signal_that_ends(die_tidily(SIGTERM)) == SIGTERM);
+  CHECK(here.entries() == 0);
+  CHECK(signal_that_ends(die_tidily(SIGINT)) == SIGINT);
+  CHECK(here.entries() == 0);
+}
+
+TEST_CASE("only what no process can go on with is removed") {
+  const scratch::folder here;
+  const std::string dead = std::to_string(2'000'000'000), other = std::to_string(::getppid());
+  const auto name = [](const std::string& machine, const std::string& process) {
+    return ".gonio-" + machine + process + "-0.tmp";
+  };
+  const std::string mine = this_machine() + "-";
+  for (const std::string& left : {name(mine, dead), name("", dead), name(mine, std::to_string(::getpid()))})
+    scratch::put(here / left, "left");
+  const std::vector<std::string> kept{name(mine, other), name("another-machine-", dead), ".gonio-notes.tmp",
+                                      ".gonio-x-1.tmp", "gonio-" + dead + "-0.tmp"};
+  for (const std::string& each : kept) scratch::put(here / each, "kept");
+  file_writer unfinished(here / "b", staging::named);  // of this process, which lives
+  write_atomically(here / "a", bytes_of("new"));
+  CHECK(here.entries() == kept.size() + 2);
+  for (const std::string& each : kept) CHECK(scratch::fs::exists(here / each));
+  unfinished.commit();
+  CHECK(here.entries() == kept.size() + 2);
+}
+
+TEST_CASE("files that need a name are written as those that need none") {
+  const scratch::folder here;
+  for (const std::string content : {"one", "two"}) {
+    file_writer file(here / "a", staging::named);
+    file.write(bytes_of(content));
+    file.commit();
+    CHECK(scratch::get(here / "a") == content);
+    CHECK(here.entries() == 1);
+  }
+  { file_writer(here / "a", staging::named).write(bytes_of("half")); }
+  CHECK(scratch::get(here / "a") == "two");
   CHECK(here.entries() == 1);
 }

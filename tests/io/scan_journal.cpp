@@ -14,6 +14,8 @@ namespace io = gonio::io;
 
 namespace {
 
+const io::scan_subject oak{.sample = "oak board", .checksum = 7, .setup = "gantry, linear", .seed = 3};
+
 std::vector<direction_pair> poses(std::size_t count) {
   std::vector<direction_pair> all;
   for (std::size_t i = 0; i < count; ++i)
@@ -60,7 +62,7 @@ TEST_CASE("scan journal: what is added is there when it is read or gone on with"
     const auto pixels = *rc::gen::inRange<Eigen::Index>(1, 5);
     const auto seed = *rc::gen::arbitrary<unsigned>();
     for (std::size_t i = count; i-- > 0;) {  // each by another journal, in an order that is not that of the poses
-      scan_journal journal(path, poses(count), 4095);
+      scan_journal journal(path, oak, poses(count), 4095);
       RC_ASSERT(journal.scan().measured() == count - 1 - i);
       RC_ASSERT(!journal.has(i));
       journal.add(i, random_reading(frames, pixels, seed + static_cast<unsigned>(i)));
@@ -68,6 +70,9 @@ TEST_CASE("scan journal: what is added is there when it is read or gone on with"
     }
     const io::recorded_scan read = io::read_scan(path);
     RC_ASSERT(read.largest_count == 4095);
+    RC_ASSERT(read.subject.has_value());
+    RC_ASSERT(read.subject->sample == oak.sample && read.subject->checksum == oak.checksum);
+    RC_ASSERT(read.subject->setup == oak.setup && read.subject->seed == oak.seed);
     RC_ASSERT(read.poses.size() == count);
     for (std::size_t i = 0; i < count; ++i) {
       RC_ASSERT(read.poses[i].wi == poses(count)[i].wi);
@@ -82,12 +87,12 @@ TEST_CASE("scan journal: wherever its last line was cut off, all the lines befor
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   {
-    scan_journal journal(path, poses(3), 4095);
+    scan_journal journal(path, oak, poses(3), 4095);
     journal.add(0, random_reading(2, 2, 1));
   }
   const std::string before = text_of(path);
   {
-    scan_journal journal(path, poses(3), 4095);
+    scan_journal journal(path, oak, poses(3), 4095);
     journal.add(1, random_reading(2, 2, 2));
   }
   const std::string whole = text_of(path);
@@ -95,7 +100,7 @@ TEST_CASE("scan journal: wherever its last line was cut off, all the lines befor
   for (std::size_t size = before.size(); size < whole.size(); ++size) {
     write(path, whole.substr(0, size));
     CHECK(io::read_scan(path).measured() == 1u);
-    scan_journal journal(path, poses(3), 4095);
+    scan_journal journal(path, oak, poses(3), 4095);
     CHECK(text_of(path) == before);
     journal.add(1, random_reading(2, 2, 2));
     CHECK(text_of(path) == whole);
@@ -111,28 +116,28 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";
   {
-    scan_journal journal(path, poses(3), 4095);
+    scan_journal journal(path, oak, poses(3), 4095);
     journal.add(0, random_reading(1, 1, 1));
     journal.add(1, random_reading(1, 1, 2));
     CHECK_THROWS_WITH_AS(journal.add(1, random_reading(1, 1, 3)), Contains("pose 1 is read already"), gonio::error);
-    CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 4095), Contains("another process"), gonio::error);
+    CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(3), 4095), Contains("another process"), gonio::error);
   }
   const std::string whole = text_of(path);
   const auto refuses = [&](const std::string& text, const char* message) {
     write(path, text);
     CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains(message), gonio::error);
-    CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 4095), Contains(message), gonio::error);
+    CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(3), 4095), Contains(message), gonio::error);
     CHECK(text_of(path) == text);
   };
   const std::size_t first = whole.find("reading 0");
   std::string damaged = whole;
   damaged[first + 12] = damaged[first + 12] == '1' ? '2' : '1';
-  refuses(damaged, "line 6: the checksum is wrong");
+  refuses(damaged, "line 11: the checksum is wrong");
   const std::string second = whole.substr(whole.find("reading 1"));
   refuses(whole + second, "pose 1 is read a second time");
   refuses(whole + "pose 1 0 0 0 0 1\n", "a pose after the first reading");
   refuses(whole + "temperature 3\n", "'temperature' is unknown");
-  refuses("", "largest_count is missing");
+  CHECK_THROWS_WITH_AS((void)io::parse_scan("", "a"), Contains("largest_count is missing"), gonio::error);
   refuses("largest_count 70000\n", "is 70000");
   refuses("largest_count 255\n", "there is no pose");
   refuses("largest_count 255\npose 0 0 2 0 0 1\n", "two unit vectors");
@@ -146,11 +151,92 @@ TEST_CASE("scan journal: what is damaged, or another scan's, is refused and left
           "ends after");
 
   write(path, whole);
-  CHECK_THROWS_WITH_AS(scan_journal(path, poses(2), 4095), Contains("3 other poses, expected the 2"), gonio::error);
-  CHECK_THROWS_WITH_AS(scan_journal(path, poses(3), 255), Contains("4095 counts, not 255"), gonio::error);
-  CHECK_THROWS_WITH_AS(scan_journal(path, {}, 4095), Contains("needs a pose"), gonio::error);
-  CHECK_THROWS_WITH_AS(scan_journal(scratch.path() / "no folder" / "a.scan", poses(1), 4095),
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(2), 4095), Contains("3 other poses, expected the 2"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(3), 255), Contains("4095 counts, not 255"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, {}, 4095), Contains("needs a pose"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(scratch.path() / "no folder" / "a.scan", oak, poses(1), 4095),
                        Contains("cannot be written"), gonio::error);
-  CHECK_THROWS_WITH_AS(scan_journal(scratch.path(), poses(1), 4095), Contains("cannot be written"), gonio::error);
+  CHECK_THROWS_WITH_AS(scan_journal(scratch.path(), oak, poses(1), 4095), Contains("cannot be written"), gonio::error);
   CHECK(text_of(path) == whole);
+}
+
+TEST_CASE("scan journal: a scan of something else is not gone on with, and left as it is") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
+  const std::string whole = text_of(path);
+  const auto refuses = [&](const io::scan_subject& other, const char* message) {
+    CHECK_THROWS_WITH_AS(scan_journal(path, other, poses(2), 4095), Contains(message), gonio::error);
+    CHECK(text_of(path) == whole);
+  };
+  io::scan_subject other = oak;
+  other.sample = "white";
+  refuses(other, "a.scan: is a scan of 'oak board', not of 'white'");
+  other = oak;
+  other.checksum = 8;
+  refuses(other, "is a scan of another 'oak board', of checksum 7, not 8");
+  other = oak;
+  other.setup = "robot";
+  refuses(other, "was measured with 'gantry, linear', not with 'robot'");
+  other = oak;
+  other.seed = 4;
+  refuses(other, "was measured with the seed 3, not 4");
+  other = oak;
+  other.sample = "two\nlines";
+  refuses(other, "one line of text");
+  other.sample = "";
+  refuses(other, "one line of text");
+}
+
+TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
+  const std::string whole = text_of(path);
+  const auto refuses = [&](const std::string& from, const std::string& to, const char* message) {
+    std::string text = whole;
+    REQUIRE(text.find(from) != std::string::npos);
+    write(path, text.replace(text.find(from), from.size(), to));
+    CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains(message), gonio::error);
+  };
+  refuses("gantry", "gabtry", "line 4: the checksum of 'setup' is wrong");
+  refuses("plan 2", "plan 3", "the poses are not the 3");
+  refuses(" 0 0.955", " -0 0.955", "the poses are not the 2");
+  refuses("seed 3\n", "", "some are missing");
+  refuses("seed 3", "seed three", "'seed' takes a whole number first");
+  refuses("seed 3", "seed 3 4", "'seed' takes no text");
+  refuses("sample 7 oak board", "sample 7", "'sample' needs a text");
+  refuses("sample 7 oak board", "sample 7 \x1b[2J", "characters that are no text");
+  refuses("seed 3", "seed 3\nseed 3", "'seed' is told a second time");
+}
+
+TEST_CASE("scan journal: a scan of an earlier version is read, but not gone on with") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  { scan_journal(path, oak, poses(2), 4095).add(0, random_reading(1, 1, 1)); }
+  std::string text = text_of(path);
+  const std::size_t begin = text.find("sample "), end = text.find("largest_count"), plan = text.find("plan ");
+  text.erase(plan, text.find('\n', plan) + 1 - plan).erase(begin, end - begin);
+  write(path, text);
+  CHECK(io::read_scan(path).measured() == 1u);
+  CHECK_FALSE(io::read_scan(path).subject.has_value());
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, poses(2), 4095), Contains("does not say what it measures"),
+                       gonio::error);
+  CHECK(text_of(path) == text);
+}
+
+TEST_CASE("scan journal: wherever its head was cut off, it is begun again; what is no part of the head stays") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  { const scan_journal journal(path, oak, poses(2), 4095); }
+  const std::string head = text_of(path);
+  for (std::size_t size = 0; size < head.size(); ++size) {
+    write(path, head.substr(0, size));
+    const scan_journal journal(path, oak, poses(2), 4095);
+    CHECK(text_of(path) == head);
+  }
+  write(path, head.substr(0, 50) + "?");
+  CHECK_THROWS_AS(scan_journal(path, oak, poses(2), 4095), gonio::error);
+  CHECK(text_of(path) == head.substr(0, 50) + "?");
 }

@@ -36,7 +36,8 @@ void scan_into(const std::filesystem::path& journal_path, const std::filesystem:
   chip.side = 2;
   lab::dark_room room(glossy, chip, {.flicker = 0.01}, 1, 2);
   slow_gantry machine(room, log);
-  gonio::io::scan_journal journal(journal_path, poses, machine.largest_count());
+  gonio::io::scan_journal journal(journal_path, {.sample = "glossy", .setup = "gantry"}, poses,
+                                  machine.largest_count());
   gonio::scan(machine, poses, journal);
 }
 

@@ -246,7 +246,9 @@ void add_shape_demo(command& shape) {
       .capture_default_str();
   add_threads_option(command, options->threads);
   command.add_flag("--json", options->as_json, "Print figures as JSON");
-  command.add_option("-o,--output", options->folder, "Folder for a picture, the model, and the files of one ear");
+  command.add_output_folder("-o,--output", options->folder,
+                            {"recovered.png", "ears.shapes", "scan.ply", "truth.ply", "recovered.ply"},
+                            "Folder for a picture, the model, and the files of one ear");
   command.callback([options] { show_shapes(*options); });
 }
 

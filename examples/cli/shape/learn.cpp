@@ -68,11 +68,11 @@ void learn_shapes(const shape_learn_command& options) {
 void add_shape_learn(command& shape) {
   auto command = shape.add_subcommand("learn", "Learn a model of shapes in correspondence, and grow it by scans");
   const auto options = std::make_shared<shape_learn_command>();
-  command.add_option("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
+  command.add_input("shapes", options->shapes, "Meshes of the same vertices and triangles, in mm (.ply, .obj)")
       .required();
-  command.add_option("--scans", options->scans, "Scans of any triangulation, to register and learn from");
+  command.add_input("--scans", options->scans, "Scans of any triangulation, to register and learn from");
   add_threads_option(command, options->threads);
-  command.add_option("-o,--output", options->output, "Model to write (.shapes)").required();
+  command.add_output("-o,--output", options->output, {".shapes"}, "Model to write (.shapes)").required();
   command.callback([options] { learn_shapes(*options); });
 }
 

@@ -96,8 +96,8 @@ void recover_shape(const shape_recover_command& options) {
 void add_shape_recover(command& shape) {
   auto command = shape.add_subcommand("recover", "Recover what a scan does not show");
   const auto options = std::make_shared<shape_recover_command>();
-  command.add_option("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)").required();
-  command.add_option("--model", options->model, "From gonio shape learn").required();
+  command.add_input("scan", options->scan, "In mm, its vertical axis y (.ply, .obj)").required();
+  command.add_input("--model", options->model, "From gonio shape learn").required();
   command.add_option("--noise", options->noise, "Of the scan, mm")
       .check(check::range(1e-4, 10.0))
       .capture_default_str();
@@ -106,11 +106,11 @@ void add_shape_recover(command& shape) {
                   "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
       .check(check::range(0, 100000))
       .capture_default_str();
-  command.add_option("--truth", options->truth, "The whole surface, to compare with");
-  command.add_option("--image", options->picture, "The recovered surface from two sides (.png)");
+  command.add_input("--truth", options->truth, "The whole surface, to compare with");
+  command.add_output("--image", options->picture, {".png"}, "The recovered surface from two sides (.png)");
   add_threads_option(command, options->threads);
   command
-      .add_option("-o,--output", options->output,
+      .add_output("-o,--output", options->output, {".ply", ".obj"},
                   "Recovered surface to write (.ply, or without --truth .obj), coloured by its distance from the truth")
       .required();
   command.callback([options] { recover_shape(*options); });

@@ -197,8 +197,8 @@ void add_laboratory(command& app) {
   auto command =
       app.add_subcommand("laboratory", "Tables scanned, calibrated and reconstructed in a simulated laboratory");
   const auto options = std::make_shared<laboratory_options>();
-  command.add_option("tables", options->tables, "Tables to put into the machine (.binary or .binary.gz)").required();
-  command.add_option("--directions", options->directions, "A few directions, for pca (.csv)").required();
+  command.add_input("tables", options->tables, "Tables to put into the machine (.binary or .binary.gz)").required();
+  command.add_input("--directions", options->directions, "A few directions, for pca (.csv)").required();
   command.add_option("--many", options->many, "Number of random directions for correction; 0: not at all")
       .capture_default_str();
   add_prior_option(command, options->prior);

@@ -166,7 +166,7 @@ void add_models(command& app) {
       .capture_default_str();
   add_cell_weights_option(command, options->cell_weights);
   command.add_option("--materials", options->only, "Only these materials");
-  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_flag("--json", options->print_json, "Print every fit as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

@@ -274,7 +274,7 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
                   "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
                   "after at most 10")
       .check(check::non_negative_number());
-  command.add_option("--state", options->state, "File in which results are kept, so that a run can be resumed");
+  command.add_output("--state", options->state, {}, "File in which results are kept, so that a run can be resumed");
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run_noell(*options); });

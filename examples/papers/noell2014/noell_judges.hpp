@@ -16,8 +16,8 @@ namespace papers {
 
 /// Adds `--environment FILE`, which is optional.
 inline void add_environment_option(command& to, std::filesystem::path& environment) {
-  to.add_option("--environment", environment,
-                "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+  to.add_input("--environment", environment,
+               "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
 }
 
 /// Looks at tables over given cells under the formula environment and, if there is one, a natural light.

@@ -325,11 +325,12 @@ void add_directions_measured(command& app) {
       "directions-measured", "Reconstruct real measurements from the directions that are the best for a database");
   const auto options = std::make_shared<directions_options>();
   add_networks_option(command, options->networks);
-  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  command.add_option("--samples", options->samples,
-                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
-  command.add_option("--directions", options->folder,
-                     "Folder of sets, as `gonio-papers directions --write` writes them");
+  command.add_input_folder("--tables", options->tables, {".binary", ".gz"},
+                           "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_input("--samples", options->samples,
+                    "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_input_folder("--directions", options->folder, {".csv"},
+                           "Folder of sets, as `gonio-papers directions --write` writes them");
   command.add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
       .check(
           check::one_of({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
@@ -340,7 +341,7 @@ void add_directions_measured(command& app) {
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

@@ -161,12 +161,12 @@ void add_importance_sampling(command& app) {
   auto command = app.add_subcommand(
       "importance-sampling", "How much less estimates of light vary with directions drawn by importance of the BRDF");
   const auto options = std::make_shared<sampling_options>();
-  command.add_option("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
-  command.add_option("--networks", options->networks.file,
-                     "File of networks of the 100 materials (.npy): the ten test materials");
+  command.add_input("tables", options->tables, "Tables of materials (.binary or .binary.gz)");
+  command.add_input("--networks", options->networks.file,
+                    "File of networks of the 100 materials (.npy): the ten test materials");
   add_thin_option(command, options->networks.thin);
-  command.add_option("--environment", options->environments,
-                     "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
+  command.add_input("--environment", options->environments,
+                    "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
   command.add_option("--points", options->points, "Points of the sphere")
       .check(check::range(1, 1'000'000))
       .capture_default_str();

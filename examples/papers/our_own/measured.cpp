@@ -17,6 +17,8 @@
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/render/exposure.hpp>
+#include <gonio/render/horizon_lookup.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/sphere.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -59,8 +61,8 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
   table_report result;
   const auto draw = [&](const gonio::brdf_table& table) {
     if (!options.picture.empty())
-      result.spheres.push_back(
-          gonio::render_sphere(table, gonio::two_lights(), {.size = 128, .supersampling = 2}, options.threads));
+      result.spheres.push_back(gonio::render_sphere(gonio::horizon_lookup(table), gonio::two_lights(),
+                                                    {.size = 128, .supersampling = 2}, options.threads));
   };
   for (const std::size_t count : options.counts) {
     auto& repetitions = result.errors.emplace_back();
@@ -72,6 +74,10 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
     }
   }
   draw(truth);
+  if (!result.spheres.empty()) {
+    const double exposure = gonio::exposure_of_spheres(std::span(result.spheres).last(1));
+    for (gonio::image& sphere : result.spheres) gonio::expose(sphere, exposure);
+  }
   return result;
 }
 
@@ -119,7 +125,10 @@ void add_measured_materials(command& app) {
   auto command =
       app.add_subcommand("measured-materials", "Reconstruct each table of a folder from random samples of it");
   const auto options = std::make_shared<measured_options>();
-  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)").required();
+  command
+      .add_input_folder("--tables", options->tables, {".binary", ".gz"},
+                        "Folder of MERL tables (.binary or .binary.gz)")
+      .required();
   add_prior_option(command, options->prior);
   command.add_option("--counts", options->counts, "Numbers of samples")
       .check(check::positive_number())
@@ -129,7 +138,7 @@ void add_measured_materials(command& app) {
   command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--spheres", options->picture,
+  command.add_output("--spheres", options->picture, {".png"},
                      "Picture to write (.png): a row for each table, the truth at the right");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);

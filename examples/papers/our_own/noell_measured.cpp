@@ -169,9 +169,10 @@ void add_noell_measured(command& app) {
   const auto options = std::make_shared<measured_options>();
   add_networks_option(command, options->networks);
   add_environment_option(command, options->environment);
-  command.add_option("--tables", options->tables, "Folder of MERL tables (.binary or .binary.gz)");
-  command.add_option("--samples", options->samples,
-                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
+  command.add_input_folder("--tables", options->tables, {".binary", ".gz"},
+                           "Folder of MERL tables (.binary or .binary.gz)");
+  command.add_input("--samples", options->samples,
+                    "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
   command.add_option("--data", options->data_ratio, "Share of the data that is measured")
       .check(check::positive_number() & check::range(0.0, 1.0))
       .capture_default_str();

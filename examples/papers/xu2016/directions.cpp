@@ -306,7 +306,7 @@ void add_directions(command& app) {
       .check(check::one_of(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       .capture_default_str();
-  command.add_option("--files", options->files, "Directions of points to judge beside them (.csv)");
+  command.add_input("--files", options->files, "Directions of points to judge beside them (.csv)");
   add_counts_option(command, options->counts);
   command.add_option("--geometry", options->geometry, "As `gonio design` has them")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
@@ -329,8 +329,8 @@ void add_directions(command& app) {
                   "of pictures, by a reconstruction that finds where they were")
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
-  command.add_option("--state", options->state, "File that keeps what is done; an interrupted run goes on from it");
-  command.add_option("--write", options->folder, "Folder to write each set to, as directions (.csv)");
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  command.add_output_folder("--write", options->folder, {}, "Folder to write each set to, as directions (.csv)");
   command.add_flag("--json", options->print_json, "Print everything, with the poses, as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

@@ -71,6 +71,11 @@ struct measured_reflectance {
                                                        const illumination& material_at = {},
                                                        const illumination& reference_at = {});
 
+/// Throws gonio::error if the reference is darker than the material, by over 5 %, in most samples, or in most of those
+/// whose half vector is over 10 degrees from the normal: the two were exchanged. It is right only where nothing but a
+/// highlight was measured, or what is whiter than the reference.
+void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance);
+
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

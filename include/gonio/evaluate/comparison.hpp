@@ -28,8 +28,9 @@ struct comparison {
 /// The height of a table's highlight, for each channel: the 99.9th percentile (interpolated between order
 /// statistics) over the cells with theta_h below 5 degrees, or over those of the grid's smallest theta_h if it has
 /// none below. Negative percentiles count as zero. Of cells whose theta_d is larger than `largest_theta_d` none is
-/// looked at: without a limit the grazing rim decides, which is brighter than any highlight.
-[[nodiscard]] rgb highlight_peak(const brdf_table& table, double largest_theta_d = std::numbers::pi / 2.0);
+/// looked at: without a limit the grazing rim decides, which is brighter than any highlight (of red paint the 0.1 %
+/// that the percentile leaves out end at 86 degrees).
+[[nodiscard]] rgb highlight_peak(const brdf_table& table, double largest_theta_d = radians(70.0));
 
 namespace detail {
 

@@ -22,8 +22,20 @@
 
 namespace gonio::io {
 
+/// What a scan measures, and how: two scans of which one of these differs are not the same.
+struct scan_subject {
+  std::string sample;          ///< what lies in the machine: a line of text
+  std::uint32_t checksum = 0;  ///< CRC-32 of the file that it is simulated by, or of the list of its frames; else 0
+  std::string setup;           ///< the machine and its options: a line of text
+  std::uint64_t seed = 0;      ///< of what is random in a simulation
+};
+
+/// The CRC-32 of a file's bytes, for scan_subject. It tells files apart that were mistaken for one another, not forged.
+[[nodiscard]] std::uint32_t checksum_of_file(const std::filesystem::path& path);
+
 /// A scan as far as it has come.
 struct recorded_scan {
+  std::optional<scan_subject> subject;  ///< none if the file is by a version that did not write it down
   std::uint16_t largest_count = 0;
   std::vector<direction_pair> poses;
   std::vector<std::optional<reading>> readings;  ///< one for each pose
@@ -40,7 +52,10 @@ namespace detail {
 
 [[nodiscard]] bool has_checksum(std::string_view line);
 
-[[nodiscard]] std::string format_scan_header(std::span<const direction_pair> poses, std::uint16_t largest_count);
+[[nodiscard]] std::string format_pose(const direction_pair& pose);
+/// Throws gonio::error if a text of the subject is not one line.
+[[nodiscard]] std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
+                                             std::uint16_t largest_count);
 
 [[nodiscard]] std::string format_reading(std::size_t pose, const reading& taken);
 
@@ -63,8 +78,19 @@ class number_reader {
 
 [[nodiscard]] direction_pair parse_pose(const text_rule& rule, const text_place& place);
 
-/// `has_reading`: was there one in a line before?
-void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, bool& has_reading);
+/// What a reader of lines knows of those before.
+struct scan_lines {
+  bool has_sample = false, has_setup = false, has_seed = false, has_reading = false;
+  scan_subject subject;
+  std::optional<std::pair<std::size_t, std::uint32_t>> plan;  ///< how many poses, and the CRC-32 of their lines
+  std::string pose_lines;
+};
+
+/// A line of the subject: a name, a number and, but for the seed, a text. False if it is another one.
+[[nodiscard]] bool apply_subject_line(std::string_view line, const text_place& place, scan_lines& before);
+void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan, scan_lines& before);
+/// What can be said of the head when all lines are read.
+void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name);
 
 /// The text without what a process that was killed, or a machine that lost its power, left of the last line.
 [[nodiscard]] std::string_view whole_lines(std::string_view text);
@@ -81,9 +107,11 @@ void apply_scan_line(std::string_view line, const text_place& place, recorded_sc
 /// A scan's record in a file: a scan_record. One process at a time can have it open.
 class scan_journal {
  public:
-  /// Goes on with a scan, or begins it if there is no such file. Throws gonio::error if the file is one of other poses
-  /// or of another camera, is damaged, cannot be written, or is open in another process.
-  scan_journal(const std::filesystem::path& path, std::span<const direction_pair> poses, std::uint16_t largest_count);
+  /// Goes on with a scan, or begins it if there is no such file. Throws gonio::error if the file is one of another
+  /// subject, of other poses or of another camera, or does not say of which subject; is damaged; cannot be written; or
+  /// is open in another process. It is then as it was.
+  scan_journal(const std::filesystem::path& path, const scan_subject& subject, std::span<const direction_pair> poses,
+               std::uint16_t largest_count);
 
   [[nodiscard]] bool has(std::size_t pose) const { return scan_.readings.at(pose).has_value(); }
   [[nodiscard]] const recorded_scan& scan() const noexcept { return scan_; }
@@ -93,8 +121,9 @@ class scan_journal {
 
  private:
   void open();
-
-  void require_same(std::span<const direction_pair> poses, std::uint16_t largest_count) const;
+  void write(std::string_view text);
+  void require_same(const scan_subject& subject, std::span<const direction_pair> poses,
+                    std::uint16_t largest_count) const;
 
   [[noreturn]] void fail() const { detail::refuse_file(path_, "cannot be written: " + detail::system_reason(errno)); }
 

@@ -98,4 +98,22 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
   return result;
 }
 
+GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance) {
+  constexpr double margin = 1.05;
+  std::size_t darker = 0, matte = 0, darker_matte = 0;
+  for (const measured_reflectance& each : usable) {
+    const bool is_darker = each.value.mean() > margin * reflectance * std::numbers::inv_pi;
+    const bool is_matte = to_half_difference(each.at.wi, each.at.wo).theta_h > radians(10.0);
+    darker += is_darker ? 1 : 0;
+    matte += is_matte ? 1 : 0;
+    darker_matte += is_darker && is_matte ? 1 : 0;
+  }
+  if (2 * darker > usable.size())
+    throw error{"the reference is darker than the material in ", darker, " of ", usable.size(),
+                " samples: are the two exchanged?"};
+  if (2 * darker_matte > matte)
+    throw error{"the reference is darker than the material in ", darker_matte, " of the ", matte,
+                " samples that are no highlight: are the two exchanged?"};
+}
+
 }  // namespace gonio

@@ -6,16 +6,26 @@
 #include <gonio/io/file.hpp>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <new>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -27,6 +37,21 @@ GONIO_INLINE void refuse_file(const std::filesystem::path& path, std::initialize
   throw error{path.native(), ": ", message_of(what)};
 }
 
+inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix = ".tmp";
+
+/// This machine's name, as far as a file's name can hold it. Made without memory or locks.
+class machine_name {
+ public:
+  machine_name() noexcept {
+    if (::uname(&system_) != 0) system_.nodename[0] = '\0';
+    std::ranges::replace(system_.nodename, '/', '_');
+  }
+  explicit(false) operator std::string_view() const noexcept { return system_.nodename; }
+
+ private:
+  utsname system_{};
+};
+
 GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
   std::filesystem::path target = path;
   for (int hop = 0; hop < 40; ++hop) {
@@ -36,6 +61,54 @@ GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& pat
     target = next.is_absolute() ? next : target.parent_path() / next;
   }
   refuse_file(path, {"cannot be written: ", system_reason(ELOOP)});
+}
+
+GONIO_INLINE temporary_name::temporary_name(std::uint32_t given) noexcept : number(given) {
+  char* at = text.data();
+  char* const last = text.data() + text.size() - 1;
+  const auto append = [&](std::string_view part) {
+    const std::size_t fits = std::min(part.size(), static_cast<std::size_t>(last - at));
+    at = std::copy_n(part.data(), fits, at);
+  };
+  append(temporary_prefix);
+  append(machine_name());
+  append("-");
+  at = std::to_chars(at, last, ::getpid()).ptr;
+  append("-");
+  at = std::to_chars(at, last, number).ptr;
+  append(temporary_suffix);
+}
+
+GONIO_INLINE bool may_be_abandoned(std::string_view name) {
+  if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
+  name.remove_prefix(temporary_prefix.size());
+  name.remove_suffix(temporary_suffix.size());
+  const auto take_number = [&]() -> pid_t {
+    const std::size_t begin = name.find_last_of('-') + 1;  // 0 if there is none
+    pid_t number = -1;
+    const auto [end, failed] = std::from_chars(name.data() + begin, name.data() + name.size(), number);
+    if (failed != std::errc() || end != name.data() + name.size()) return -1;
+    name = name.substr(0, begin == 0 ? 0 : begin - 1);
+    return number;
+  };
+  const pid_t number = take_number(), process = take_number();
+  if (number < 0 || process <= 0) return false;
+  // Earlier versions did not name the machine.
+  if (const machine_name here; !name.empty() && name != std::string_view(here)) return false;
+  return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
+}
+
+GONIO_INLINE void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened) {
+  std::error_code failed;
+  std::filesystem::directory_iterator entry(folder, failed);
+  for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
+    const std::string name = entry->path().filename().native();
+    if (!may_be_abandoned(name)) continue;
+    const descriptor file(::openat(opened.get(), name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    struct stat info {};
+    if (!file.is_open() || ::fstat(file.get(), &info) != 0 || !S_ISREG(info.st_mode)) continue;
+    if (::flock(file.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) ::unlinkat(opened.get(), name.c_str(), 0);
+  }
 }
 
 }  // namespace gonio::io::detail
@@ -69,10 +142,14 @@ GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path
   return bytes;
 }
 
-GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path)
+GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path, staging held)
     : path_(path), target_(detail::follow_links(path)) {
   inspect_target();
-  create_temporary();
+  open_folder();
+  detail::remove_abandoned(target_.has_parent_path() ? target_.parent_path() : ".", folder_);
+  if (held == staging::named || !create_unnamed()) create_named();
+  // Says that the file is in use, even to a machine that shares the folder but not the numbers of processes.
+  static_cast<void>(::flock(file_.get(), LOCK_EX | LOCK_NB));
 }
 
 GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
@@ -89,9 +166,16 @@ GONIO_INLINE void file_writer::commit() {
   if (replaces_) static_cast<void>(::fchmod(file_.get(), old_mode_));
   // Some file systems have nothing to synchronise, and say EINVAL.
   if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
-  if (!file_.close()) fail();
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
-  temporary_.clear();
+  const std::filesystem::path name = target_.filename();
+  if (!temporary_) {
+    if (!replaces_ && link_as(name.c_str())) return;
+    // A link replaces nothing, a name does.
+    if (!claim_name([&](const char* beside) { return link_as(beside); })) fail();
+  } else if (!file_.close()) {
+    fail();
+  }
+  if (::renameat(folder_.get(), temporary_->c_str(), folder_.get(), name.c_str()) != 0) fail();
+  forget_name(false);
 }
 
 GONIO_INLINE void file_writer::fail() const {
@@ -108,20 +192,77 @@ GONIO_INLINE void file_writer::inspect_target() {
   old_mode_ = info.st_mode & 07777;
 }
 
-GONIO_INLINE void file_writer::create_temporary() {
+GONIO_INLINE void file_writer::open_folder() {
+#if defined(O_PATH)
+  constexpr int access = O_PATH;  // a folder may be written to but not listed
+#else
+  constexpr int access = O_RDONLY;
+#endif
   const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-  const std::string stem = message_of({(folder / ".gonio-").native(), ::getpid(), "-"});
-  // Another thread, or a process of this number that crashed, may have taken a name.
+  folder_ = detail::descriptor(::open(folder.c_str(), access | O_DIRECTORY | O_CLOEXEC));
+  if (!folder_.is_open()) fail();
+}
+
+GONIO_INLINE bool file_writer::create_unnamed() {
+#if defined(O_TMPFILE)
+  file_ = detail::descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+  if (!file_.is_open()) return false;
+  // It is given its name through this link, which a process may not have.
+  if (::access(message_of({"/proc/self/fd/", file_.get()}).c_str(), F_OK) == 0) return true;
+  file_ = detail::descriptor();
+#endif
+  return false;
+}
+
+GONIO_INLINE void file_writer::create_named() {
+  const bool created = claim_name([&](const char* name) {
+    file_ = detail::descriptor(::openat(folder_.get(), name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    return file_.is_open();
+  });
+  if (!created) fail();
+}
+
+template <class Claim>
+bool file_writer::claim_name(Claim&& claim) {
+  static std::atomic<std::uint32_t> next{0};
+  // A process of this number that was killed may have left a name that could not be removed.
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    const std::string candidate = message_of({stem, attempt, ".tmp"});
-    file_ = detail::descriptor(::open(candidate.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-    if (file_.is_open()) {
-      temporary_ = candidate;
-      return;
+    temporary_.emplace(next++);
+    // Noted before it is there, so that a signal at any time removes it.
+    for (auto& place : detail::named_temporaries) {
+      std::uint64_t free = 0;
+      const auto note = (static_cast<std::uint64_t>(folder_.get()) + 1) << 32 | temporary_->number;
+      if (!place.compare_exchange_strong(free, note)) continue;
+      noted_ = &place;
+      break;
     }
-    if (errno != EEXIST) break;
+    if (claim(temporary_->c_str())) return true;
+    const int reason = errno;
+    forget_name(false);
+    errno = reason;
+    if (reason != EEXIST) break;
   }
-  fail();
+  return false;
+}
+
+GONIO_INLINE void file_writer::forget_name(bool unlink) noexcept {
+  if (unlink && temporary_) ::unlinkat(folder_.get(), temporary_->c_str(), 0);
+  temporary_.reset();
+  if (noted_ != nullptr) noted_->store(0);
+  noted_ = nullptr;
+}
+
+GONIO_INLINE bool file_writer::link_as(const char* name) const noexcept {
+  std::array<char, 32> self{"/proc/self/fd/"};
+  std::to_chars(self.data() + std::strlen(self.data()), self.data() + self.size() - 1, file_.get());
+  return ::linkat(AT_FDCWD, self.data(), folder_.get(), name, AT_SYMLINK_FOLLOW) == 0;
+}
+
+GONIO_INLINE void remove_unfinished_files() noexcept {
+  for (const auto& place : detail::named_temporaries)
+    if (const std::uint64_t note = place.load(); note != 0)
+      ::unlinkat(static_cast<int>(note >> 32) - 1,
+                 detail::temporary_name(static_cast<std::uint32_t>(note & 0xffff'ffffu)).c_str(), 0);
 }
 
 GONIO_INLINE void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {

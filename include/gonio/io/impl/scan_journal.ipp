@@ -7,10 +7,12 @@
 #include <gonio/io/rules.hpp>
 #include <gonio/io/scan_journal.hpp>
 
+#include <fcntl.h>
 #include <sys/file.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -18,14 +20,18 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
 
+GONIO_INLINE std::uint32_t crc_of(std::string_view text) {
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
+
 GONIO_INLINE std::string with_checksum(std::string fields) {
-  const auto sum = crc32_z(0, reinterpret_cast<const unsigned char*>(fields.data()), fields.size());
-  return fields + " " + std::to_string(sum) + "\n";
+  return fields + " " + std::to_string(crc_of(fields)) + "\n";
 }
 
 GONIO_INLINE bool has_checksum(std::string_view line) {
@@ -33,16 +39,32 @@ GONIO_INLINE bool has_checksum(std::string_view line) {
   return last != std::string_view::npos && with_checksum(std::string(line.substr(0, last))) == std::string(line) + "\n";
 }
 
-GONIO_INLINE std::string format_scan_header(std::span<const direction_pair> poses, std::uint16_t largest_count) {
-  std::string text = "# gonio scan: wi and wo of each pose; number, frames, times, pixels and counts of each reading\n";
-  text += "largest_count " + std::to_string(largest_count) + "\n";
-  for (const direction_pair& pose : poses) {
-    text += "pose";
-    for (const direction& w : {pose.wi, pose.wo})
-      for (const double component : w) text += ' ' + shortest(component);
-    text += '\n';
-  }
-  return text;
+GONIO_INLINE bool has_control_characters(std::string_view text) {
+  return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
+}
+
+GONIO_INLINE std::string format_pose(const direction_pair& pose) {
+  std::string text = "pose";
+  for (const direction& w : {pose.wi, pose.wo})
+    for (const double component : w) text += ' ' + shortest(component);
+  return text + '\n';
+}
+
+GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
+                                            std::uint16_t largest_count) {
+  for (const std::string& text : {subject.sample, subject.setup})
+    if (text.empty() || trimmed(text) != text || has_control_characters(text))
+      throw error{"what a scan measures is told in one line of text, not in ", detail::quoted(text)};
+  std::string pose_lines;
+  for (const direction_pair& pose : poses) pose_lines += format_pose(pose);
+  return "# gonio scan: what lies in the machine, how it is measured, with which seed; the poses' number and "
+         "checksum;\n"
+         "# wi and wo of each pose; number, frames, times, pixels, counts and checksum of each reading\n"
+         "sample " +
+         std::to_string(subject.checksum) + ' ' + subject.sample + '\n' + "setup " +
+         std::to_string(crc_of(subject.setup)) + ' ' + subject.setup + '\n' + "seed " + std::to_string(subject.seed) +
+         '\n' + "largest_count " + std::to_string(largest_count) + '\n' + "plan " + std::to_string(poses.size()) + ' ' +
+         std::to_string(crc_of(pose_lines)) + '\n' + pose_lines;
 }
 
 GONIO_INLINE std::string format_reading(std::size_t pose, const reading& taken) {
@@ -96,17 +118,50 @@ GONIO_INLINE direction_pair parse_pose(const text_rule& rule, const text_place& 
   return pose;
 }
 
+GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& place, scan_lines& before) {
+  const std::size_t blank = std::min(line.find(' '), line.size());
+  const std::string_view name = line.substr(0, blank);
+  if (name != "sample" && name != "setup" && name != "seed") return false;
+  const std::string_view rest = trimmed(line.substr(blank));
+  std::uint64_t number = 0;
+  const auto [end, failed] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  const std::string_view text = trimmed(rest.substr(static_cast<std::size_t>(end - rest.data())));
+  if (failed != std::errc()) place.refuse({quoted(name), " takes a whole number first"});
+  if (text.empty() != (name == "seed"))
+    place.refuse({quoted(name), name == "seed" ? " takes no text" : " needs a text"});
+  if (has_control_characters(text)) place.refuse({quoted(name), " has characters that are no text"});
+  bool& has = name == "sample" ? before.has_sample : name == "setup" ? before.has_setup : before.has_seed;
+  if (has) place.refuse({quoted(name), " is told a second time"});
+  has = true;
+  if (name == "seed") {
+    before.subject.seed = number;
+  } else if (name == "sample") {
+    before.subject.sample = text;
+    before.subject.checksum = static_cast<std::uint32_t>(number);
+  } else {
+    if (number != crc_of(text)) place.refuse("the checksum of 'setup' is wrong, the line is damaged");
+    before.subject.setup = text;
+  }
+  return true;
+}
+
 GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place, recorded_scan& scan,
-                                  bool& has_reading) {
+                                  scan_lines& before) {
+  if (apply_subject_line(line, place, before)) return;
   const text_rule rule = parse_rule(line, place);
   number_reader numbers(rule, place);
   if (rule.name == "largest_count") {
     require_numbers(rule, {1}, place);
     scan.largest_count = static_cast<std::uint16_t>(numbers.next_whole(65535, "the largest count"));
+  } else if (rule.name == "plan") {
+    require_numbers(rule, {2}, place);
+    const std::size_t poses = numbers.next_whole(1e9, "the number of poses");
+    before.plan.emplace(poses, static_cast<std::uint32_t>(numbers.next_whole(4294967295.0, "the poses' checksum")));
   } else if (rule.name == "pose") {
-    if (has_reading) place.refuse("a pose after the first reading");
+    if (before.has_reading) place.refuse("a pose after the first reading");
     scan.poses.push_back(parse_pose(rule, place));
     scan.readings.emplace_back();
+    before.pose_lines.append(line).push_back('\n');
   } else if (rule.name == "reading") {
     if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
     const std::size_t pose = numbers.next_whole(1e9, "the pose");
@@ -114,10 +169,20 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
       place.refuse("pose " + std::to_string(pose) + " of " + std::to_string(scan.poses.size()));
     if (scan.readings[pose]) place.refuse("pose " + std::to_string(pose) + " is read a second time");
     scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
-    has_reading = true;
+    before.has_reading = true;
   } else {
-    place.refuse(quoted(rule.name) + " is unknown, expected largest_count, pose or reading");
+    place.refuse(quoted(rule.name) + " is unknown, expected sample, setup, seed, largest_count, plan, pose or reading");
   }
+}
+
+GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
+  if (scan.largest_count == 0) throw error{name, ": the line largest_count is missing"};
+  if (scan.poses.empty()) throw error{name, ": there is no pose"};
+  if (all.plan && (all.plan->first != scan.poses.size() || all.plan->second != crc_of(all.pose_lines)))
+    throw error{name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"};
+  if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
+    throw error{name, ": of the lines sample, setup, seed and plan some are missing"};
+  if (all.has_sample) scan.subject = all.subject;
 }
 
 GONIO_INLINE std::string_view whole_lines(std::string_view text) {
@@ -132,14 +197,18 @@ GONIO_INLINE std::string_view whole_lines(std::string_view text) {
 
 namespace gonio::io {
 
+GONIO_INLINE std::uint32_t checksum_of_file(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path);
+  return detail::crc_of(detail::as_text(bytes));
+}
+
 GONIO_INLINE recorded_scan parse_scan(std::string_view text, const std::string& name) {
   recorded_scan scan;
   detail::text_place place{name};
-  bool has_reading = false;
+  detail::scan_lines before;
   detail::for_each_line(detail::whole_lines(text), place,
-                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, has_reading); });
-  if (scan.largest_count == 0) throw error{name, ": the line largest_count is missing"};
-  if (scan.poses.empty()) throw error{name, ": there is no pose"};
+                        [&](std::string_view line) { detail::apply_scan_line(line, place, scan, before); });
+  detail::finish_scan(scan, before, name);
   return scan;
 }
 
@@ -148,52 +217,73 @@ GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
   return parse_scan(detail::as_text(bytes), path.string());
 }
 
-GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, std::span<const direction_pair> poses,
-                                        std::uint16_t largest_count)
+GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const scan_subject& subject,
+                                        std::span<const direction_pair> poses, std::uint16_t largest_count)
     : path_(path) {
   if (poses.empty()) throw error{path.string(), ": a scan needs a pose, and there is none"};
-  if (!std::filesystem::exists(path)) {
-    const std::string header = detail::format_scan_header(poses, largest_count);
-    write_atomically(path, std::as_bytes(std::span(header)));
-  }
+  const std::string header = detail::format_scan_header(subject, poses, largest_count);
   open();
-  const auto bytes = read_bytes(path);
+  auto bytes = read_bytes(path);
+  if (bytes.size() < header.size() && header.starts_with(detail::as_text(bytes))) {
+    // A new file, or one whose process was killed before it had written all of the same head.
+    write(std::string_view(header).substr(bytes.size()));
+    bytes = read_bytes(path);
+  }
   const std::string_view text = detail::as_text(bytes);
   scan_ = parse_scan(text, path.string());
-  require_same(poses, largest_count);
+  require_same(subject, poses, largest_count);
   // The next line must not be joined to what a killed process left of its last.
   if (::ftruncate(file_.get(), static_cast<off_t>(detail::whole_lines(text).size())) != 0) fail();
 }
 
 GONIO_INLINE void scan_journal::add(std::size_t pose, const reading& taken) {
   if (has(pose)) throw error{path_.string(), ": pose ", pose, " is read already"};
-  const std::string line = detail::format_reading(pose, taken);
-  for (std::string_view left = line; !left.empty();) {
-    const ssize_t count = ::write(file_.get(), left.data(), left.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail();
-    left.remove_prefix(static_cast<std::size_t>(count));
-  }
-  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
+  write(detail::format_reading(pose, taken));
   scan_.readings[pose] = taken;
 }
 
 GONIO_INLINE void scan_journal::open() {
   // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
-  file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC | O_NONBLOCK));
+  file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
   if (errno == EWOULDBLOCK) throw error{path_.string(), ": another process is scanning into this file"};
   fail();
 }
 
-GONIO_INLINE void scan_journal::require_same(std::span<const direction_pair> poses, std::uint16_t largest_count) const {
+GONIO_INLINE void scan_journal::write(std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(file_.get(), text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail();
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
+}
+
+GONIO_INLINE void scan_journal::require_same(const scan_subject& subject, std::span<const direction_pair> poses,
+                                             std::uint16_t largest_count) const {
+  const std::string name = path_.string();
   if (scan_.largest_count != largest_count)
-    throw error{path_.string(), ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count};
+    throw error{name, ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count};
   const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (!std::ranges::equal(scan_.poses, poses, same))
-    throw error{path_.string(), ": is a scan of ", scan_.poses.size(), " other poses, expected the ",
-                poses.size(),   " of this plan"};
+    throw error{name,         ": is a scan of ", scan_.poses.size(), " other poses, expected the ",
+                poses.size(), " of this plan"};
+  if (!scan_.subject)
+    throw error{name,
+                ": does not say what it measures, as scans of earlier versions: it can be calibrated, but not be ",
+                "gone on with"};
+  const scan_subject& known = *scan_.subject;
+  if (known.sample != subject.sample)
+    throw error{name, ": is a scan of '", known.sample, "', not of '", subject.sample, "'"};
+  if (known.checksum != subject.checksum)
+    throw error{
+        name, ": is a scan of another '", known.sample, "', of checksum ", known.checksum, ", not ", subject.checksum};
+  if (known.setup != subject.setup)
+    throw error{name, ": was measured with '", known.setup, "', not with '", subject.setup, "'"};
+  if (known.seed != subject.seed)
+    throw error{name, ": was measured with the seed ", known.seed, ", not ", subject.seed};
 }
 
 }  // namespace gonio::io

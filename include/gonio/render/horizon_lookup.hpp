@@ -1,0 +1,43 @@
+#pragma once
+/// A table as pictures show it: between cells the reflected light is interpolated, f times both cosines, instead of f.
+///
+/// A cell whose centre lies just above the horizon says nearly nothing of f: in Eq. 1 of Nielsen, Jensen and
+/// Ramamoorthi 2015 (doi:10.1145/2816795.2818085) a deviation of epsilon is one of epsilon / (cos theta_i cos theta_o)
+/// in f, and an estimate is easily ten times too bright there. Interpolation of f carries that a whole cell inwards,
+/// where there is light to show it: a dotted line along the terminator. Weighted by its cosines, such a cell counts by
+/// what it reflects.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/table/brdf_table.hpp>
+
+#include <algorithm>
+
+namespace gonio {
+
+/// A BRDF in sr^-1; zero below the horizon. A view: the table must outlive it.
+class horizon_lookup {
+ public:
+  explicit horizon_lookup(const brdf_table& table) noexcept : table_(&table) {}
+
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
+    location at = locate(table_->cells(), to_half_difference(wi, wo));
+    double sum = 0.0;
+    for (std::size_t corner = 0; corner < static_cast<std::size_t>(at.count); ++corner) {
+      const cosine_pair cosine = cosines(table_->cells().angles(at.cell[corner]));
+      at.weight[corner] *= std::max(cosine.i * cosine.o, smallest_weight);
+      sum += at.weight[corner];
+    }
+    return table_->at(at) / sum;
+  }
+
+ private:
+  /// Of cells that are on the horizon itself.
+  static constexpr double smallest_weight = 1e-9;
+
+  const brdf_table* table_;
+};
+
+static_assert(brdf<horizon_lookup>);
+
+}  // namespace gonio

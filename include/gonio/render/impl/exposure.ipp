@@ -1,0 +1,38 @@
+#pragma once
+/// Bodies of render/exposure.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/render/exposure.hpp>
+#include <gonio/render/sphere.hpp>
+#include <gonio/table/image.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
+  if (picture.shape(0) != picture.shape(1))
+    throw error{"a picture of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"};
+  std::vector<double> brightest;
+  for (const sphere_point& point : sphere_points(static_cast<int>(picture.shape(0))))
+    brightest.push_back(pixel(picture, point.row, point.column).maxCoeff());
+  const auto at = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(brightest.size() - 1)));
+  std::ranges::nth_element(brightest, brightest.begin() + at);
+  return brightest[static_cast<std::size_t>(at)];
+}
+
+GONIO_INLINE double exposure_of_spheres(std::span<const image> pictures) {
+  double brightest = 0.0;
+  for (const image& picture : pictures) brightest = std::max(brightest, brightness_of_sphere(picture));
+  return brightest > 0.0 ? 1.0 / brightest : 1.0;
+}
+
+GONIO_INLINE void expose(image& picture, double exposure) {
+  for (float& value : picture) value = static_cast<float>(exposure * value);
+}
+
+}  // namespace gonio
