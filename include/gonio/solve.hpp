@@ -33,6 +33,7 @@
 #include <gonio/solve/scaled_program.hpp>
 #include <gonio/solve/semidefinite.hpp>
 #include <gonio/solve/signed_solution.hpp>
+#include <gonio/solve/singular_values.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 #include <gonio/solve/thin_product.hpp>

@@ -17,8 +17,8 @@ concept design_criterion = requires(const Criterion& criterion, const Eigen::Mat
 
 /// The ratio of the largest to the smallest of min(n, k) singular values (Nielsen et al. 2015, Eq. 8). For one
 /// measurement, of which it would always be 1, the inverse of the row's length (section 4, after Ipsen and Wentworth
-/// 2014). From the eigenvalues of the smaller Gram matrix: up to 1e7, beyond which it may say infinity. O(n k min(n,
-/// k)).
+/// 2014). Infinity where the smallest singular value is no more than rounding: below max(n, k) 2^-52 of the largest.
+/// O(n k min(n, k)).
 struct condition_number {
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 };
