@@ -7,6 +7,7 @@
 #include <gonio/solve/choose_eta.hpp>
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/coordinate_descent.hpp>
+#include <gonio/solve/default_eta.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/float_product.hpp>

@@ -21,8 +21,7 @@ GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& componen
   if (components.rows() == 1) return 1.0 / components.norm();
   const Eigen::VectorXd values = singular_values(components, "measurements' components");
   const double smallest = values[0], largest = values[values.size() - 1];
-  const double rounding = std::numeric_limits<double>::epsilon() *
-                          static_cast<double>(std::max(components.rows(), components.cols())) * largest;
+  const double rounding = largest * singular_value_rounding(values.size());
   return smallest > rounding ? largest / smallest : std::numeric_limits<double>::infinity();
 }
 
