@@ -4,6 +4,7 @@
 #include <gonio/solve/impl/float_product.ipp>
 #include <gonio/solve/impl/product.ipp>
 #include <gonio/solve/impl/semidefinite.ipp>
+#include <gonio/solve/impl/singular_values.ipp>
 #include <gonio/solve/impl/symmetric_eigen.ipp>
 #include <gonio/solve/impl/thin_product.ipp>
 #include <gonio/solve/impl/vector_kernels.ipp>

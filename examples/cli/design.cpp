@@ -42,6 +42,8 @@ void run(design_command command) {
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
                       {"criterion", command.design.criterion},
+                      {"eta", command.design.eta},
+                      {"in_sample", command.design.in_sample},
                       {"value", found.value},
                       {"expected_error", figures.expected_error},
                       {"unknown_share", figures.unknown_share}}
@@ -84,8 +86,20 @@ void add_design(command& app) {
                   "descend")
       .check(check::one_of({"exchange", "greedy", "descent"}))
       .capture_default_str();
-  command.add_option("--eta", design.eta, "Tikhonov's penalty of the reconstruction").capture_default_str();
-  command.add_option("--noise", design.noise, "Deviation of every measurement's logarithm").capture_default_str();
+  command
+      .add_option("--eta", design.eta,
+                  "Tikhonov's penalty of the reconstruction; the default is about what gonio reconstruct chooses")
+      .capture_default_str();
+  command
+      .add_option("--noise", design.noise,
+                  "Deviation of every measurement's logarithm (0.02 is 2 %), independent of the others'")
+      .capture_default_str();
+  command
+      .add_option("--common-shift", design.common_shift,
+                  "Size of one shift that all logarithms share: beta of Xu et al. 2016, Eq. 15")
+      .capture_default_str();
+  command.add_flag("--in-sample", design.in_sample,
+                   "Expect the error of materials that the prior has seen, as Xu et al. do, instead of each left out");
   command
       .add_option("--misplaced", options->misplacement,
                   "Points: degrees by which light and viewer may each be off their directions")

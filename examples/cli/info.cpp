@@ -54,7 +54,8 @@ json describe(const gonio::log_relative_pca& prior) {
               {"source", prior.source()},
               {"materials", prior.names().size()},
               {"components", prior.size()},
-              {"explained_variance", prior.explained_variance()}};
+              {"explained_variance", prior.explained_variance()},
+              {"cosine_weight", prior.metric().weighting() == gonio::cosine_weighting::larger ? "larger" : "product"}};
   result.update(describe(prior.cells()));
   result["names"] = prior.names();
   return result;

@@ -20,6 +20,7 @@ struct learn_options {
   material_source materials;
   std::filesystem::path output;
   std::size_t components = 60;
+  std::string cosine_weight = "product";
   thinning thin{{3, 5}};
   gonio::thread_count threads;
 };
@@ -41,6 +42,12 @@ void add_learn(command& app) {
   command.add_option("--components", options->components, "Number of components to keep")
       .check(check::positive_number())
       .capture_default_str();
+  command
+      .add_option("--cosine-weight", options->cosine_weight,
+                  "What weights a reflectance before its logarithm is taken: product of both cosines (Nielsen et al. "
+                  "2015, Eq. 2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
+      .check(check::one_of({"product", "larger"}))
+      .capture_default_str();
   add_thin_option(command, options->thin);
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
@@ -49,7 +56,9 @@ void add_learn(command& app) {
     auto materials = read_materials(options->materials, options->threads, bar.listener());
     const std::string source_text = source_of(options->materials, materials.names.size());
     const auto cells = options->thin.of(materials.cells);
-    const auto metric = gonio::log_relative::to_median_of(materials, options->threads);
+    const auto weighting =
+        options->cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
+    const auto metric = gonio::log_relative::to_median_of(materials, options->threads).weighted_by(weighting);
     const auto learned =
         gonio::learn_pca(std::move(materials), metric, options->components, options->threads, bar.listener());
     gonio::io::write_prior(options->output, gonio::thin(learned, cells).with_source(source_text));

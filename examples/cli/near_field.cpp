@@ -60,32 +60,51 @@ gonio::picture_samples samples_of(const taken_picture& picture) {
 
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
 
-/// The samples where light and cameras are found to be; says by how much these were off.
-gonio::sample_set refined(const std::vector<taken_picture>& pictures, std::vector<gonio::picture_samples> samples,
-                          const near_field_command& options) {
+/// The samples of each picture, for each of some materials.
+using samples_of_materials = std::vector<std::vector<gonio::picture_samples>>;
+
+/// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
+/// were off.
+std::vector<gonio::sample_set> refined(const std::vector<taken_picture>& pictures, samples_of_materials samples,
+                                       const near_field_command& options) {
   gonio::pose_refinement refinement(gonio::io::read_prior(options.prior), std::move(samples),
                                     {.deviation = gonio::radians(options.misplacement), .threads = options.threads});
   refinement.solve();
   for (std::size_t i = 0; i < pictures.size(); ++i)
     std::cout << pictures[i].file << ": light off by " << angle_of(refinement.turns()[i].light)
               << " degrees, camera by " << angle_of(refinement.turns()[i].camera) << '\n';
-  return refinement.samples();
+  std::vector<gonio::sample_set> all;
+  for (std::size_t m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
+  return all;
+}
+
+/// Each material's samples of all pictures.
+std::vector<gonio::sample_set> joined(const std::vector<taken_picture>& pictures, samples_of_materials samples,
+                                      const near_field_command& options) {
+  if (options.misplacement != 0.0) return refined(pictures, std::move(samples), options);
+  std::vector<gonio::sample_set> all(samples.size());
+  for (std::size_t m = 0; m < samples.size(); ++m)
+    for (const gonio::picture_samples& picture : samples[m]) {
+      const gonio::sample_set own = gonio::as_sample_set(picture);
+      all[m].insert(all[m].end(), own.begin(), own.end());
+    }
+  return all;
+}
+
+/// How many samples each picture has, a line each.
+std::string counts_of(const std::vector<taken_picture>& pictures, const std::vector<gonio::picture_samples>& samples) {
+  std::string lines;
+  for (std::size_t i = 0; i < pictures.size(); ++i)
+    lines += pictures[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
+  return lines;
 }
 
 /// All pictures' samples in one file; prints how many each has.
-void write_samples_of_all(const std::vector<taken_picture>& pictures, const near_field_command& options,
-                          const std::filesystem::path& output) {
-  gonio::sample_set all;
-  std::vector<gonio::picture_samples> each;
-  std::string counts;
-  for (const taken_picture& picture : pictures) {
-    each.push_back(samples_of(picture));
-    const gonio::sample_set samples = gonio::as_sample_set(each.back());
-    counts += picture.file + ": " + std::to_string(samples.size()) + " samples\n";
-    all.insert(all.end(), samples.begin(), samples.end());
-  }
-  if (options.misplacement != 0.0) all = refined(pictures, std::move(each), options);
-  gonio::io::write_samples(output, all);
+void write_samples_of_one(const std::vector<taken_picture>& pictures, const near_field_command& options) {
+  std::vector<gonio::picture_samples> samples;
+  for (const taken_picture& picture : pictures) samples.push_back(samples_of(picture));
+  const std::string counts = counts_of(pictures, samples);
+  gonio::io::write_samples(options.output, joined(pictures, {std::move(samples)}, options).front());
   std::cout << counts;
 }
 
@@ -157,13 +176,23 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const command& g
   for (std::size_t material = 0; material < clusters.count(); ++material)
     given.require_writable(path_of_material(options.output, material));
   if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
+  samples_of_materials samples;
+  std::vector<std::string> counts;
   for (std::size_t material = 0; material < clusters.count(); ++material) {
     std::vector<bool> mask(size.rows * size.columns, false);
     for (const std::size_t pixel : clusters.pixels(material)) mask[region[pixel]] = true;
-    for (taken_picture& picture : pictures) picture.setup.mask = mask;
+    auto& own = samples.emplace_back();
+    for (taken_picture& picture : pictures) {
+      picture.setup.mask = mask;
+      own.push_back(samples_of(picture));
+    }
+    counts.push_back(counts_of(pictures, own));
+  }
+  const std::vector<gonio::sample_set> all = joined(pictures, std::move(samples), options);
+  for (std::size_t material = 0; material < clusters.count(); ++material) {
     const std::filesystem::path path = path_of_material(options.output, material);
-    std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n";
-    write_samples_of_all(pictures, options, path);
+    gonio::io::write_samples(path, all[material]);
+    std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n" << counts[material];
   }
 }
 
@@ -171,7 +200,7 @@ void run(const command& given, const near_field_command& options) {
   if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
   std::vector<taken_picture> pictures = read_pictures(options);
   if (options.clusters.empty())
-    write_samples_of_all(pictures, options, options.output);
+    write_samples_of_one(pictures, options);
   else
     write_samples_of_each(std::move(pictures), given, options);
 }

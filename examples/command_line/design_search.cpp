@@ -19,15 +19,21 @@ using prior_t = gonio::log_relative_pca;
 /// Xu et al. 2016, section 5.1.
 constexpr std::size_t random_candidates = 500;
 
+gonio::expected_error_options expectation_of(const design_options& options) {
+  return {.eta = options.eta,
+          .noise = options.noise,
+          .common_shift = options.common_shift,
+          .leave_out = !options.in_sample};
+}
+
 gonio::expected_error expected_error_of(const prior_t& prior, const design_options& options) {
-  return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise});
+  return gonio::expected_error(prior, expectation_of(options));
 }
 
 /// The one that a search is to make small.
 gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
   if (options.criterion != "perceived") return expected_error_of(prior, options);
-  return gonio::expected_error(prior, {.eta = options.eta, .noise = options.noise},
-                               gonio::perceived_norm(prior, options.threads));
+  return gonio::expected_error(prior, expectation_of(options), gonio::perceived_norm(prior, options.threads));
 }
 
 template <class Geometry>
@@ -94,9 +100,10 @@ designed with(const prior_t& prior, const Geometry& geometry, const design_optio
     return finished(geometry, slide(gonio::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
   if (options.criterion == "condition") return by(gonio::condition_number{});
-  if (options.criterion == "d-optimal") return by(gonio::d_optimality(options.eta));
-  if (options.criterion == "a-optimal")
-    return by(gonio::a_optimality(prior.singular_values().cwiseAbs2(), options.eta));
+  // Independent noise is a larger penalty of every row: eta / m is the variance of its error.
+  const double eta = options.eta + expected_error_of(prior, options).noise_eta();
+  if (options.criterion == "d-optimal") return by(gonio::d_optimality(eta));
+  if (options.criterion == "a-optimal") return by(gonio::a_optimality(prior.singular_values().cwiseAbs2(), eta));
   return by_expected_error(prior, geometry, options, listener);
 }
 
@@ -123,6 +130,11 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
   if (options.misplacement != 0.0 && !(options.geometry == "point" && expects_errors))
     throw gonio::error("directions that are not quite met are expected of points alone, by the expected error");
+  if (!expects_errors && (options.common_shift != 0.0 || options.in_sample))
+    throw gonio::error("--common-shift and --in-sample are of --criterion expected-error or perceived, not of " +
+                       options.criterion);
+  if (options.criterion == "condition" && options.noise != 0.0)
+    throw gonio::error("--noise means nothing to --criterion condition, which knows of no noise");
   if (!(options.misplacement >= 0.0 && options.misplacement < gonio::radians(45.0)))
     throw gonio::error("directions may be off by 0 to 45 degrees, not by " +
                        std::to_string(gonio::degrees(options.misplacement)));
@@ -141,7 +153,7 @@ design_quality quality_of(const gonio::log_relative_pca& prior, const design_opt
   const gonio::expected_error criterion = expected_error_of(prior, options);
   const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
-  const double nothing = criterion.energies().cwiseSqrt().mean();
+  const double nothing = criterion(gonio::expected_error::rows(0, criterion.coefficients().rows()));
   // A prior may have been learned on more cells than it keeps; its singular values are of all of them.
   const double kept = prior.components().cast<double>().squaredNorm() / prior.singular_values().squaredNorm();
   return {error * std::sqrt(kept / static_cast<double>(prior.cells().size())), error / nothing};

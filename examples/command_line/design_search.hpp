@@ -6,6 +6,7 @@
 #include <gonio/core/progress.hpp>
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/solve/default_eta.hpp>
 
 #include <cstdint>
 #include <string>
@@ -16,7 +17,9 @@ namespace cli {
 struct design_options {
   std::size_t count = 20;
   std::string geometry = "point", criterion = "expected-error", search = "exchange";
-  double eta = 40.0, noise = 0.0;
+  double eta = gonio::default_eta;
+  double noise = 0.0, common_shift = 0.0;    ///< of every measurement's logarithm: independent, and shared by all
+  bool in_sample = false;                    ///< is the error expected of materials that the prior has seen?
   double misplacement = 0.0;                 ///< radians by which light and viewer may be off: of points
   gonio::near_field_options near_field;      ///< its constraint holds for points, too
   std::vector<gonio::direction_pair> start;  ///< above the horizon
@@ -36,7 +39,8 @@ struct designed {
                               const gonio::progress& listener = {});
 
 /// The expected error of measurements: root mean square over the cells, in the mapped domain; and as a share of what it
-/// is with nothing measured.
+/// is with nothing measured. It is that of materials left out of the prior one by one, unless the options say
+/// otherwise.
 struct design_quality {
   double expected_error = 0.0, unknown_share = 0.0;
 };

@@ -13,6 +13,7 @@ void add_linear_combination(command& app);
 void add_noell_tables(command& app);
 void add_noell_measured(command& app);
 void add_noell_corrections(command& app);
+void add_cosine_weight(command& app);
 void add_directions(command& app);
 void add_directions_measured(command& app);
 void add_figures(command& app);

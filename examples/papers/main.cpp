@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   papers::add_noell_tables(app);
   papers::add_noell_measured(app);
   papers::add_noell_corrections(app);
+  papers::add_cosine_weight(app);
   papers::add_directions(app);
   papers::add_directions_measured(app);
   papers::add_figures(app);

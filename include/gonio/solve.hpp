@@ -7,6 +7,7 @@
 #include <gonio/solve/choose_eta.hpp>
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/coordinate_descent.hpp>
+#include <gonio/solve/default_eta.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/float_product.hpp>
@@ -33,6 +34,7 @@
 #include <gonio/solve/scaled_program.hpp>
 #include <gonio/solve/semidefinite.hpp>
 #include <gonio/solve/signed_solution.hpp>
+#include <gonio/solve/singular_values.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 #include <gonio/solve/thin_product.hpp>

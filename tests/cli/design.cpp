@@ -7,6 +7,7 @@
 #include <gonio/io/image.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/solve/default_eta.hpp>
 
 #include <doctest/doctest.h>
 
@@ -64,6 +65,24 @@ TEST_CASE("directions that may not be met are others, and leave more unknown") {
   CHECK(met < off);
 }
 
+TEST_CASE("designs are for materials that the prior has not seen, unless --in-sample says otherwise") {
+  const drawing_board board;
+  const double out_of_sample = board.unknown_after("-n 4"), in_sample = board.unknown_after("-n 4 --in-sample");
+  CHECK(in_sample < out_of_sample);
+  const auto said = parse_json(board.design("-n 4 --json", "d.csv").output);
+  CHECK(said["eta"].get<double>() == gonio::default_eta);
+  CHECK(said["in_sample"] == false);
+}
+
+TEST_CASE("noise of each measurement, and a shift of all, leave more unknown, and not the same") {
+  const drawing_board board;
+  const double none = board.unknown_after("-n 4"), noise = board.unknown_after("-n 4 --noise 0.3"),
+               shift = board.unknown_after("-n 4 --common-shift 0.3");
+  CHECK(none < noise);
+  CHECK(none < shift);
+  CHECK(std::abs(noise - shift) > 1e-3 * noise);
+}
+
 TEST_CASE("more measurements leave less unknown, in every geometry and by every search") {
   const drawing_board board;
   for (const char* how :
@@ -119,6 +138,10 @@ TEST_CASE("designs that cannot be made") {
   board.refuses("-n 9 --geometry sphere", {"9 of 7"});
   board.refuses("-n 2 --eta 0", {"eta"});
   board.refuses("-n 2 --noise -1", {"noise"});
+  board.refuses("-n 2 --common-shift -1", {"common shift", "not -1"});
+  board.refuses("-n 2 --common-shift 0.1 --criterion d-optimal", {"--common-shift", "expected-error", "d-optimal"});
+  board.refuses("-n 2 --in-sample --criterion condition", {"--in-sample", "condition"});
+  board.refuses("-n 2 --noise 0.1 --criterion condition", {"--noise", "condition"});
   board.refuses("-n 2 --misplaced -1", {"45 degrees", "not by -1"});
   board.refuses("-n 2 --misplaced 1 --geometry sphere", {"points alone"});
   board.refuses("-n 2 --misplaced 1 --criterion condition", {"expected error"});

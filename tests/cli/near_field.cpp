@@ -157,6 +157,37 @@ TEST_CASE("two materials in one picture get a file each, and a map of where they
   CHECK_FALSE(agrees("m-2.csv", shots.paint));
 }
 
+TEST_CASE("two materials in one picture were under one light: one pose for both") {
+  // Blue rubber alone says little of where the light was; the red paint beside it, with a highlight, says it for both.
+  const two_shots shots;
+  const gonio::formula_brdf other = gonio::formula_material("blue-rubber");
+  for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
+    const auto setup = gonio::io::parse_near_field_setup(text, name);
+    const lab::near_field_defects defects{.misalignment = gonio::radians(1.0)};
+    gonio::image picture = lab::photograph(shots.paint, {.radius = 0.5}, setup, defects, seed);
+    const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup, defects, seed);
+    for (std::size_t row = 0; row < 40; ++row)
+      for (std::size_t column = 0; column < 18; ++column)
+        gonio::set_pixel(picture, row, column, gonio::pixel(patch, row, column));
+    gonio::io::write_hdr(shots.at(name) + ".hdr", picture);
+  }
+  const auto result = gonio_tool("near-field " + shots.shot("first") + shots.shot("second") +
+                                 "--clusters 2 --misplaced 1 -o " + shots.at("m.csv"));
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  const auto occurrences = [&](const std::string& words) {
+    std::size_t count = 0;
+    for (std::size_t at = result.output.find(words); at != std::string::npos; at = result.output.find(words, at + 1))
+      ++count;
+    return count;
+  };
+  CAPTURE(result.output);
+  CHECK(occurrences("first.hdr: light off by ") == 1);
+  CHECK(occurrences("second.hdr: light off by ") == 1);
+  CHECK(occurrences("m-1.csv, ") == 1);
+  CHECK(occurrences("m-2.csv, ") == 1);
+  CHECK(occurrences(" samples\n") == 4);
+}
+
 TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
   const two_shots shots;
   const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {

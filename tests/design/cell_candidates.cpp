@@ -17,10 +17,12 @@ std::vector<double> made_up_own_etas() {
 
 TEST_CASE("all additions at once are what each is by itself") {
   const std::vector<double> none, some = made_up_own_etas();
-  for (const auto& [noise, own_etas] :
-       {std::pair{0.0, none}, std::pair{0.4, none}, std::pair{0.0, some}, std::pair{0.4, some}}) {
+  for (const auto& [noise, common_shift, leave_out, own_etas] :
+       {std::tuple{0.0, 0.0, false, none}, std::tuple{0.0, 0.4, false, none}, std::tuple{0.0, 0.0, false, some},
+        std::tuple{0.1, 0.4, false, some}, std::tuple{0.0, 0.0, true, none}, std::tuple{0.1, 0.4, true, some}}) {
     // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
-    const auto candidates = made_up_candidates({.eta = 4.0, .noise = noise}, {}, own_etas);
+    const auto candidates = made_up_candidates(
+        {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, own_etas);
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
@@ -39,10 +41,23 @@ TEST_CASE("all additions at once are what each is by itself") {
   }
 }
 
+TEST_CASE("one more beside some is what all of them are") {
+  for (const bool leave_out : {false, true}) {
+    const auto candidates =
+        made_up_candidates({.eta = 0.3, .noise = 0.05, .common_shift = 0.1, .leave_out = leave_out});
+    const std::vector<std::size_t> cells{4, 90, 301};
+    const auto with = candidates.beside(cells);
+    for (std::size_t cell = 0; cell < candidates.size(); cell += 17) {
+      const std::vector<std::size_t> all{4, 90, 301, cell};
+      CHECK(with(cell) == doctest::Approx(candidates(all)).epsilon(1e-5));  // Y and W are rounded to float
+    }
+  }
+}
+
 TEST_CASE("the same bytes for any number of threads") {
   const std::vector<std::size_t> cells{4, 90, 301};
-  const auto one = made_up_candidates({.eta = 2.0, .noise = 0.1}, {1}),
-             three = made_up_candidates({.eta = 2.0, .noise = 0.1}, {3});
+  const auto one = made_up_candidates({.eta = 2.0, .common_shift = 0.1}, {1}),
+             three = made_up_candidates({.eta = 2.0, .common_shift = 0.1}, {3});
   CHECK(one.errors_with_each(cells) == three.errors_with_each(cells));
   CHECK(one(cells) == three(cells));
 }

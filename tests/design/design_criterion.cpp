@@ -43,6 +43,19 @@ TEST_CASE("the condition number is the ratio of the singular values; of one row,
   CHECK(std::isinf(condition_number{}(twice)));
 }
 
+TEST_CASE("condition numbers are told up to rounding: neighbouring pixels make them far larger than 1e7") {
+  const Eigen::MatrixXd u = dense_reference::orthonormal_columns(random_rows(40, 12)),
+                        v = dense_reference::orthonormal_columns(random_rows(12, 12));
+  for (const double condition : {1e3, 1e8, 1e11, 1e13}) {
+    Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(12, 1.0, 2.0) / 2.0;
+    values[0] = 1.0 / condition;
+    CAPTURE(condition);
+    const Eigen::MatrixXd tall = u * values.asDiagonal() * v.transpose();
+    CHECK(condition_number{}(tall) == doctest::Approx(condition).epsilon(1e-15 * condition + 1e-12));
+    CHECK(condition_number{}(tall.transpose()) == doctest::Approx(condition).epsilon(1e-15 * condition + 1e-12));
+  }
+}
+
 TEST_CASE("A- and D-optimality are the trace and the volume of the weights' covariance") {
   const double eta = 0.7;
   const Eigen::VectorXd energies = Eigen::VectorXd::LinSpaced(9, 3.0, 0.5);

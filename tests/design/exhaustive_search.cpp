@@ -48,7 +48,7 @@ TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of al
 }
 
 TEST_CASE("after exchange no single replacement improves") {
-  const auto candidates = made_up_candidates({.eta = 0.1, .noise = 0.2});
+  const auto candidates = made_up_candidates({.eta = 0.1, .common_shift = 0.2});
   const auto found = gonio::exchange(candidates, gonio::grow_greedily(candidates, 4));
   for (std::size_t position = 0; position < 4; ++position)
     for (std::size_t cell = 0; cell < candidates.size(); ++cell) {

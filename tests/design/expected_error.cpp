@@ -2,8 +2,11 @@
 #include "made_up_candidates.hpp"
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/expected_error.hpp>
+#include <gonio/estimate/left_out_error.hpp>
 
 #include <doctest/doctest.h>
+
+#include <random>
 
 using gonio::expected_error;
 static_assert(gonio::design_criterion<expected_error>);
@@ -41,7 +44,7 @@ TEST_CASE("it is Eq. 15 as printed") {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(small_cells().size()));
   for (const double eta : {0.01, 1.0, 40.0})
     for (const double beta : {0.0, 0.3}) {
-      const expected_error criterion(candidate_basis(), {.eta = eta, .noise = beta});
+      const expected_error criterion(candidate_basis(), {.eta = eta, .common_shift = beta});
       for (const std::vector<std::size_t>& cells :
            {std::vector<std::size_t>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
         const Eigen::MatrixXd measured = components_at(cells);
@@ -56,7 +59,7 @@ TEST_CASE("cells count as much as the norm says") {
   const Eigen::Index p = static_cast<Eigen::Index>(small_cells().size());
   const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(p, 0.0, 2.0);
   const Eigen::MatrixXd q = candidate_basis().components().cast<double>();
-  const expected_error criterion(candidate_basis(), {.eta = 0.7, .noise = 0.2},
+  const expected_error criterion(candidate_basis(), {.eta = 0.7, .common_shift = 0.2},
                                  q.transpose() * weights.asDiagonal() * q);
   const Eigen::MatrixXd measured = components_at({3, 60, 200, 222, 310});
   CHECK(criterion(criterion.prepare(measured)) ==
@@ -86,6 +89,99 @@ TEST_CASE("errors of their own: the reconstruction expects them, and they add th
   CHECK(criterion(rows) > criterion(measured));
 }
 
+TEST_CASE("noise is independent in each measurement: what many draws of it add, to a reconstruction that expects it") {
+  const std::vector<std::size_t> cells{3, 60, 200, 222, 310};
+  const Eigen::MatrixXd measured = components_at(cells), q = candidate_basis().components().cast<double>(),
+                        c = candidate_basis().coefficients().cast<double>();
+  const double eta = 0.7, noise = 0.2, m = static_cast<double>(c.rows());
+  const Eigen::MatrixXd inverse =
+      measured.transpose() *
+      dense_reference::inverse(measured * measured.transpose() +
+                               (eta + m * noise * noise) * Eigen::MatrixXd::Identity(measured.rows(), measured.rows()));
+  const Eigen::MatrixXd to_cells = q * inverse;
+  std::mt19937_64 generator(1);
+  std::normal_distribution<double> normal(0.0, noise);
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < c.rows(); ++i) {
+    const Eigen::VectorXd y = c.row(i).transpose(), missed = q * (y - inverse * (measured * y));
+    double squares = 0.0;
+    constexpr int draws = 4000;
+    for (int draw = 0; draw < draws; ++draw) {
+      const Eigen::VectorXd wrong = Eigen::VectorXd::NullaryExpr(measured.rows(), [&] { return normal(generator); });
+      squares += (missed - to_cells * wrong).squaredNorm() / draws;
+    }
+    sum += std::sqrt(squares);
+  }
+  const expected_error criterion(candidate_basis(), {.eta = eta, .noise = noise});
+  CHECK(criterion(measured) == doctest::Approx(sum / m).epsilon(5e-3));
+  // One shift of all is another error, larger or smaller.
+  const expected_error shared(candidate_basis(), {.eta = eta, .common_shift = noise});
+  CHECK(std::abs(shared(measured) - criterion(measured)) > 0.02 * criterion(measured));
+}
+
+namespace {
+
+/// The error of each material's reconstruction by a basis that has its prior from the others, by the textbook: their
+/// weights' mean and covariance, Bayes' rule, and the norm over all cells.
+double each_left_out(const Eigen::MatrixXd& measured, double eta, double noise) {
+  const Eigen::MatrixXd q = candidate_basis().components().cast<double>(),
+                        c = candidate_basis().coefficients().cast<double>();
+  const Eigen::Index m = c.rows(), k = c.cols(), n = measured.rows();
+  const Eigen::MatrixXd of_all =
+      q * measured.transpose() *
+      dense_reference::inverse(measured * measured.transpose() +
+                               (eta + static_cast<double>(m) * noise * noise) * Eigen::MatrixXd::Identity(n, n));
+  const double own = of_all.squaredNorm() * noise * noise;
+  double sum = 0.0;
+  for (Eigen::Index first = 0; first < m; first += 3) {
+    Eigen::MatrixXd others(m - 3, k);
+    others << c.topRows(first), c.bottomRows(m - 3 - first);
+    const Eigen::RowVectorXd mean = others.colwise().mean();
+    const Eigen::MatrixXd apart = others.rowwise() - mean, covariance = apart.transpose() * apart;
+    const Eigen::MatrixXd gain =
+        covariance * measured.transpose() *
+        dense_reference::inverse(measured * covariance * measured.transpose() +
+                                 (eta + static_cast<double>(m) * noise * noise) * Eigen::MatrixXd::Identity(n, n));
+    for (Eigen::Index row = first; row < first + 3; ++row) {
+      const Eigen::VectorXd t = (c.row(row) - mean).transpose();
+      sum += std::sqrt((q * (t - gain * (measured * t))).squaredNorm() + own);
+    }
+  }
+  return sum / static_cast<double>(m);
+}
+
+}  // namespace
+
+TEST_CASE("out of sample it is the error of each material with the prior of the others") {
+  for (const double eta : {0.02, 1.0, 40.0})
+    for (const double noise : {0.0, 0.3}) {
+      const expected_error criterion(candidate_basis(), {.eta = eta, .noise = noise, .leave_out = true}),
+          in_sample(candidate_basis(), {.eta = eta, .noise = noise});
+      for (const std::vector<std::size_t>& cells :
+           {std::vector<std::size_t>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
+        CAPTURE(eta);
+        const Eigen::MatrixXd measured = components_at(cells);
+        CHECK(criterion(measured) == doctest::Approx(each_left_out(measured, eta, noise)).epsilon(1e-5));
+        CHECK(criterion(measured) > in_sample(measured));
+      }
+      CHECK(criterion(expected_error::rows(0, criterion.coefficients().rows())) ==
+            doctest::Approx(each_left_out(Eigen::MatrixXd(0, candidate_basis().components().cols()), eta, 0.0))
+                .epsilon(1e-5));
+    }
+}
+
+TEST_CASE("out of sample it is what eta is chosen by") {
+  const std::vector<std::size_t> cells{3, 60, 200, 222, 310};
+  std::vector<gonio::location> places;
+  for (const std::size_t cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
+  const gonio::left_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
+  for (const double eta : {0.1, 3.0}) {
+    const expected_error criterion(candidate_basis(), {.eta = eta, .leave_out = true});
+    CHECK(criterion(components_at(cells)) ==
+          doctest::Approx(chosen_by(Eigen::VectorXd::Constant(1, eta))[0]).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("nothing measured: the mean distance of the materials from their mean; more measurements leave less") {
   const expected_error criterion(candidate_basis(), {.eta = 1e-3});
   const auto error = [&](const std::vector<std::size_t>& cells) {
@@ -101,8 +197,12 @@ TEST_CASE("nothing measured: the mean distance of the materials from their mean;
 TEST_CASE("what cannot be is refused") {
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.eta = 0.0}), doctest::Contains("eta must be positive"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.noise = -1.0}), doctest::Contains("not negative"),
-                       gonio::error);
+  CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.noise = -1.0}),
+                       doctest::Contains("the noise must be finite and not negative"), gonio::error);
+  CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.common_shift = -1.0}),
+                       doctest::Contains("the common shift must be finite and not negative"), gonio::error);
+  const auto one = learn(made_up_materials(small_cells(), 1), 3);
+  CHECK_THROWS_WITH_AS(expected_error(one, {.leave_out = true}), doctest::Contains("can be left out"), gonio::error);
   CHECK_THROWS_AS(expected_error(candidate_basis(), {.eta = std::nan("")}), gonio::error);
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {}, Eigen::MatrixXd::Identity(2, 2)),
                        doctest::Contains("square matrix"), gonio::error);

@@ -12,7 +12,7 @@ using gonio::expected_error;
 using gonio::near_field_geometry;
 using gonio::sphere_geometry;
 
-constexpr gonio::expected_error_options with_noise{.eta = 0.5, .noise = 0.3};
+constexpr gonio::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
 
 /// E of all samples of some pictures, one row each.
 template <class Geometry>

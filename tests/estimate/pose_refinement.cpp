@@ -151,6 +151,62 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
   }));
 }
 
+TEST_CASE("several materials in the same pictures: each has its own weights, all of them one pose") {
+  const picture_turns first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
+  const auto pictures_of = [&](std::size_t number, bool half) {
+    std::vector<picture_samples> pictures{picture_of(material(number), 0.5, first),
+                                          picture_of(material(number), 0.9, second)};
+    for (picture_samples& picture : pictures)  // one has the left of each picture, the other the right
+      std::erase_if(picture, [&](const gonio::pair_sample& s) { return (s.directions.wo.y() > 0.0) == half; });
+    return pictures;
+  };
+  const gonio::pose_refinement_options options{.eta = slight_eta, .deviation = radians(2.0)};
+  // How far samples are from where they were: of turns themselves, those of both about the normal cannot be seen.
+  const auto off = [&](const gonio::sample_set& found, const std::vector<picture_samples>& pictures) {
+    double sum = 0.0;
+    std::size_t sample = 0;
+    for (const auto& [turns, picture] : {std::pair{first, 0u}, std::pair{second, 1u}})
+      for (const gonio::pair_sample& s : pictures[picture]) {
+        const auto truth =
+            gonio::to_half_difference(turn_of(turns.light) * s.directions.wi, turn_of(turns.camera) * s.directions.wo);
+        const auto& angles = found[sample++].angles;
+        sum += std::pow(angles.theta_h - truth.theta_h, 2) + std::pow(angles.theta_d - truth.theta_d, 2);
+      }
+    return std::sqrt(sum / static_cast<double>(sample));
+  };
+  double off_together = 0.0, off_apart = 0.0, error_together = 0.0, error_apart = 0.0;
+  for (std::size_t number = 0; number + 1 < 12; ++number) {
+    const std::vector<std::vector<picture_samples>> both{pictures_of(number, false), pictures_of(number + 1, true)};
+    pose_refinement together(picture_prior(), both, options);
+    REQUIRE(together.materials() == 2);
+    together.solve();
+    for (std::size_t m = 0; m < 2; ++m) {
+      pose_refinement apart(picture_prior(), both[m], options);
+      apart.solve();
+      off_together += off(together.samples(m), both[m]);
+      off_apart += off(apart.samples(), both[m]);
+      error_together += mapped_error(together.fit(m), material(number + m));
+      error_apart += mapped_error(apart.fit(), material(number + m));
+      CHECK(together.samples(m).size() == both[m][0].size() + both[m][1].size());
+    }
+  }
+  MESSAGE("samples off: together ", off_together, ", apart ", off_apart, "; error: together ", error_together,
+          ", apart ", error_apart);
+  CHECK(off_together < off_apart);
+  CHECK(error_together < error_apart);
+}
+
+TEST_CASE("a material alone, and beside one that no picture has, come out the same") {
+  const std::vector<picture_samples> pictures{picture_of(material(3), 0.5, {{0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}})};
+  pose_refinement alone(picture_prior(), pictures), beside(picture_prior(), {pictures, {picture_samples{}}});
+  alone.solve();
+  beside.solve();
+  CHECK(beside.objective() == doctest::Approx(alone.objective()).epsilon(1e-12));
+  CHECK((beside.turns()[0].light - alone.turns()[0].light).norm() < 1e-12);
+  CHECK(beside.fit(1).found().weights.norm() == 0.0);
+  CHECK_THROWS_WITH_AS((void)beside.fit(2), doctest::Contains("no material 2"), gonio::error);
+}
+
 TEST_CASE("pictures that cannot be are refused") {
   const std::vector<picture_samples> pictures{picture_of(material(0), 0.5)};
   CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), std::vector<picture_samples>{}),
@@ -161,6 +217,8 @@ TEST_CASE("pictures that cannot be are refused") {
                        gonio::error);
   CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), pictures, {.deviation = 0.0}),
                        doctest::Contains("may be off by"), gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), {pictures, {pictures[0], pictures[0]}}),
+                       doctest::Contains("material 2 is in 2 pictures, the first in 1"), gonio::error);
   auto broken = pictures;
   broken[0][3].value[1] = std::nan("");
   CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), broken), doctest::Contains("sample 4"), gonio::error);

@@ -48,6 +48,21 @@ TEST_CASE("a prior comes back with the errors of its quantisation and no others"
   }
 }
 
+TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with the product are those of before") {
+  const auto set = made_up_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
+  const auto metric = gonio::log_relative::to_median_of(set);
+  const auto encode = [&](gonio::cosine_weighting weighting) {
+    return io::encode_prior(gonio::learn_pca(set, metric.weighted_by(weighting), 8));
+  };
+  const auto product = encode(gonio::cosine_weighting::product), larger = encode(gonio::cosine_weighting::larger);
+  CHECK(product == io::encode_prior(gonio::learn_pca(set, metric, 8)));
+  CHECK(io::decode_prior(product, "x").metric().weighting() == gonio::cosine_weighting::product);
+  const auto back = io::decode_prior(larger, "x");
+  CHECK(back.metric().weighting() == gonio::cosine_weighting::larger);
+  const auto at = gonio::locate(back.cells(), {0.3, 0.4, 0.5});
+  CHECK(back.metric().cosine_weight(at.cosine) == std::max(at.cosine.i, at.cosine.o));
+}
+
 TEST_CASE("what was read is written with the same bytes") {
   const auto once = io::encode_prior(small_prior());
   const auto back = io::decode_prior(once, "x");
@@ -129,7 +144,8 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   CHECK(refusal(encode([&](auto& out) { header(out, 0, 0, 3); })).find("extent") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 0xffffffff, 0, 3); })).find("extent") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4000, 0, 3); })).find("more cells") != std::string::npos);
-  CHECK(refusal(encode([&](auto& out) { header(out, 4, 9, 3); })).find("anchor") != std::string::npos);
+  CHECK(refusal(encode([&](auto& out) { header(out, 4, 9, 3); })).find("cell anchor and cosine weight are 9") !=
+        std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 0); })).find("impossible") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 700); })).find("impossible") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 30); })).find("truncated") != std::string::npos);

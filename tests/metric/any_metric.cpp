@@ -76,6 +76,9 @@ TEST_CASE("a metric chosen at run time gives what the one gives that it holds") 
   SUBCASE("another root") { check_held(gonio::root{3.0}); }
   SUBCASE("log") { check_held(gonio::log{}); }
   SUBCASE("log-relative") { check_held(relative_to_something()); }
+  SUBCASE("log-relative, weighted by the larger cosine") {
+    check_held(relative_to_something().weighted_by(gonio::cosine_weighting::larger));
+  }
 }
 
 TEST_CASE("a metric chosen at run time is a metric, and another may take its place") {

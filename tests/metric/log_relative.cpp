@@ -38,6 +38,26 @@ TEST_CASE("the metric is increasing, its inverse undoes it, and a location of a 
   }));
 }
 
+TEST_CASE("reflectance is weighted by the cosines' product (Nielsen 2015), or by the larger one (Xu 2016)") {
+  const valid_cells cells(gonio::grid({12, 10, 14}));
+  const log_relative product(cells, std::vector<float>(cells.size(), 0.4f)),
+      larger = product.weighted_by(gonio::cosine_weighting::larger);
+  CHECK(product.weighting() == gonio::cosine_weighting::product);
+  CHECK(product.cosine_weight({0.5, 0.2}) == doctest::Approx(0.1));
+  CHECK(larger.cosine_weight({0.5, 0.2}) == 0.5);
+  CHECK(larger.cosine_weight({0.5, 0.7}) == 0.7);
+  CHECK(larger.cosine_weight({1e-5, 1e-6}) == log_relative::epsilon);
+  CHECK(larger.on(valid_cells(gonio::grid({4, 4, 4}))).weighting() == gonio::cosine_weighting::larger);
+  for (std::size_t cell = 0; cell < cells.size(); cell += 7) {
+    const auto at = gonio::locate_cell(cells, cell);
+    const double c = std::max(at.cosine.i, at.cosine.o), rho = 0.07;
+    const double expected = std::log((rho * c + 0.001) / (double{0.4f} * c + 0.001));
+    REQUIRE(larger.forward(rho, cell) == doctest::Approx(expected).epsilon(1e-12));
+    REQUIRE(larger.forward(rho, at) == doctest::Approx(expected).epsilon(1e-12));
+    REQUIRE(larger.inverse(expected, cell) == doctest::Approx(rho).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("negative reflectance counts as zero") {
   const valid_cells cells(gonio::grid({4, 4, 4}));
   const log_relative metric(cells, std::vector<float>(cells.size(), 0.5f));

@@ -49,7 +49,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
              defects = evaluate("-n 5 --sets published --noise 0.05 --misplaced 2 --json");
   REQUIRE_MESSAGE(defects.exit_code == 0, defects.output);
   CHECK(rms(defects.output) != rms(clean.output));
-  const auto automatic = evaluate("-n 5 --sets published --reconstruction-eta auto --json");
+  const auto automatic = evaluate("-n 5 --sets published --reconstruction-eta 40 --json");
   REQUIRE_MESSAGE(automatic.exit_code == 0, automatic.output);
   CHECK(rms(automatic.output) != rms(clean.output));
 
@@ -71,7 +71,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
 
   for (const char* arguments :
        {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
-        "--reconstruction-eta 3 --expected-misplacement 1", "--geometry sphere --files none.csv"}) {
+        "--reconstruction-eta gcv --expected-misplacement 1", "--geometry sphere --files none.csv"}) {
     CAPTURE(arguments);
     const auto refused = evaluate(arguments);
     CHECK(refused.exit_code == 2);

@@ -72,6 +72,10 @@ TEST_CASE("directions-measured: nothing to reconstruct, and nothing left to judg
   const auto nothing = made_up.evaluate("");
   CHECK(nothing.exit_code == 2);
   CHECK(nothing.output.find("give --tables or --samples") != std::string::npos);
+  const auto unknown = made_up.evaluate("--sets beauty -n 5 --samples " + made_up.at("paint.brdf"));
+  CHECK(unknown.exit_code == 2);
+  CHECK(unknown.output.find("no set by beauty") != std::string::npos);
+  CHECK(made_up.evaluate("--eta -1 -n 5 --samples " + made_up.at("paint.brdf")).exit_code == 2);
   const auto all = made_up.evaluate("-n 60 --samples " + made_up.at("paint.brdf"));
   CHECK(all.exit_code == 2);
   CHECK(all.output.find("no sample is left to judge by") != std::string::npos);

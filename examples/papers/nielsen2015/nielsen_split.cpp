@@ -13,10 +13,11 @@
 namespace papers {
 
 gonio::log_relative_pca learn_all_components(const gonio::named_networks& networks, const gonio::valid_cells& cells,
-                                             gonio::thread_count threads, const gonio::progress& listener) {
+                                             gonio::thread_count threads, const gonio::progress& listener,
+                                             gonio::cosine_weighting weighting) {
   constexpr std::size_t every_component = 300;
   auto materials = gonio::tabulate_networks(networks, cells, threads, listener);
-  const auto metric = gonio::log_relative::to_median_of(materials, threads);
+  const auto metric = gonio::log_relative::to_median_of(materials, threads).weighted_by(weighting);
   return gonio::learn_pca(std::move(materials), metric, every_component, threads, listener);
 }
 

@@ -4,6 +4,7 @@
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/solver_choice.hpp"
 #include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
@@ -15,6 +16,7 @@
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/evaluate/appearance.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -37,7 +39,7 @@ struct directions_options {
   std::vector<std::filesystem::path> samples;
   std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
-  double eta = 40.0;
+  std::string eta = "auto";
   std::uint64_t seed = 0;
   std::size_t repetitions = 5;
   bool print_json = false;
@@ -71,16 +73,29 @@ std::vector<std::vector<std::size_t>> cells_of(const directions_options& given, 
   return drawn;
 }
 
+/// Tikhonov's penalty for some samples.
+double eta_for(const directions_options& given, const gonio::log_relative_pca& prior,
+               const gonio::sample_set& samples) {
+  return given.eta == "auto" ? gonio::eta_of_unknown_noise(prior, samples, 0.3, given.threads)
+                             : number_of_eta(given.eta);
+}
+
 /// Means over the repetitions.
 json judge_table(const directions_options& given, const workshop& shop, const std::string& name,
                  const gonio::brdf_table& truth, const std::vector<std::vector<std::size_t>>& drawn) {
-  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
   std::vector<material_result> results;
+  double mean_eta = 0.0;
   for (const auto& cells : drawn) {
-    const auto estimate = estimator.fit(gonio::measure(truth, cells)).tabulate(truth.cells(), given.threads);
+    const gonio::sample_set samples = gonio::measure(truth, cells);
+    const double eta = eta_for(given, shop.prior, samples);
+    mean_eta += eta / static_cast<double>(drawn.size());
+    const auto estimate =
+        gonio::decomposition{shop.prior, gonio::tikhonov{eta}}.fit(samples).tabulate(truth.cells(), given.threads);
     results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.judge, given.threads)});
   }
-  return mean_errors(results);
+  json means = mean_errors(results);
+  means["eta"] = mean_eta;
+  return means;
 }
 
 // ---- scattered measurements: judged on those that were not used ----------------------------------------------------
@@ -146,14 +161,15 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
 /// Means over the repetitions.
 json judge_samples(const directions_options& given, const workshop& shop, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
-  const gonio::decomposition estimator{shop.prior, gonio::tikhonov{given.eta}};
   const auto times = static_cast<double>(drawn.size());
-  double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0;
+  double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0, mean_eta = 0.0;
   for (const stand_ins& used : drawn) {
     gonio::sample_set some, others;
     for (std::size_t s = 0; s < all.size(); ++s)
       (std::ranges::find(used.samples, s) != used.samples.end() ? some : others).push_back(all[s]);
-    const auto fit = estimator.fit(some);
+    const double eta = eta_for(given, shop.prior, some);
+    mean_eta += eta / times;
+    const auto fit = gonio::decomposition{shop.prior, gonio::tikhonov{eta}}.fit(some);
     logarithmic_error log_error;
     cosine_weighted_error cosine_error;
     for (const gonio::sample& other : others) {
@@ -169,6 +185,7 @@ json judge_samples(const directions_options& given, const workshop& shop, const 
   }
   return {{"log_error", in_logarithms},
           {"cosine_error", weighted},
+          {"eta", mean_eta},
           {"degrees_mean", gonio::degrees(distance)},
           {"degrees_worst", gonio::degrees(farthest)},
           {"judged_by", all.size() - drawn.front().samples.size()}};
@@ -292,22 +309,35 @@ void print(const directions_options& given, const json& tables, const json& scat
   std::cout << "eta = " << given.eta << ", random: means of " << given.repetitions << " sets.\n";
   if (!tables.empty()) {
     static constexpr std::array columns{column{"mapped_rms", "mapped rms", 3}, column{"delta_e_env", "Delta E env", 2},
-                                        column{"delta_e_lights", "Delta E lights", 2}, column{"peak_ratio", "peak", 2}};
+                                        column{"delta_e_lights", "Delta E lights", 2}, column{"peak_ratio", "peak", 2},
+                                        column{"eta", "eta", 2}};
     std::cout << "\nTables, judged as a whole:\n\n";
     print_rows(tables, columns);
   }
   if (!scattered.empty()) {
-    static constexpr std::array columns{
-        column{"log_error", "rms of ln(f + 0.001)", 3}, column{"cosine_error", "cosine-weighted relative error", 3},
-        column{"degrees_mean", "degrees off, mean", 1}, column{"degrees_worst", "degrees off, worst", 1}};
+    static constexpr std::array columns{column{"log_error", "rms of ln(f + 0.001)", 3},
+                                        column{"cosine_error", "cosine-weighted relative error", 3},
+                                        column{"degrees_mean", "degrees off, mean", 1},
+                                        column{"degrees_worst", "degrees off, worst", 1}, column{"eta", "eta", 2}};
     std::cout << "\nScattered measurements, from the nearest ones to the directions, judged on all others:\n\n";
     print_rows(scattered, columns);
   }
 }
 
+/// Every set must be there in one of the numbers.
+void require_sets(const directions_options& given) {
+  for (const std::string& set : given.sets)
+    if (set != "random" && std::ranges::none_of(given.counts, [&](std::size_t count) {
+          return written_points(given.folder, set, count).has_value();
+        }))
+      throw gonio::error("--sets: there is no set by " + set + " of these numbers, no " +
+                         (given.folder / points_file(set, given.counts.front())).string());
+}
+
 void run(const directions_options& given) {
   if (given.tables.empty() && given.samples.empty())
     throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+  require_sets(given);
   progress_bar bar;
   experiment work(given, bar);
   const json tables = work.tables(), scattered = work.scattered();
@@ -331,12 +361,13 @@ void add_directions_measured(command& app) {
                     "Measurements in any directions (.csv, or .brdf in Cornell's text format)");
   command.add_input_folder("--directions", options->folder, {".csv"},
                            "Folder of sets, as `gonio-papers directions --write` writes them");
-  command.add_option("--sets", options->sets, "published, random, or a criterion that the folder has sets of")
-      .check(
-          check::one_of({"published", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
+  command
+      .add_option("--sets", options->sets,
+                  "published, random, or what the folder has: of point-20-perceived.csv, perceived")
       .capture_default_str();
   add_counts_option(command, options->counts);
-  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty: a number, or auto, as `gonio reconstruct` chooses it")
+      .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of the first random set").capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())

@@ -42,8 +42,10 @@ struct directions_options {
   std::vector<std::size_t> counts{1, 2, 5, 10, 20};
   std::vector<std::filesystem::path> files;  ///< of directions, judged beside the sets
   std::string geometry = "point";
-  std::string reconstruction_eta;
-  double eta = 40.0, field_of_view = 25.0, step = 5.0, noise = 0.0, misplacement = 0.0, expected = 0.0;
+  std::string reconstruction_eta = "auto";
+  bool in_sample = false;
+  double eta = gonio::default_eta, common_shift = 0.0, field_of_view = 25.0, step = 5.0, noise = 0.0,
+         misplacement = 0.0, expected = 0.0;
   std::uint64_t seed = 0;
   bool print_json = false;
   gonio::thread_count threads;
@@ -66,7 +68,11 @@ design_options search_for(const directions_options& options, const std::string& 
   search.geometry = options.geometry;
   search.criterion = criterion;
   search.eta = options.eta;
-  search.noise = options.noise;
+  if (criterion != "condition") search.noise = options.noise;
+  if (criterion == "expected-error" || criterion == "perceived") {
+    search.common_shift = options.common_shift;
+    search.in_sample = options.in_sample;
+  }
   search.near_field.field_of_view = gonio::radians(options.field_of_view);
   search.near_field.step = gonio::radians(options.step);
   if (options.geometry == "point" && (criterion == "expected-error" || criterion == "perceived"))
@@ -170,9 +176,17 @@ gonio::fitted_brdf<gonio::log_relative_pca> trusting(const laboratory& lab, cons
   if (options.reconstruction_eta == "auto")
     return gonio::decomposition{lab.prior, gonio::tikhonov{gonio::eta_of_unknown_noise(lab.prior, samples)}}.fit(
         samples);
-  return gonio::decomposition{
-      lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", std::to_string(options.eta)})}
+  return gonio::decomposition{lab.prior, make_solver({"tikhonov", options.reconstruction_eta}, {"tikhonov", "gcv"})}
       .fit(samples);
+}
+
+/// By who expects that points are off their directions, as `gonio reconstruct --misplaced` does.
+gonio::fitted_brdf<gonio::log_relative_pca> expecting(const laboratory& lab, const directions_options& options,
+                                                      const gonio::sample_set& samples) {
+  const double eta = options.reconstruction_eta == "auto"
+                         ? gonio::eta_of_noise(lab.prior, samples, options.noise, options.threads)
+                         : number_of_eta(options.reconstruction_eta);
+  return gonio::misplaced_decomposition{lab.prior, eta, gonio::radians(options.expected), options.threads}.fit(samples);
 }
 
 /// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
@@ -183,12 +197,13 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
   if (!takes_pictures(options)) {
     const gonio::sample_set samples = sampled(material, options, found, seed);
     if (!(expected > 0.0)) return trusting(lab, options, samples);
-    return gonio::misplaced_decomposition{lab.prior, options.eta, expected, options.threads}.fit(samples);
+    return expecting(lab, options, samples);
   }
   const auto pictures = photographed(material, options, found, seed);
   if (expected > 0.0) {
-    gonio::pose_refinement refinement(lab.prior, pictures,
-                                      {.eta = options.eta, .deviation = expected, .threads = options.threads});
+    gonio::pose_refinement_options expectation{.deviation = expected, .threads = options.threads};
+    if (options.reconstruction_eta != "auto") expectation.eta = number_of_eta(options.reconstruction_eta);
+    gonio::pose_refinement refinement(lab.prior, pictures, expectation);
     refinement.solve();
     return refinement.fit();
   }
@@ -201,7 +216,11 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
 }
 
 json judged(const laboratory& lab, const directions_options& options, const designed& found) {
-  const design_quality quality = quality_of(lab.prior, search_for(options, "expected-error", 1), found);
+  design_options expectation = search_for(options, "expected-error", 1);
+  expectation.in_sample = false;
+  const double left_out = quality_of(lab.prior, expectation, found).expected_error;
+  expectation.in_sample = true;
+  const double in_sample = quality_of(lab.prior, expectation, found).expected_error;
   std::vector<material_result> results;
   for (std::size_t number = 0; number < lab.truths.names.size(); ++number) {
     const gonio::brdf_table truth = lab.truths.table(number);
@@ -214,11 +233,8 @@ json judged(const laboratory& lab, const directions_options& options, const desi
   for (const auto& [wi, wo] : found.poses)
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
   const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
-  return {{"expected_error", quality.expected_error},
-          {"condition", condition},
-          {"samples", found.samples.size()},
-          {"errors", mean_errors(results)},
-          {"poses", poses}};
+  return {{"expected_error", in_sample},     {"left_out_error", left_out},     {"condition", condition},
+          {"samples", found.samples.size()}, {"errors", mean_errors(results)}, {"poses", poses}};
 }
 
 /// JSON has no infinity: it comes back as null.
@@ -231,9 +247,9 @@ void print_row(const json& row) {
   const json& result = row["result"];
   const json& errors = result["errors"];
   std::cout << "| " << row["count"] << " | " << row["set"].text() << " | " << printed(result["expected_error"], 4)
-            << " | " << printed(result["condition"], 2) << " | " << printed(errors["mapped_rms"], 3) << " | "
-            << printed(errors["delta_e_env"], 2) << " | " << printed(errors["delta_e_lights"], 2) << " | "
-            << printed(errors["peak_ratio"], 2) << " |\n";
+            << " | " << printed(result["left_out_error"], 4) << " | " << printed(result["condition"], 2) << " | "
+            << printed(errors["mapped_rms"], 3) << " | " << printed(errors["delta_e_env"], 2) << " | "
+            << printed(errors["delta_e_lights"], 2) << " | " << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
 /// A set as a file of directions that is named after what it is for.
@@ -251,8 +267,8 @@ void write_set(const directions_options& options, const json& row) {
 void run(const directions_options& options) {
   if (options.geometry == "sphere" && options.misplacement > 0.0)
     throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
-  if (options.expected > 0.0 && (options.geometry == "sphere" || !options.reconstruction_eta.empty()))
-    throw gonio::error("--expected-misplacement is of points and near-field pictures, and of --eta alone");
+  if (options.expected > 0.0 && options.geometry == "sphere")
+    throw gonio::error("--expected-misplacement is of points and near-field pictures, not of a sphere's");
   progress_bar bar;
   const auto listener = bar.listener();
   resumable_results results(options.state);
@@ -264,7 +280,9 @@ void run(const directions_options& options) {
                    set.count,
                    set.name,
                    options.eta,
+                   options.in_sample,
                    options.noise,
+                   options.common_shift,
                    options.misplacement,
                    options.reconstruction_eta,
                    options.step,
@@ -290,8 +308,8 @@ void run(const directions_options& options) {
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << "| n | chosen by | E | condition | test: rms | Delta E env | Delta E lights | peak |\n"
-            << "|---|---|---|---|---|---|---|---|\n";
+  std::cout << "| n | chosen by | E | left out | condition | test: rms | Delta E env | Delta E lights | peak |\n"
+            << "|---|---|---|---|---|---|---|---|---|\n";
   for (const json& row : all.elements()) print_row(row);
 }
 
@@ -314,11 +332,18 @@ void add_directions(command& app) {
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
-  command.add_option("--eta", options->eta, "Tikhonov's penalty").capture_default_str();
-  command.add_option("--reconstruction-eta", options->reconstruction_eta,
-                     "Penalty of the reconstruction where it is another than the design's: a number, gcv, loo, or "
-                     "auto, as `gonio reconstruct` chooses it");
-  command.add_option("--noise", options->noise, "Relative deviation of every measurement").capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty that sets are searched with").capture_default_str();
+  command.add_flag("--in-sample", options->in_sample,
+                   "Search by the error of materials that the prior has seen, as Xu et al. do, not of each left out");
+  command
+      .add_option("--reconstruction-eta", options->reconstruction_eta,
+                  "Penalty of the reconstruction: a number (Nielsen et al. 2015: 40), gcv, loo, or auto, as `gonio "
+                  "reconstruct` chooses it")
+      .capture_default_str();
+  command.add_option("--noise", options->noise, "Relative deviation of every measurement, which searches expect, too")
+      .capture_default_str();
+  command.add_option("--common-shift", options->common_shift, "Searches expect it: beta of Xu et al. 2016, Eq. 15")
+      .capture_default_str();
   command
       .add_option("--misplaced", options->misplacement,
                   "Degrees by which light and viewer are off their places, towards random sides")

@@ -115,6 +115,28 @@ table points_for_pictures(const std::vector<std::pair<std::string, std::vector<j
   return shown;
 }
 
+/// Nielsen et al. 2015's search, whose plan of n measurements grows to that of n + 1: a random one more, then a
+/// descent.
+template <gonio::capture_geometry Geometry, gonio::plan_objective Objective>
+std::vector<gonio::capture_plan> plans_by_descent(const Geometry& geometry, const Objective& objective,
+                                                  std::size_t most, std::uint64_t seed,
+                                                  const gonio::progress& listener) {
+  std::mt19937_64 generator(seed);
+  std::uniform_int_distribution<std::size_t> any(0, geometry.size() - 1);
+  std::vector<gonio::capture_plan> plans;
+  gonio::capture_plan plan;
+  while (plans.size() < most) {
+    std::size_t added = any(generator);
+    while (!geometry.allows(added) || std::ranges::find(plan.candidates, added) != plan.candidates.end())
+      added = any(generator);
+    plan.candidates.push_back(added);
+    plan = gonio::descend(geometry, objective, std::move(plan), generator());
+    plans.push_back(plan);
+    gonio::report(listener, "condition", static_cast<double>(plans.size()) / static_cast<double>(most));
+  }
+  return plans;
+}
+
 /// Half and difference angles of the pictures of a plan in degrees, as the paper tabulates them.
 std::vector<std::vector<json>> printed_angles(const std::string& name, const gonio::near_field_geometry& geometry,
                                               const std::vector<std::size_t>& candidates) {
@@ -209,13 +231,9 @@ tables xu_5(const options& given, const gonio::progress& listener) {
     errors.emplace_back(name + ", expected error",
                         errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
     const gonio::criterion_of_plan condition{lab.prior(), fine, gonio::condition_number{}};
-    std::vector<gonio::capture_plan> theirs;
+    const auto theirs = plans_by_descent(fine, condition, most, given.seed, listener);
     std::vector<json> reached;
-    for (std::size_t n = 1; n <= most; ++n) {
-      gonio::report(listener, "condition, " + name, static_cast<double>(n) / static_cast<double>(most));
-      theirs.push_back(gonio::grow_and_descend(fine, condition, n, 1, given.seed));
-      reached.emplace_back(theirs.back().value);
-    }
+    for (const gonio::capture_plan& plan : theirs) reached.emplace_back(plan.value);
     errors.emplace_back(name + ", condition", errors_of(lab, fine, theirs));
     conditions.emplace_back(name, std::move(reached));
   }

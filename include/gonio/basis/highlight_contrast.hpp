@@ -52,7 +52,7 @@ template <class Luminance>
           const bool in_peak = angles.theta_h <= regions.in_peak;
           if (!in_peak && angles.theta_h < regions.off_peak) continue;
           const location at = own ? locate_cell(cells, cell) : locate(reference.cells(), angles);
-          const double rho_ref = reference.reference(at), weight = log_relative::cosine_weight(at.cosine);
+          const double rho_ref = reference.reference(at), weight = reference.cosine_weight(at.cosine);
           Eigen::ArrayXd& mapped = in_peak ? sum.in_peak : sum.off_peak;
           for (Eigen::Index m = 0; m < materials; ++m)
             mapped[m] += log_relative::forward(luminance_of(cell, m), rho_ref, weight);

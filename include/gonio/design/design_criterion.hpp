@@ -2,6 +2,8 @@
 /// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016) is
 /// one such criterion; here are the condition number (Nielsen et al. 2015) and two of Bayesian experimental design.
 
+#include <gonio/solve/default_eta.hpp>
+
 #include <Eigen/Core>
 
 #include <concepts>
@@ -17,8 +19,8 @@ concept design_criterion = requires(const Criterion& criterion, const Eigen::Mat
 
 /// The ratio of the largest to the smallest of min(n, k) singular values (Nielsen et al. 2015, Eq. 8). For one
 /// measurement, of which it would always be 1, the inverse of the row's length (section 4, after Ipsen and Wentworth
-/// 2014). From the eigenvalues of the smaller Gram matrix: up to 1e7, beyond which it may say infinity. O(n k min(n,
-/// k)).
+/// 2014). Infinity where the smallest singular value is no more than rounding (`singular_value_rounding`), about 1e-13.
+/// O(n k min(n, k)).
 struct condition_number {
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 };
@@ -37,7 +39,7 @@ void require_positive_eta(double eta);
 class d_optimality {
  public:
   /// Throws gonio::error unless eta is positive.
-  explicit d_optimality(double eta = 40.0) : eta_(eta) { detail::require_positive_eta(eta); }
+  explicit d_optimality(double eta = default_eta) : eta_(eta) { detail::require_positive_eta(eta); }
 
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 
@@ -53,7 +55,7 @@ class a_optimality {
  public:
   /// `energies`: |Q e_j|^2 of each component j, which for scaled principal components is the singular value squared.
   /// Throws gonio::error unless eta is positive and the energies are finite, not negative, and not all zero.
-  explicit a_optimality(Eigen::VectorXd energies, double eta = 40.0);
+  explicit a_optimality(Eigen::VectorXd energies, double eta = default_eta);
 
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const;
 

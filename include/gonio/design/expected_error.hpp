@@ -4,6 +4,7 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/design_criterion.hpp>
+#include <gonio/solve/default_eta.hpp>
 
 #include <Eigen/Core>
 
@@ -11,16 +12,22 @@
 
 namespace gonio {
 
-/// How the expected error weighs what may go wrong.
+/// How the expected error weighs what may go wrong. With its defaults, but for eta, it is Eq. 15 as printed without
+/// noise.
 struct expected_error_options {
-  /// Tikhonov's penalty of the reconstruction (Eq. 4).
-  double eta = 40.0;
-  /// beta of Eq. 15: the deviation of every measurement in the mapped domain.
+  /// Tikhonov's penalty of the reconstruction (Eq. 4), which the paper sets to 40.
+  double eta = default_eta;
+  /// The deviation of every measurement's mapped value, independent of all others'.
   double noise = 0.0;
+  /// beta of Eq. 15 with O = 1 (Eq. 13): the size of one shift that the mapped values of all samples share.
+  double common_shift = 0.0;
+  /// Is each material left out of the basis before it is reconstructed? As printed, it is not: the basis has seen all
+  /// materials that the error is the mean over, so that it is least without any penalty.
+  bool leave_out = false;
 };
 
 /// E(S) of Eq. 15: the mean over the materials that a basis was learned from of the norm, over all cells, of what
-/// the reconstruction from the measurements S misses, plus beta times the norm of what noise adds.
+/// the reconstruction from the measurements S misses, plus beta times the norm of what a common shift adds.
 ///
 /// As printed, its norms run over a million cells. But y_i = Q c_i with the materials' coefficients c_i, and |Q x|^2 =
 /// x'M x with the k x k matrix M = Q'Q, which is Sigma^2. With Y = S Q C' and W = S Q M C', n x m for n measurements
@@ -31,7 +38,18 @@ struct expected_error_options {
 /// A measurement may also have an error of its own, of variance v: a detector's, or that of a direction which is not
 /// quite met (`misplacement_etas`). A weight's variance over the observations is 1 / m, so that the reconstruction
 /// which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every squared error grows
-/// by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average.
+/// by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent noise is such an error
+/// of the same variance everywhere.
+///
+/// Without a material's three channels the others have another mean and covariance, and the whole is Woodbury's
+/// identity once more (`left_out_error`, of which this is the same error for samples in cells). It comes to the formula
+/// of leave-one-out for linear fits: with the material's three rows C_3 of C, the 3 x 3 matrices
+///
+///   X = (what is missed of C_3' with all in the basis)' M (the same),   L = I - 1 1' / m - C_3 A' K^-1 A C_3',   A = S
+///   Q,
+///
+/// its squared errors are the diagonal of L^-1 X L^-1. What errors of the measurements add is taken from the basis of
+/// all.
 ///
 /// Cells that the components are not known for take no part. Where k is less than all components, what the materials
 /// have beyond them is left out: it is the same for all S, but for what it does as noise.
@@ -43,7 +61,7 @@ class expected_error {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;  ///< 2n x m
 
     Eigen::VectorXd noise;    ///< S O of Eq. 13, n values: 1 for a sample by itself
-    Eigen::VectorXd own_eta;  ///< m v of the errors of its own, n values: 0 where there are none
+    Eigen::VectorXd own_eta;  ///< m v of the errors of its own, noise among them, n values: 0 where there are none
 
     rows() = default;
     rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), own_eta(Eigen::VectorXd::Zero(n)) {}
@@ -61,8 +79,8 @@ class expected_error {
       : expected_error(basis, options, basis.singular_values().array().square().matrix().asDiagonal()) {}
 
   /// Errors in the norm x'M x of the components' weights; M is k x k, symmetric and positive semidefinite. With M = Q'D
-  /// Q and a diagonal D, cells count as much as D says. Throws gonio::error for a negative eta or noise or a wrong
-  /// size.
+  /// Q and a diagonal D, cells count as much as D says. Throws gonio::error for a negative eta, noise or shift, a
+  /// wrong size, and materials to leave out that are fewer than two or do not have three observations each.
   template <error_metric Metric>
   expected_error(const pca<Metric>& basis, const expected_error_options& options, const Eigen::MatrixXd& norm)
       : expected_error(basis.coefficients(), options, norm) {}
@@ -80,20 +98,30 @@ class expected_error {
   [[nodiscard]] rows prepare(const Eigen::MatrixXd& components) const;
 
   /// E(S). O(n^2 m) for n measurements and m observations.
-  [[nodiscard]] double operator()(const rows& measured) const { return state(measured).error(options_.noise); }
+  [[nodiscard]] double operator()(const rows& measured) const { return state(measured).error(options_.common_shift); }
 
   /// E(S) from the components' values at the measurements, n x k.
   [[nodiscard]] double operator()(const Eigen::MatrixXd& components) const { return (*this)(prepare(components)); }
+
+  /// m beta^2, which noise adds to each measurement's own eta.
+  [[nodiscard]] double noise_eta() const noexcept {
+    return static_cast<double>(coefficients_.rows()) * options_.noise * options_.noise;
+  }
+
+  /// Symmetric 3 x 3 matrices, one a material in each of six columns: 00, 11, 22, 01, 02, 12.
+  using blocks = Eigen::Array<double, Eigen::Dynamic, 6>;
 
   /// What is left unknown when some measurements are made, and how to add to them.
   struct remainder {
     Eigen::MatrixXd inverse;         ///< K^-1, n x n
     Eigen::VectorXd squared_errors;  ///< of each observation
+    blocks missed, unknown;          ///< X and L of each material, where they are left out
     Eigen::VectorXd own_variances;   ///< v of each measurement's own error
-    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what noise adds to the weights
+    double own_energy = 0.0;         ///< what these add to each squared error
+    Eigen::VectorXd noise_response;  ///< C (SQ)+_eta S O: what a common shift adds to the weights
     double noise_energy = 0.0;       ///< |Q (SQ)+_eta S O|^2
 
-    [[nodiscard]] double error(double noise) const;
+    [[nodiscard]] double error(double common_shift) const;
   };
 
   [[nodiscard]] remainder state(const rows& measured) const;
@@ -101,6 +129,10 @@ class expected_error {
  private:
   expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
                  const Eigen::MatrixXd& norm);
+
+  /// X and L of `remainder` with what Y' K^-1 and Y' K^-1 W Y' K^-1 make of the measurements: m x n each.
+  void leave_each_out(const rows& measured, const Eigen::MatrixXd& known, const Eigen::MatrixXd& spread,
+                      remainder& left) const;
 
   expected_error_options options_;
   Eigen::MatrixXd coefficients_, weighted_;
@@ -113,7 +145,8 @@ static_assert(design_criterion<expected_error>);
 /// matrix of rank one: with t = C A q, w = C A M A q, d = eta + q'A q and r = q'A M A q of a candidate q, the squared
 /// errors grow by r t^2 / d^2 - 2 t w / d. O(n m) for each candidate. With errors of their own, d contains the
 /// candidate's own eta, and with a = K^-1 SQ q, b = K^-1 SQ M A q and its v, all squared errors grow by
-/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more.
+/// (v + a'diag(v) a) r / d^2 - 2 a'diag(v) b / d more. Where materials are left out, L falls by t_3 t_3' / d, and X
+/// changes as the squared errors do.
 template <class Scalar>
 class extended_error {
  public:
@@ -140,13 +173,16 @@ class extended_error {
   [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
   [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar own_eta, Scalar d,
                                   Scalar r) const;
+  /// The mean over the observations of materials left out, given the candidate's t and w and what own errors add.
+  [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;
 
-  Scalar eta_, noise_;
+  Scalar eta_, common_shift_;
   columns both_;               ///< Y' above W'
   columns y_, minus_inverse_;  ///< Y, -K^-1
   column squared_errors_;
+  Eigen::Array<Scalar, Eigen::Dynamic, 6> missed_, unknown_;  ///< none unless materials are left out
   Eigen::Matrix<Scalar, Eigen::Dynamic, 1> noise_response_, own_variances_;
-  Scalar noise_energy_;
+  Scalar noise_energy_, own_energy_;
 };
 
 #if defined(GONIO_COMPILED)

@@ -56,15 +56,17 @@ class pose_iteration {
   using reader = std::function<void(const half_difference& angles, const rgb& value, Eigen::Ref<Eigen::RowVectorXd> row,
                                     rgb& right)>;
 
-  /// A prior of k components and m observations. Throws as `pose_refinement`.
-  pose_iteration(std::vector<picture_samples> pictures, const pose_refinement_options& options, Eigen::Index components,
-                 Eigen::Index observations, const reader& read);
+  /// A prior of k components and m observations; the samples of each picture, for each material. Throws as
+  /// `pose_refinement`.
+  pose_iteration(std::vector<std::vector<picture_samples>> materials, const pose_refinement_options& options,
+                 Eigen::Index components, Eigen::Index observations, const reader& read);
 
   [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return turns_; }
   [[nodiscard]] double objective() const noexcept { return state_.objective; }
   [[nodiscard]] bool converged() const noexcept { return converged_; }
-  [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return state_.weights; }
-  [[nodiscard]] sample_set samples() const;
+  [[nodiscard]] std::size_t materials() const noexcept { return materials_.size(); }
+  [[nodiscard]] const Eigen::MatrixXd& weights(std::size_t material) const;
+  [[nodiscard]] sample_set samples(std::size_t material) const;
 
   void step(const reader& read);
   void solve(const reader& read);
@@ -72,27 +74,41 @@ class pose_iteration {
  private:
   static constexpr Eigen::Index unknowns = 6;  ///< of a picture
 
-  struct state {
+  /// What is fitted to a material's samples in all pictures.
+  struct fit {
     equations system;
     Eigen::MatrixXd normal;   ///< Q'Q + eta I
     Eigen::MatrixXd weights;  ///< k x 3
+    double objective = 0.0;   ///< without what the turns cost
+  };
+
+  /// All materials', which share the turns.
+  struct state {
+    std::vector<fit> fits;
     double objective = 0.0;
   };
 
   void require_sensible() const;
+  void require_material(std::size_t material) const;
   [[nodiscard]] sample turned(const pair_sample& s, const picture_turns& turns) const;
   /// The equations of one picture from row `begin` on.
   void add_picture(const picture_samples& picture, const picture_turns& turns, const reader& read, Eigen::Index begin,
                    equations& out) const;
+  [[nodiscard]] fit fit_of(const std::vector<picture_samples>& pictures, const std::vector<picture_turns>& turns,
+                           const reader& read) const;
   [[nodiscard]] state at(const std::vector<picture_turns>& turns, const reader& read) const;
   /// Of |t|^2, where the objective is divided by eta.
   [[nodiscard]] double turn_penalty() const;
   [[nodiscard]] std::vector<picture_turns> moved(const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t picture, Eigen::Index unknown, const reader& read) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(const reader& read) const;
+  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
+                                           const reader& read) const;
+  [[nodiscard]] Eigen::MatrixXd jacobian(std::size_t material, const reader& read) const;
+  /// Adds a material's part of the normal equations of a step.
+  void add_curvature(std::size_t material, const reader& read, Eigen::MatrixXd& hessian,
+                     Eigen::MatrixXd& gradient) const;
   [[nodiscard]] Eigen::VectorXd newton_step(const reader& read) const;
 
-  std::vector<picture_samples> pictures_;
+  std::vector<std::vector<picture_samples>> materials_;  ///< of each the samples of every picture
   pose_refinement_options options_;
   Eigen::Index components_, observations_;
   std::vector<picture_turns> turns_;
@@ -112,6 +128,9 @@ class pose_iteration {
 /// Tikhonov's and leave F(t) = eta y'(Q Q' + eta I)^-1 y; turns are found by Gauss and Newton's steps on F (variable
 /// projection with Kaufman's derivative, BIT 15, 1975), shortened until they help. O(n k^2 + k^3) a step.
 ///
+/// Several materials that are in the same pictures share light and camera: the sum then is over all of them, each with
+/// its own weights c, and with one t.
+///
 /// ```cpp
 /// gonio::pose_refinement refinement(prior, pictures, {.deviation = gonio::radians(0.5)});
 /// refinement.solve();
@@ -123,23 +142,32 @@ class pose_refinement {
   /// Throws gonio::error unless eta and deviation are positive and there is a sample in each picture, all of them above
   /// the horizon and finite, with weights that are not negative.
   pose_refinement(pca<Metric> prior, std::vector<picture_samples> pictures, const pose_refinement_options& options = {})
+      : pose_refinement(std::move(prior), std::vector<std::vector<picture_samples>>{std::move(pictures)}, options) {}
+
+  /// The same of several materials, of each its samples in every picture. A picture may have none of a material; it
+  /// must have some of one. Throws gonio::error unless all have as many pictures, too.
+  pose_refinement(pca<Metric> prior, std::vector<std::vector<picture_samples>> materials,
+                  const pose_refinement_options& options = {})
       : prior_(std::move(prior)),
-        iteration_(std::move(pictures), options, static_cast<Eigen::Index>(prior_.size()), prior_.coefficients().rows(),
-                   reader()) {}
+        iteration_(std::move(materials), options, static_cast<Eigen::Index>(prior_.size()),
+                   prior_.coefficients().rows(), reader()) {}
 
   [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return iteration_.turns(); }
   /// What is minimised, divided by eta.
   [[nodiscard]] double objective() const noexcept { return iteration_.objective(); }
   /// Did the last step improve the objective by less than a millionth of it?
   [[nodiscard]] bool converged() const noexcept { return iteration_.converged(); }
-  [[nodiscard]] fitted_brdf<pca<Metric>> fit() const {
+  [[nodiscard]] std::size_t materials() const noexcept { return iteration_.materials(); }
+  /// Throws gonio::error unless there is such a material.
+  [[nodiscard]] fitted_brdf<pca<Metric>> fit(std::size_t material = 0) const {
     solution found;
-    found.weights = iteration_.weights();
+    found.weights = iteration_.weights(material);
     return {prior_, std::move(found)};
   }
 
-  /// The samples where they were found to be, with the values that they have there, for any estimator.
-  [[nodiscard]] sample_set samples() const { return iteration_.samples(); }
+  /// The samples of a material where they were found to be, with the values that they have there, for any estimator.
+  /// Throws as `fit` does.
+  [[nodiscard]] sample_set samples(std::size_t material = 0) const { return iteration_.samples(material); }
 
   /// One step of Gauss and Newton.
   void step() { iteration_.step(reader()); }

@@ -15,8 +15,14 @@
 
 namespace gonio {
 
+/// Which cosines weight a reflectance in `log_relative`. Two papers of the same authors differ: docs/estimators.md.
+enum class cosine_weighting {
+  product,  ///< cos theta_i cos theta_o: Nielsen et al. 2015, Eq. 2
+  larger,   ///< the larger of the two: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 3
+};
+
 /// forward(rho) = ln((rho c + epsilon) / (rho_ref c + epsilon)) with the cosine weight
-/// c = max(cos theta_i cos theta_o, epsilon) of the place (Eq. 1-2).
+/// c = max(cos theta_i cos theta_o, epsilon) of the place (Eq. 1-2), or max(cos theta_i, cos theta_o, epsilon).
 ///
 /// Negative reflectance counts as zero in `forward`, whose smallest value is ln(epsilon / (rho_ref c +
 /// epsilon)); `inverse` of anything smaller is negative, down to -epsilon / c. Whoever needs a BRDF clamps
@@ -28,7 +34,7 @@ class log_relative {
 
   /// `reference` has one value in sr^-1 for each cell. Throws gonio::error if their numbers differ or a
   /// value is negative or not finite.
-  log_relative(valid_cells cells, std::vector<float> reference);
+  log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting = cosine_weighting::product);
 
   /// The metric relative to the median of all columns at each cell (Eq. 3), of a material_set or of any other set of
   /// observations with `cells` and `values`. O(cells x columns).
@@ -41,9 +47,18 @@ class log_relative {
   [[nodiscard]] static log_relative to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                  thread_count threads = {});
 
-  /// c of Eq. 2.
-  [[nodiscard]] static double cosine_weight(const cosine_pair& cosine) noexcept {
-    return std::max(cosine.i * cosine.o, epsilon);
+  /// The same relative to the same reference, which does not depend on the weight, with the other weight.
+  [[nodiscard]] log_relative weighted_by(cosine_weighting weighting) const {
+    log_relative other = *this;
+    other.weighting_ = weighting;
+    return other;
+  }
+  [[nodiscard]] cosine_weighting weighting() const noexcept { return weighting_; }
+
+  /// c.
+  [[nodiscard]] double cosine_weight(const cosine_pair& cosine) const noexcept {
+    return std::max(weighting_ == cosine_weighting::product ? cosine.i * cosine.o : std::max(cosine.i, cosine.o),
+                    epsilon);
   }
 
   [[nodiscard]] static double forward(double rho, double reference, double cosine_weight) noexcept {
@@ -75,7 +90,7 @@ class log_relative {
     return {static_cast<float>(log_reference((*reference_)[cell]))};
   }
   template <class Values>
-  static void inverse_row(const cell_row& row, Values& values, std::span<float> out) {
+  void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     constexpr auto small = static_cast<float>(epsilon);
     values = values.exp();
     for (std::size_t i = 0; i < row.count; ++i) {
@@ -103,6 +118,7 @@ class log_relative {
  private:
   valid_cells cells_;
   std::shared_ptr<const std::vector<float>> reference_;
+  cosine_weighting weighting_;
 };
 
 static_assert(row_metric<log_relative>);

@@ -19,6 +19,10 @@ struct symmetric_eigen {
 /// The same without the vectors, ascending: about 4/3 k^3 operations.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what);
 
+/// Those of a symmetric tridiagonal matrix, ascending, given its diagonal and the numbers beside it: O(k^2).
+[[nodiscard]] Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside,
+                                                      const char* what);
+
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

@@ -25,9 +25,9 @@ GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const ce
       criterion_(std::move(criterion)),
       materials_(static_cast<Eigen::Index>(cells.size()), criterion_.coefficients().rows()),
       weighted_(materials_.rows(), materials_.cols()),
-      own_etas_(Eigen::ArrayXf::Zero(materials_.rows())),
+      own_etas_(Eigen::ArrayXf::Constant(materials_.rows(), static_cast<float>(criterion_.noise_eta()))),
       threads_(threads) {
-  if (!own_etas.empty()) own_etas_ = checked(own_etas, size());
+  if (!own_etas.empty()) own_etas_ += checked(own_etas, size());
   const Eigen::MatrixXf to_materials = criterion_.coefficients().cast<float>();
   const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().cast<float>();
   for (std::size_t cell = 0; cell < size(); ++cell)

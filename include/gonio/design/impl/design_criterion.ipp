@@ -5,7 +5,7 @@
 #include <gonio/core/error.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/solve/dense.hpp>
-#include <gonio/solve/symmetric_eigen.hpp>
+#include <gonio/solve/singular_values.hpp>
 
 #include <Eigen/Core>
 
@@ -19,12 +19,10 @@ namespace gonio {
 
 GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& components) const {
   if (components.rows() == 1) return 1.0 / components.norm();
-  const Eigen::MatrixXd gram = components.rows() <= components.cols() ? product_with_transpose(components)
-                                                                      : product_with_transpose(components.transpose());
-  const Eigen::VectorXd values = symmetric_eigenvalues(gram, "a Gram matrix of measurements");
+  const Eigen::VectorXd values = singular_values(components, "measurements' components");
   const double smallest = values[0], largest = values[values.size() - 1];
-  if (!(smallest > 1e-14 * largest)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(largest / smallest);
+  const double rounding = largest * singular_value_rounding(values.size());
+  return smallest > rounding ? largest / smallest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace gonio

@@ -14,14 +14,40 @@
 #include <string>
 #include <utility>
 
+namespace gonio::detail {
+
+/// The rows and columns of a symmetric 3 x 3 matrix that `expected_error::blocks` keeps.
+inline constexpr int block_rows[6] = {0, 1, 2, 0, 0, 1}, block_columns[6] = {0, 1, 2, 1, 2, 2};
+
+/// The diagonal of L^-1 X L^-1 of symmetric 3 x 3 matrices, by the adjugate of L.
+template <class Scalar>
+inline void left_out_squares(const Scalar (&x)[6], const Scalar (&l)[6], Scalar (&squares)[3]) {
+  const Scalar a00 = l[1] * l[2] - l[5] * l[5], a01 = l[4] * l[5] - l[3] * l[2], a02 = l[3] * l[5] - l[4] * l[1],
+               a11 = l[0] * l[2] - l[4] * l[4], a12 = l[3] * l[4] - l[0] * l[5], a22 = l[0] * l[1] - l[3] * l[3],
+               scale = Scalar(1) / (l[0] * a00 + l[3] * a01 + l[4] * a02);
+  const auto square = [&](Scalar p, Scalar q, Scalar r) {
+    return (p * (p * x[0] + Scalar(2) * (q * x[3] + r * x[4])) + q * (q * x[1] + Scalar(2) * r * x[5]) + r * r * x[2]) *
+           scale * scale;
+  };
+  squares[0] = square(a00, a01, a02);
+  squares[1] = square(a01, a11, a12);
+  squares[2] = square(a02, a12, a22);
+}
+
+}  // namespace gonio::detail
+
 namespace gonio {
 
 GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
                                             const Eigen::MatrixXd& norm)
     : options_(options), coefficients_(coefficients.cast<double>()) {
   detail::require_positive_eta(options.eta);
-  if (!(options.noise >= 0.0 && std::isfinite(options.noise)))
-    throw error("the noise must be finite and not negative, not " + std::to_string(options.noise));
+  for (const auto& [name, value] : {std::pair{"noise", options.noise}, {"common shift", options.common_shift}})
+    if (!(value >= 0.0 && std::isfinite(value)))
+      throw error{"the ", name, " must be finite and not negative, not ", value};
+  if (options.leave_out && (coefficients.rows() % 3 != 0 || coefficients.rows() < 6))
+    throw error{"materials of three observations each, at least two of them, can be left out of what was learned, not ",
+                coefficients.rows(), " observations"};
   const Eigen::Index k = coefficients.cols();
   if (norm.rows() != k || norm.cols() != k)
     throw error("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
@@ -38,6 +64,7 @@ GONIO_INLINE expected_error::rows expected_error::prepare(const Eigen::MatrixXd&
   measured.materials().transpose() = product(coefficients_, transposed);
   measured.weighted().transpose() = product(weighted_, transposed);
   measured.noise = std::move(noise);
+  measured.own_eta.setConstant(noise_eta());
   return measured;
 }
 
@@ -45,10 +72,10 @@ GONIO_INLINE expected_error::rows expected_error::prepare(const Eigen::MatrixXd&
   return prepare(components, Eigen::VectorXd::Ones(components.rows()));
 }
 
-GONIO_INLINE double expected_error::remainder::error(double noise) const {
+GONIO_INLINE double expected_error::remainder::error(double common_shift) const {
   double sum = 0.0;
   for (const double squared : squared_errors) sum += std::sqrt(std::max(squared, 0.0));
-  return sum / static_cast<double>(squared_errors.size()) + noise * std::sqrt(std::max(noise_energy, 0.0));
+  return sum / static_cast<double>(squared_errors.size()) + common_shift * std::sqrt(std::max(noise_energy, 0.0));
 }
 
 GONIO_INLINE expected_error::remainder expected_error::state(const rows& measured) const {
@@ -56,7 +83,10 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   remainder left;
   left.squared_errors = energies_;
   left.noise_response = Eigen::VectorXd::Zero(m);
-  if (n == 0) return left;
+  if (n == 0) {
+    if (options_.leave_out) leave_each_out(measured, Eigen::MatrixXd(m, 0), Eigen::MatrixXd(m, 0), left);
+    return left;
+  }
   const matrix_view both = measured.both.transpose();  // Y' beside W': m x 2n
   const Eigen::MatrixXd products = product(measured.materials(), both);
   Eigen::MatrixXd k = products.leftCols(n);
@@ -71,10 +101,13 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   Eigen::VectorXd change = Eigen::VectorXd::Zero(m);
   for (Eigen::Index i = 0; i < n; ++i) change += changed.col(i).cwiseProduct(both.col(i));
   left.squared_errors += change;
+  if (options_.leave_out) {
+    const matrix_view y = both.leftCols(n);
+    leave_each_out(measured, product(y, left.inverse), product(y, spread), left);
+  }
   left.own_variances = measured.own_eta / static_cast<double>(m);
-  double own = 0.0;
-  for (Eigen::Index i = 0; i < n; ++i) own += left.own_variances[i] * spread(i, i);
-  for (double& squared : left.squared_errors) squared += own;
+  for (Eigen::Index i = 0; i < n; ++i) left.own_energy += left.own_variances[i] * spread(i, i);
+  for (double& squared : left.squared_errors) squared += left.own_energy;
   for (Eigen::Index i = 0; i < n; ++i) {
     left.noise_response += left.inverse.col(i).dot(measured.noise) * both.col(i);
     left.noise_energy += measured.noise[i] * spread.col(i).dot(measured.noise);
@@ -82,9 +115,34 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   return left;
 }
 
+GONIO_INLINE void expected_error::leave_each_out(const rows& measured, const Eigen::MatrixXd& known,
+                                                 const Eigen::MatrixXd& spread, remainder& left) const {
+  const Eigen::Index m = coefficients_.rows(), materials = m / 3;
+  left.missed.resize(materials, 6);
+  left.unknown.resize(materials, 6);
+  const auto y = measured.materials(), w = measured.weighted();
+  for (Eigen::Index j = 0; j < materials; ++j) {
+    double x[6], l[6], squares[3];
+    for (int e = 0; e < 6; ++e) {
+      const Eigen::Index a = 3 * j + detail::block_rows[e], b = 3 * j + detail::block_columns[e];
+      x[e] = coefficients_.row(a).dot(weighted_.row(b));
+      l[e] = (a == b ? 1.0 : 0.0) - 1.0 / static_cast<double>(m);
+      for (Eigen::Index i = 0; i < measured.size(); ++i) {
+        x[e] += spread(a, i) * y(i, b) - known(a, i) * w(i, b) - known(b, i) * w(i, a);
+        l[e] -= known(a, i) * y(i, b);
+      }
+      left.missed(j, e) = x[e];
+      left.unknown(j, e) = l[e];
+    }
+    detail::left_out_squares(x, l, squares);
+    for (Eigen::Index c = 0; c < 3; ++c) left.squared_errors[3 * j + c] = squares[c];
+  }
+}
+
 template <class Scalar>
 extended_error<Scalar>::extended_error(const expected_error& criterion, const expected_error::rows& measured)
-    : eta_(static_cast<Scalar>(criterion.options().eta)), noise_(static_cast<Scalar>(criterion.options().noise)) {
+    : eta_(static_cast<Scalar>(criterion.options().eta)),
+      common_shift_(static_cast<Scalar>(criterion.options().common_shift)) {
   const expected_error::remainder left = criterion.state(measured);
   const Eigen::Index n = measured.size(), m = measured.both.cols();
   both_.resize(2 * m, n);
@@ -96,9 +154,12 @@ extended_error<Scalar>::extended_error(const expected_error& criterion, const ex
     }
   minus_inverse_ = -left.inverse.template cast<Scalar>();
   squared_errors_ = left.squared_errors.template cast<Scalar>();
+  missed_ = left.missed.template cast<Scalar>();
+  unknown_ = left.unknown.template cast<Scalar>();
   own_variances_ = left.own_variances.template cast<Scalar>();
   noise_response_ = left.noise_response.template cast<Scalar>();
   noise_energy_ = static_cast<Scalar>(left.noise_energy);
+  own_energy_ = static_cast<Scalar>(left.own_energy);
 }
 
 template <class Scalar>
@@ -130,14 +191,36 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
     const auto t = both.col(i).head(m), once = both.col(i).tail(m);
     const Scalar d = eta_ + own_eta[i] + y.row(i).dot(t), r = t.dot(once);
     const Scalar grown = own_growth(known, i, own_eta[i], d, r);
-    const auto change = t.array() * (r / (d * d) * t.array() - Scalar(2) / d * twice.col(i).array());
-    found[i] = (squared_errors_ + (grown + change)).max(Scalar(0)).sqrt().mean();
-    if (!(noise_ > Scalar(0))) continue;
+    if (missed_.rows() > 0) {
+      found[i] = mean_left_out(&both(0, i), &twice(0, i), d, r, own_energy_ + grown);
+    } else {
+      const auto change = t.array() * (r / (d * d) * t.array() - Scalar(2) / d * twice.col(i).array());
+      found[i] = (squared_errors_ + (grown + change)).max(Scalar(0)).sqrt().mean();
+    }
+    if (!(common_shift_ > Scalar(0))) continue;
     // (SQ)+_eta 1 grows by A q (1 - q . (SQ)+_eta 1) / d.
     const Scalar growth = (Scalar(1) - y.row(i).dot(noise_response_)) / d, along = once.dot(noise_response_);
-    found[i] += noise_ * std::sqrt(std::max(noise_energy_ + growth * (Scalar(2) * along + growth * r), Scalar(0)));
+    found[i] +=
+        common_shift_ * std::sqrt(std::max(noise_energy_ + growth * (Scalar(2) * along + growth * r), Scalar(0)));
   }
   return found;
+}
+
+template <class Scalar>
+Scalar extended_error<Scalar>::mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const {
+  const Scalar inverse = Scalar(1) / d, along = r * inverse * inverse;
+  Scalar sum = Scalar(0);
+  for (Eigen::Index j = 0; j < missed_.rows(); ++j, t += 3, w += 3) {
+    Scalar x[6], l[6], squares[3];
+    for (int e = 0; e < 6; ++e) {
+      const int a = detail::block_rows[e], b = detail::block_columns[e];
+      x[e] = missed_(j, e) - (t[a] * w[b] + w[a] * t[b]) * inverse + t[a] * t[b] * along;
+      l[e] = unknown_(j, e) - t[a] * t[b] * inverse;
+    }
+    detail::left_out_squares(x, l, squares);
+    for (const Scalar square : squares) sum += std::sqrt(std::max(square + own, Scalar(0)));
+  }
+  return sum / static_cast<Scalar>(3 * missed_.rows());
 }
 
 /// By how much errors of their own add to each squared error, beyond what they do now.

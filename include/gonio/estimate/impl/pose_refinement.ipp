@@ -36,16 +36,12 @@ namespace gonio::detail {
   return {to_half_difference(wi, wo), cosines * s.value, s.weight};
 }
 
-GONIO_INLINE pose_iteration::pose_iteration(std::vector<picture_samples> pictures,
+GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<picture_samples>> materials,
                                             const pose_refinement_options& options, Eigen::Index components,
                                             Eigen::Index observations, const reader& read)
-    : pictures_(std::move(pictures)),
-      options_(options),
-      components_(components),
-      observations_(observations),
-      turns_(pictures_.size()),
-      state_{equations(0, 0), {}, {}, 0.0} {
+    : materials_(std::move(materials)), options_(options), components_(components), observations_(observations) {
   require_sensible();
+  turns_.resize(materials_.front().size());
   state_ = at(turns_, read);
 }
 
@@ -55,18 +51,40 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
     throw error("light and camera may be off by 0 to 45 degrees, not by " +
                 std::to_string(degrees(options_.deviation)));
-  if (pictures_.empty()) throw error("there is no picture");
-  for (const picture_samples& picture : pictures_) require_usable(as_sample_set(picture));
+  if (materials_.empty() || materials_.front().empty()) throw error("there is no picture");
+  const std::size_t count = materials_.front().size();
+  for (std::size_t m = 0; m < materials_.size(); ++m)
+    if (materials_[m].size() != count)
+      throw error{"material ", m + 1, " is in ", materials_[m].size(), " pictures, the first in ", count};
+  for (std::size_t p = 0; p < count; ++p) {
+    sample_set all;
+    for (const std::vector<picture_samples>& pictures : materials_) {
+      const sample_set own = as_sample_set(pictures[p]);
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    require_usable(all);
+  }
 }
 
 GONIO_INLINE sample pose_iteration::turned(const pair_sample& s, const picture_turns& turns) const {
   return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
 }
 
-GONIO_INLINE sample_set pose_iteration::samples() const {
+GONIO_INLINE void pose_iteration::require_material(std::size_t material) const {
+  if (material >= materials_.size()) throw error{"there is no material ", material, " of ", materials_.size()};
+}
+
+GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material) const {
+  require_material(material);
+  return state_.fits[material].weights;
+}
+
+GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
+  require_material(material);
+  const std::vector<picture_samples>& pictures = materials_[material];
   sample_set all;
-  for (std::size_t p = 0; p < pictures_.size(); ++p)
-    for (const pair_sample& s : pictures_[p]) all.push_back(turned(s, turns_[p]));
+  for (std::size_t p = 0; p < pictures.size(); ++p)
+    for (const pair_sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
 
@@ -107,15 +125,16 @@ GONIO_INLINE void pose_iteration::add_picture(const picture_samples& picture, co
       options_.threads);
 }
 
-GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<picture_turns>& turns,
-                                                      const reader& read) const {
+GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<picture_samples>& pictures,
+                                                        const std::vector<picture_turns>& turns,
+                                                        const reader& read) const {
   Eigen::Index n = 0;
-  for (const picture_samples& picture : pictures_) n += std::ssize(picture);
-  state found{equations(components_, n), {}, {}, 0.0};
+  for (const picture_samples& picture : pictures) n += std::ssize(picture);
+  fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures_.size(); ++p) {
-    add_picture(pictures_[p], turns[p], read, begin, found.system);
-    begin += std::ssize(pictures_[p]);
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    add_picture(pictures[p], turns[p], read, begin, found.system);
+    begin += std::ssize(pictures[p]);
   }
   const equations& system = found.system;
   found.normal = product_with_transpose(system.columns);
@@ -124,6 +143,16 @@ GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<picture_
   const Eigen::MatrixXd explained = product(system.columns.transpose(), found.weights);
   for (Eigen::Index c = 0; c < 3; ++c)
     found.objective += (system.right.col(c) - explained.col(c)).dot(system.right.col(c)) / options_.eta;
+  return found;
+}
+
+GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<picture_turns>& turns,
+                                                      const reader& read) const {
+  state found;
+  for (const std::vector<picture_samples>& pictures : materials_) {
+    found.fits.push_back(fit_of(pictures, turns, read));
+    found.objective += found.fits.back().objective;
+  }
   for (const picture_turns& t : turns)
     found.objective += turn_penalty() * (t.light.squaredNorm() + t.camera.squaredNorm());
   return found;
@@ -145,15 +174,16 @@ GONIO_INLINE std::vector<picture_turns> pose_iteration::moved(const Eigen::Vecto
 
 /// How the misfit y - Q c of a picture changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t picture, Eigen::Index unknown,
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
                                                         const reader& read) const {
+  const picture_samples& samples = materials_[material][picture];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
     picture_turns turns = turns_[picture];
     (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
-    equations there(components_, std::ssize(pictures_[picture]));
-    add_picture(pictures_[picture], turns, read, 0, there);
-    there.right -= product(there.columns.transpose(), state_.weights);
+    equations there(components_, std::ssize(samples));
+    add_picture(samples, turns, read, 0, there);
+    there.right -= product(there.columns.transpose(), state_.fits[material].weights);
     return there.right;
   };
   Eigen::MatrixXd change = misfit_at(width);
@@ -161,15 +191,17 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t picture, Eig
   return change /= 2.0 * width;
 }
 
-/// The derivatives of all misfits by all unknowns, those of red, green and blue one above the other: 3 n x unknowns.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(const reader& read) const {
-  const Eigen::Index n = state_.system.right.rows();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures_));
+/// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
+/// unknowns.
+GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
+  const std::vector<picture_samples>& pictures = materials_[material];
+  const Eigen::Index n = state_.fits[material].system.right.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures));
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures_.size(); ++p) {
-    const auto count = std::ssize(pictures_[p]);
+  for (std::size_t p = 0; p < pictures.size(); ++p) {
+    const auto count = std::ssize(pictures[p]);
     for (Eigen::Index u = 0; u < unknowns; ++u) {
-      const Eigen::MatrixXd change = derivative(p, u, read);
+      const Eigen::MatrixXd change = derivative(material, p, u, read);
       auto column = all.col(unknowns * static_cast<Eigen::Index>(p) + u);
       for (Eigen::Index c = 0; c < 3; ++c) column.segment(c * n + begin, count) = change.col(c);
     }
@@ -178,11 +210,26 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(const reader& read) const 
   return all;
 }
 
+GONIO_INLINE void pose_iteration::add_curvature(std::size_t material, const reader& read, Eigen::MatrixXd& hessian,
+                                                Eigen::MatrixXd& gradient) const {
+  const fit& here = state_.fits[material];
+  const Eigen::Index n = here.system.right.rows();
+  if (n == 0) return;
+  const Eigen::MatrixXd changes = jacobian(material, read);
+  const Eigen::MatrixXd rows = here.system.columns.transpose();
+  const cholesky normal(here.normal);
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    // (Q Q' + eta I)^-1 J, through the k x k normal equations (Woodbury).
+    const Eigen::MatrixXd own = changes.middleRows(c * n, n);
+    Eigen::MatrixXd left = own - product(rows, normal.solve(product(here.system.columns, own)));
+    left /= options_.eta;
+    hessian += product(own.transpose(), left);
+    gradient += product(left.transpose(), here.system.right.col(c));
+  }
+}
+
 GONIO_INLINE Eigen::VectorXd pose_iteration::newton_step(const reader& read) const {
-  const Eigen::MatrixXd changes = jacobian(read);
-  const Eigen::Index n = state_.system.right.rows(), all = changes.cols();
-  const Eigen::MatrixXd rows = state_.system.columns.transpose();
-  const cholesky normal(state_.normal);
+  const Eigen::Index all = unknowns * std::ssize(turns_);
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(all, all), gradient(all, 1);
   for (Eigen::Index i = 0; i < all; ++i) hessian(i, i) = turn_penalty();
   for (std::size_t p = 0; p < turns_.size(); ++p)
@@ -191,14 +238,7 @@ GONIO_INLINE Eigen::VectorXd pose_iteration::newton_step(const reader& read) con
       gradient(first + i, 0) = turn_penalty() * turns_[p].light[i];
       gradient(first + 3 + i, 0) = turn_penalty() * turns_[p].camera[i];
     }
-  for (Eigen::Index c = 0; c < 3; ++c) {
-    // (Q Q' + eta I)^-1 J, through the k x k normal equations (Woodbury).
-    const Eigen::MatrixXd own = changes.middleRows(c * n, n);
-    Eigen::MatrixXd left = own - product(rows, normal.solve(product(state_.system.columns, own)));
-    left /= options_.eta;
-    hessian += product(own.transpose(), left);
-    gradient += product(left.transpose(), state_.system.right.col(c));
-  }
+  for (std::size_t m = 0; m < materials_.size(); ++m) add_curvature(m, read, hessian, gradient);
   return -cholesky(hessian).solve(gradient);
 }
 

@@ -23,6 +23,14 @@ namespace gonio::io::detail {
 
 inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
 
+/// How cells are anchored and reflectance is weighted, in one number: version 1 has had the anchor's 0 and 1 there from
+/// the start, so that older programs refuse weights that they do not know.
+[[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
+  const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
+  const bool larger = prior.metric().weighting() == cosine_weighting::larger;
+  return (corner ? 1u : 0u) + (larger ? 2u : 0u);
+}
+
 [[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
   std::vector<float> logarithm;
   logarithm.reserve(metric.cells().size());
@@ -35,7 +43,7 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   out.put(static_cast<std::uint32_t>(grid.extents().theta_h));
   out.put(static_cast<std::uint32_t>(grid.extents().theta_d));
   out.put(static_cast<std::uint32_t>(grid.extents().phi_d));
-  out.put(static_cast<std::uint32_t>(grid.anchor() == cell_anchor::centre ? 0 : 1));
+  out.put(conventions_of(prior));
   out.put(prior.cells().minimum_cosine());
   out.put(static_cast<std::uint32_t>(prior.size()));
   out.put(static_cast<std::uint32_t>(prior.names().size()));
@@ -64,16 +72,25 @@ template <class Act>
   }
 }
 
-[[nodiscard]] GONIO_INLINE valid_cells take_cells(byte_reader& in, const std::string& name) {
+/// The cells of a prior and the weight of its metric.
+struct prior_domain {
+  valid_cells cells;
+  cosine_weighting weighting;
+};
+
+[[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
-  const auto anchor = in.take<std::uint32_t>();
-  if (anchor > 1) throw error{name, ": the cell anchor is ", anchor, ", expected 0 (centre) or 1 (lower corner)"};
+  const auto conventions = in.take<std::uint32_t>();
+  if (conventions > 3)
+    throw error{name, ": cell anchor and cosine weight are ", conventions,
+                ", expected 0 (centre) or 1 (lower corner), and 2 more for the larger cosine"};
   const auto minimum_cosine = in.take<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
     throw error{name, ": the smallest cosine of a valid cell must be in [0, 1)"};
   const gonio::grid grid = naming_prior(name, [&] {
-    return gonio::grid({theta_h, theta_d, phi_d}, anchor == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
+    return gonio::grid({theta_h, theta_d, phi_d},
+                       conventions % 2 == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
   });
   // A valid cell takes 5 bytes at least: two codes of 16 bits, and one of 8 for each component. On a grid of any size
   // half of the cells are valid, unless they are few or the smallest cosine is large.
@@ -86,7 +103,8 @@ template <class Act>
     });
   if (valid > most || grid.size() > std::max(2 * most, small_grid))
     throw error{name, ": the grid has more cells than the file has values"};
-  return naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); });
+  return {naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); }),
+          conventions < 2 ? cosine_weighting::product : cosine_weighting::larger};
 }
 
 /// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
@@ -102,7 +120,7 @@ template <class Act>
 }
 
 [[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
-  const valid_cells cells = take_cells(in, name);
+  const auto [cells, weighting] = take_domain(in, name);
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
   if (components == 0 || components > 3 * std::uint64_t{materials})
@@ -141,7 +159,7 @@ template <class Act>
                       all_finite(values) && all_finite(mean);
   if (!finite) throw error{name, ": a value of the prior is not finite"};
   return naming_prior(name, [&] {
-    return log_relative_pca({cells, log_relative(cells, std::move(reference)), std::move(names),
+    return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
                              std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
                              explained_variance, std::move(source)});
   });

@@ -29,7 +29,8 @@ namespace detail {
 
 }  // namespace detail
 
-GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference) : cells_(std::move(cells)) {
+GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting)
+    : cells_(std::move(cells)), weighting_(weighting) {
   if (reference.size() != cells_.size())
     throw error{"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"};
   for (const float value : reference)
@@ -58,7 +59,7 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
   std::vector<float> moved(cells.size());
   for (std::size_t cell = 0; cell < moved.size(); ++cell)
     moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
-  return {cells, std::move(moved)};
+  return {cells, std::move(moved), weighting_};
 }
 
 }  // namespace gonio

@@ -32,11 +32,12 @@ struct tridiagonal_form {
   Eigen::Tridiagonalization<Eigen::MatrixXd> form;
 };
 
-/// Of T.
-[[nodiscard]] GONIO_INLINE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_solver(const tridiagonal_form& of,
+/// Of T, given its diagonal and the numbers beside it.
+[[nodiscard]] GONIO_INLINE Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen_solver(const Eigen::VectorXd& diagonal,
+                                                                                       const Eigen::VectorXd& beside,
                                                                                        int options, const char* what) {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(of.form.diagonal(), of.form.subDiagonal(), options);
+  solver.computeFromTridiagonal(diagonal, beside, options);
   if (solver.info() != Eigen::Success) refuse(std::string("the eigenvalues of ") + what + " do not converge");
   return solver;
 }
@@ -61,7 +62,7 @@ GONIO_INLINE void multiply_by_q(const Eigen::Tridiagonalization<Eigen::MatrixXd>
 
 GONIO_INLINE symmetric_eigen decompose_symmetric(const matrix_view& a, const char* what) {
   const detail::tridiagonal_form of(a);
-  const auto solver = detail::eigen_solver(of, Eigen::ComputeEigenvectors, what);
+  const auto solver = detail::eigen_solver(of.form.diagonal(), of.form.subDiagonal(), Eigen::ComputeEigenvectors, what);
   symmetric_eigen found{of.scale * solver.eigenvalues(), solver.eigenvectors()};
   detail::multiply_by_q(of.form, found.vectors);
   return found;
@@ -69,7 +70,13 @@ GONIO_INLINE symmetric_eigen decompose_symmetric(const matrix_view& a, const cha
 
 GONIO_INLINE Eigen::VectorXd symmetric_eigenvalues(const matrix_view& a, const char* what) {
   const detail::tridiagonal_form of(a);
-  return of.scale * detail::eigen_solver(of, Eigen::EigenvaluesOnly, what).eigenvalues();
+  return of.scale *
+         detail::eigen_solver(of.form.diagonal(), of.form.subDiagonal(), Eigen::EigenvaluesOnly, what).eigenvalues();
+}
+
+GONIO_INLINE Eigen::VectorXd tridiagonal_eigenvalues(const Eigen::VectorXd& diagonal, const Eigen::VectorXd& beside,
+                                                     const char* what) {
+  return detail::eigen_solver(diagonal, beside, Eigen::EigenvaluesOnly, what).eigenvalues();
 }
 
 }  // namespace gonio

@@ -1,0 +1,106 @@
+#pragma once
+/// Bodies of solve/singular_values.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/householder_qr.hpp>
+#include <gonio/solve/singular_values.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
+#include <gonio/solve/vector_kernels.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gonio {
+
+namespace detail {
+
+/// x becomes (r, v) where the reflection I - f (1, v)(1, v)' takes x to (r, 0, ...); returns f.
+[[nodiscard]] GONIO_INLINE double make_reflection(double* x, Eigen::Index count) {
+  const double tail = norm(x + 1, count - 1);
+  if (tail == 0.0) return 0.0;
+  const double reflected = -std::copysign(std::hypot(*x, tail), *x);
+  const double factor = (reflected - *x) / reflected, divisor = *x - reflected;
+  for (Eigen::Index i = 1; i < count; ++i) x[i] /= divisor;
+  *x = reflected;
+  return factor;
+}
+
+/// Column `step` of a square matrix to (.., d, 0, ...) by a reflection of its rows from `step` on; returns d.
+[[nodiscard]] GONIO_INLINE double reflect_rows(Eigen::Index step, Eigen::MatrixXd& r) {
+  const Eigen::Index k = r.cols(), below = k - step - 1;
+  double* x = &r(step, step);
+  const double factor = make_reflection(x, below + 1);
+  for (Eigen::Index column = step + 1; column < k; ++column) {
+    double* y = &r(step, column);
+    const double amount = factor * (y[0] + dot(x + 1, y + 1, below));
+    y[0] -= amount;
+    add_scaled(-amount, x + 1, y + 1, below);
+  }
+  return *x;
+}
+
+/// Row `step` to (.., e, 0, ...) by a reflection of the columns beyond it; returns e. The rows above are done with.
+[[nodiscard]] GONIO_INLINE double reflect_columns(Eigen::Index step, Eigen::MatrixXd& r) {
+  const Eigen::Index first = step + 1, count = r.cols() - first;
+  Eigen::VectorXd v(count), along = Eigen::VectorXd::Zero(count);
+  for (Eigen::Index i = 0; i < count; ++i) v[i] = r(step, first + i);
+  const double factor = make_reflection(v.data(), count), reflected = v[0];
+  v[0] = 1.0;
+  for (Eigen::Index i = 0; i < count; ++i) add_scaled(v[i], &r(first, first + i), along.data(), count);
+  for (Eigen::Index i = 0; i < count; ++i) add_scaled(-factor * v[i], along.data(), &r(first, first + i), count);
+  return reflected;
+}
+
+/// The diagonal of the upper bidiagonal matrix that reflections make of a square one, and between its numbers those
+/// above the diagonal: d1, e1, d2, e2, ..., dk.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd bidiagonal_of(Eigen::MatrixXd r) {
+  const Eigen::Index k = r.cols();
+  Eigen::VectorXd found(2 * k - 1);
+  for (Eigen::Index step = 0; step < k; ++step) {
+    found[2 * step] = reflect_rows(step, r);
+    if (step + 1 < k) found[2 * step + 1] = reflect_columns(step, r);
+  }
+  return found;
+}
+
+/// The triangle R of a tall matrix.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd triangle_of(Eigen::MatrixXd a) {
+  const householder_qr qr(std::move(a));
+  Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(qr.cols(), qr.cols());
+  for (Eigen::Index column = 0; column < qr.cols(); ++column)
+    for (Eigen::Index row = 0; row <= column; ++row) triangle(row, column) = qr.triangle(row, column);
+  return triangle;
+}
+
+}  // namespace detail
+
+GONIO_INLINE Eigen::VectorXd singular_values(const matrix_view& a, const char* what) {
+  const Eigen::Index k = std::min(a.rows(), a.cols());
+  if (k == 0) return {};
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < a.cols(); ++j)
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      if (!std::isfinite(a(i, j))) throw error{"the singular values of ", what, " are not defined: it is not finite"};
+      largest = std::max(largest, std::abs(a(i, j)));
+    }
+  if (largest == 0.0) return Eigen::VectorXd::Zero(k);
+  Eigen::MatrixXd tall = a.rows() >= a.cols() ? Eigen::MatrixXd(a) : Eigen::MatrixXd(a.transpose());
+  tall /= largest;
+  if (tall.rows() > k) tall = detail::triangle_of(std::move(tall));
+  // The tridiagonal matrix with nothing on its diagonal and these numbers beside it has the eigenvalues +-sigma. Moved
+  // up by a bound of them it is positive, which the iteration needs to tell what is negligible.
+  const Eigen::VectorXd beside = detail::bidiagonal_of(std::move(tall));
+  double bound = 0.0;
+  for (Eigen::Index i = 0; i < 2 * k; ++i)
+    bound = std::max(bound, (i > 0 ? std::abs(beside[i - 1]) : 0.0) + (i < 2 * k - 1 ? std::abs(beside[i]) : 0.0));
+  const Eigen::VectorXd both = tridiagonal_eigenvalues(Eigen::VectorXd::Constant(2 * k, bound), beside, what);
+  Eigen::VectorXd values(k);
+  for (Eigen::Index i = 0; i < k; ++i) values[i] = largest * std::max(both[k + i] - bound, 0.0);
+  return values;
+}
+
+}  // namespace gonio
