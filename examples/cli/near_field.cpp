@@ -29,6 +29,7 @@ struct near_field_command {
   std::string clusters;                                       ///< a number, auto, or empty: one material
   std::filesystem::path labels, prior, output;
   double misplacement = 0.0;  ///< degrees; 0: light and cameras are in their places
+  bool reference_in_place = false;
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };
@@ -67,8 +68,12 @@ using samples_of_materials = std::vector<std::vector<gonio::picture_samples>>;
 /// were off.
 std::vector<gonio::sample_set> refined(const std::vector<taken_picture>& pictures, samples_of_materials samples,
                                        const near_field_command& options) {
-  gonio::pose_refinement refinement(gonio::io::read_prior(options.prior), std::move(samples),
-                                    {.deviation = gonio::radians(options.misplacement), .threads = options.threads});
+  gonio::pose_refinement refinement(
+      gonio::io::read_prior(options.prior), std::move(samples),
+      {.deviation = gonio::radians(options.misplacement),
+       .calibrated_by = options.reference_in_place ? gonio::light_calibration::reference_in_place
+                                                   : gonio::light_calibration::irradiance,
+       .threads = options.threads});
   refinement.solve();
   for (std::size_t i = 0; i < pictures.size(); ++i)
     std::cout << pictures[i].file << ": light off by " << angle_of(refinement.turns()[i].light)
@@ -197,6 +202,8 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const command& g
 }
 
 void run(const command& given, const near_field_command& options) {
+  if (options.reference_in_place && options.misplacement == 0.0)
+    throw gonio::error("--reference-in-place needs --misplaced");
   if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
   std::vector<taken_picture> pictures = read_pictures(options);
   if (options.clusters.empty())
@@ -225,6 +232,9 @@ void add_near_field(command& app) {
                   "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
                   "the help of --prior")
       .capture_default_str();
+  command.add_flag("--reference-in-place", options->reference_in_place,
+                   "The irradiance is had from a white reference in the sample's place: a light off its place then "
+                   "leaves the values as they are (with --misplaced)");
   add_prior_option(command, options->prior);
   command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
   add_threads_option(command, options->threads);

@@ -98,6 +98,15 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK(gonio::io::read_samples(shots.at("found.csv")).size() == gonio::io::read_samples(shots.at("plain.csv")).size());
   CHECK(misfit("found.csv") < misfit("plain.csv"));
 
+  // With a reference in place the same values mean something else.
+  const auto by_reference =
+      gonio_tool("near-field " + pictures + "--misplaced 1 --reference-in-place -o " + shots.at("reference.csv"));
+  REQUIRE_MESSAGE(by_reference.exit_code == 0, by_reference.output);
+  CHECK(misfit("found.csv") < misfit("reference.csv"));
+  const auto useless = gonio_tool("near-field " + pictures + "--reference-in-place -o " + shots.at("no.csv"));
+  CHECK(useless.exit_code == 2);
+  CHECK(useless.output.find("--reference-in-place needs --misplaced") != std::string::npos);
+
   const auto refused = gonio_tool("near-field " + pictures + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
   CHECK(refused.output.find("may be off by 0 to 45 degrees, not by -1") != std::string::npos);
