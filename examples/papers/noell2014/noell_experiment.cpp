@@ -185,7 +185,7 @@ namespace {
   std::size_t off = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const gonio::rgb ratio = (samples[i].value.max(0.0) + offset) / (right[i].value.max(0.0) + offset);
-    off += std::abs(ratio.log().mean()) > limit ? 1 : 0;
+    if (std::abs(ratio.log().mean()) > limit) ++off;
   }
   return static_cast<double>(off) / static_cast<double>(samples.size());
 }
