@@ -1,6 +1,7 @@
 #pragma once
 /// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb) and those of shapes (shape.hpp).
 
+#include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/checked_file.hpp>

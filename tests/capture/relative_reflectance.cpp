@@ -60,8 +60,10 @@ TEST_CASE("relative reflectance: Eq. 13 and 17 agree") {
 
 TEST_CASE("weights fall with the square of the deviation") {
   CHECK(gonio::weight_of(0.0) == 1.0);
-  CHECK(gonio::weight_of(0.01) == 1.0);
-  CHECK(gonio::weight_of(0.1) == doctest::Approx(0.01));
+  CHECK(gonio::weight_of(0.01) == doctest::Approx(1.0).epsilon(2e-4));
+  CHECK(gonio::weight_of(0.1) == doctest::Approx(1.0 / 1.01));
+  CHECK(gonio::weight_of(2.0) == doctest::Approx(0.2));
+  CHECK(gonio::weight_of(0.1, 0.05) == doctest::Approx(0.2));
   CHECK(gonio::weight_of(std::numeric_limits<double>::infinity()) == 0.0);
   CHECK(gonio::weight_of(std::nan("")) == 0.0);  // 0 +- 0
 }

@@ -1,5 +1,6 @@
 /// gonio-papers directions-measured on made-up materials.
 
+#include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "made_up_networks.hpp"
 #include "papers_tool.hpp"
@@ -48,8 +49,10 @@ TEST_CASE("real measurements are reconstructed from published, optimal and rando
   REQUIRE_MESSAGE(table.exit_code == 0, table.output);
   CHECK(table.output.find("| mean of 1 | 20 | expected-error |") != std::string::npos);
 
-  // What is done is not done again: another folder of sets changes nothing.
-  const auto printed = made_up.evaluate(arguments + " --json --directions " + made_up.at("tables"));
+  // What is done is kept.
+  const std::string kept = scratch::get(made_up.at("state"));
+  const auto printed = made_up.evaluate(arguments + " --json");
+  CHECK(scratch::get(made_up.at("state")) == kept);
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
   const auto all = parse_json(printed.output);
   REQUIRE(all["tables"].size() == 6);
@@ -76,7 +79,7 @@ TEST_CASE("directions-measured: nothing to reconstruct, and nothing left to judg
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("no set by beauty") != std::string::npos);
   CHECK(made_up.evaluate("--eta -1 -n 5 --samples " + made_up.at("paint.brdf")).exit_code == 2);
-  const auto all = made_up.evaluate("-n 60 --samples " + made_up.at("paint.brdf"));
+  const auto all = made_up.evaluate("-n 60 --sets random --samples " + made_up.at("paint.brdf"));
   CHECK(all.exit_code == 2);
   CHECK(all.output.find("no sample is left to judge by") != std::string::npos);
 }

@@ -54,11 +54,13 @@ class reference_light {
   return brdf * solid_angle * cosine_out;
 }
 
-/// How much a sample counts whose relative deviation is known: 1 up to the smallest deviation that a fit can make use
-/// of, then less with its square, since a metric's error is one of the logarithm, or close to it.
-[[nodiscard]] inline double weight_of(double relative_deviation, double smallest = 0.01) noexcept {
-  const double ratio = smallest / std::max(relative_deviation, smallest);
-  return std::isfinite(relative_deviation) ? ratio * ratio : 0.0;
+/// How much a value counts whose relative deviation is known: as variances of the logarithm add up, s^2 / (s^2 + d^2),
+/// where s is by how much a basis is off a material that it does not know. Noise of a few percent says little against a
+/// sample; and that a channel is about black is known even where its value is all noise: weighed by 1 / d^2 it would be
+/// left to the basis, which expects a grey one.
+[[nodiscard]] inline double weight_of(double relative_deviation, double unknown = 1.0) noexcept {
+  const double ratio = relative_deviation / unknown;
+  return std::isfinite(relative_deviation) ? 1.0 / (1.0 + ratio * ratio) : 0.0;
 }
 
 }  // namespace gonio
