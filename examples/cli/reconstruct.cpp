@@ -8,6 +8,7 @@
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "pictures.hpp"
+#include <gonio/core/finite.hpp>
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <iostream>
 #include <memory>
 #include <span>
+#include <sstream>
 #include <string_view>
 
 namespace cli {
@@ -108,9 +110,22 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
   gonio::io::write_png(options.picture, spheres.front());
 }
 
+/// Samples may be such that what they are completed to is no number; it is they that are to blame, not the output.
+void require_finite(const gonio::brdf_table& table, const gonio::sample_set& samples,
+                    const reconstruct_options& options) {
+  if (gonio::all_finite(table.values())) return;
+  double largest = 0.0;
+  for (const gonio::sample& s : samples) largest = std::max(largest, s.value.abs().maxCoeff());
+  std::ostringstream value;
+  value << largest;
+  throw gonio::error{options.samples.native(), ": these samples, of up to ", value.str(),
+                     " sr^-1, complete to a table that is not finite by the method ", options.method};
+}
+
 void reconstruct(const reconstruct_options& options, const picture_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
+  require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.picture.empty()) write_sphere(options, result.table, how);
   if (!options.history.empty()) write_history(options.history, result.history);

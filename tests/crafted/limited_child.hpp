@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <csignal>
 #include <cstddef>
 #include <cstdint>
@@ -31,6 +30,12 @@ inline constexpr bool sanitized = false;
 #endif
 #else
 inline constexpr bool sanitized = false;
+#endif
+
+#if defined(__OPTIMIZE__)
+inline constexpr bool optimised = true;
+#else
+inline constexpr bool optimised = false;
 #endif
 
 /// Beyond twice the file.
@@ -79,7 +84,7 @@ struct report {
     const rlimit memory{address_space() + 2 * bytes.size() + memory_limit, RLIM_INFINITY};
     ::setrlimit(RLIMIT_AS, &memory);
   }
-  const auto patience = static_cast<unsigned>(sanitized ? 60 : 10);
+  const unsigned patience = sanitized || !optimised ? 120 : 20;
   ::alarm(patience);
   for (const int crash : {SIGSEGV, SIGABRT, SIGFPE, SIGILL, SIGBUS}) ::signal(crash, SIG_DFL);
   const report result = read_here(reader, bytes);
@@ -92,7 +97,6 @@ struct report {
 inline report read_in_child(const fuzz::reader& reader, fuzz::input bytes) {
   std::array<int, 2> pipe{};
   REQUIRE(::pipe(pipe.data()) == 0);
-  const auto start = std::chrono::steady_clock::now();
   const pid_t child = ::fork();
   REQUIRE(child >= 0);
   if (child == 0) be_child(reader, bytes, pipe[1]);
@@ -103,14 +107,19 @@ inline report read_in_child(const fuzz::reader& reader, fuzz::input bytes) {
     result.message.append(text.data(), static_cast<std::size_t>(count));
   ::close(pipe[0]);
   int status = 0;
-  REQUIRE(::waitpid(child, &status, 0) == child);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  rusage used{};
+  REQUIRE(::wait4(child, &status, 0, &used) == child);
+  // The processor's: a machine that does other things is not the reader's fault. What waits, the alarm ends.
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  result.seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
   INFO(reader.name << ", " << bytes.size() << " bytes: " << result.message);
   REQUIRE_MESSAGE(WIFEXITED(status), "signal ", WTERMSIG(status));
   result.how = static_cast<outcome>(WEXITSTATUS(status));
   CHECK(result.how != outcome::out_of_memory);
   CHECK_MESSAGE((result.how == outcome::read || result.how == outcome::refused), WEXITSTATUS(status));
-  if (!sanitized) CHECK(result.seconds < seconds_limit);
+  if (!sanitized && optimised) CHECK(result.seconds < seconds_limit);
   return result;
 }
 

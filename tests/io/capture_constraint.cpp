@@ -33,6 +33,8 @@ TEST_CASE("what is no rule is refused with its file and line") {
   refused("separation wide\n", "'wide' is not a number");
   refused("separation nan\n", "not finite");
   refused("light_step 0\n", "must be positive");
+  refused("light_step 7.5 -1\n", "tolerance from 0 to 90 degrees");
+  refused("light_step 7.5 91\n", "tolerance from 0 to 90 degrees");
   refused("light_step 1 2 3\n", "1 or 2 numbers, not 3");
   refused("forbid 0 90\n", "takes 4 numbers");
 }

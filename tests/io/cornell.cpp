@@ -49,6 +49,7 @@ TEST_CASE("what is no such file is refused") {
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 .1 .1\n", {"line 8", "8 fields"});
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 inf\n", {"line 8", "field 7"});
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 1e999\n", {"line 8", "field 7", "out of range"});
+  check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 -1e39\n", {"line 8", "field 7", "-1e+39", "range of float"});
   check_text_refused(start + "1.6 0 0.25 3.1 .1 .1 .1\n", {"line 8", "field 1", "1.6"});
   check_text_refused(start + "0.5 0 -0.25 3.1 .1 .1 .1\n", {"line 8", "field 3", "-0.25"});
   check_text_refused(start + "0.5 40 0.25 3.1 .1 .1 .1\n", {"line 8", "field 2", "40"});

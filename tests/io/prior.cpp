@@ -150,6 +150,8 @@ TEST_CASE("a payload with a right checksum but impossible contents is refused") 
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 700); })).find("impossible") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 30); })).find("truncated") != std::string::npos);
   CHECK(refusal(encode([&](auto& out) { header(out, 4, 0, 3, 1000); })).find("bytes follow") != std::string::npos);
+  for (const std::uint32_t extent : {0u, 4u, 0xffffffffu})
+    CHECK(refusal(encode([&](auto& out) { header(out, extent, 0, 3); })).starts_with("x.prior: "));
 }
 
 TEST_CASE("files: written whole, read back, recognised, and refused where they are no file") {

@@ -160,6 +160,8 @@ TEST_CASE("bad lines are refused by line, column and value") {
   line_refused("1,2,3,nan,5,6", {"column r", "'nan' is not finite"});
   line_refused("1,2,3,4,5,-inf", {"column b", "'-inf' is not finite"});
   line_refused("1,2,3,4,5,1e999", {"column b", "'1e999' is out of range"});
+  line_refused("1,2,3,4,5,1e39", {"column b", "1e+39 sr^-1 is beyond the range of float"});
+  line_refused("1,2,3,-1e300,5,6", {"column r", "-1e+300 sr^-1"});
   line_refused("nan,2,3,4,5,6", {"column theta_h", "'nan' is not finite"});
   line_refused("90,2,3,4,5,6", {"column theta_h", "90 degrees", "horizon"});
   line_refused("-1,2,3,4,5,6", {"column theta_h", "-1 degrees is negative", "expected at least 0"});
@@ -180,6 +182,30 @@ TEST_CASE("bad lines are refused by line, column and value") {
   check_text_refused(vectors + "0,0.6,-0.8,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "horizon", "-0.8"});
   check_text_refused(vectors + "1,0,0,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "horizon"});
   check_text_refused(vectors + "1e200,0,1,0,0,1,1,1,1\n", {"line 2", "wi_x to wi_z", "length"});
+}
+
+TEST_CASE("a direction that grazes the surface is refused as a sample, a direction and a pair, or accepted as all") {
+  const scratch::folder here;
+  const auto path = here / "grazing.csv";
+  const auto accepts = [&](const auto& read) {
+    try {
+      return read(path).size() == 1;
+    } catch (const gonio::error&) {
+      return false;
+    }
+  };
+  int accepted = 0, refused = 0;
+  for (const char* row : {"89.9999999,0,-89.9999989,0", "-89.9999989,0,89.9999999,0", "89.9999999,10,89.9999999,190",
+                          "89.99999999999999,0,0,0", "89.9,0,-89.9,0", "89.999,45,89.999,225"}) {
+    CAPTURE(row);
+    scratch::put(path, "theta_i,phi_i,theta_o,phi_o,r,g,b\n" + std::string(row) + ",1,1,1\n");
+    const bool as_direction = accepts([](const auto& file) { return gonio::io::read_directions(file); });
+    CHECK(accepts([](const auto& file) { return gonio::io::read_direction_pairs(file); }) == as_direction);
+    CHECK(accepts([](const auto& file) { return read_samples(file); }) == as_direction);
+    ++(as_direction ? accepted : refused);
+  }
+  CHECK(accepted >= 2);
+  CHECK(refused >= 1);
 }
 
 TEST_CASE("what is not a file is refused") {

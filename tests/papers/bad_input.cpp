@@ -1,8 +1,10 @@
 /// What gonio-papers refuses, in one line and with exit code 2.
 
+#include "../io/scratch.hpp"
 #include "papers_tool.hpp"
 
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -30,6 +32,15 @@ TEST_CASE("help is no error") {
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);
   }
+}
+
+TEST_CASE("a file of states may be nested to any depth, and is no pipe") {
+  const scratch::folder folder;
+  const std::string state = (folder / "state").string(), pipe = (folder / "pipe").string();
+  scratch::put(state, std::string(200'000, '[') + "\n" + std::string(200'000, '[') + std::string(200'000, ']') + "\n");
+  refuses("noell-table1 --networks /no/such/file.npy --state " + state, {"/no/such/file.npy"});
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  refuses("noell-table1 --networks /no/such/file.npy --state " + pipe, {"pipe", "not a regular file"});
 }
 
 TEST_CASE("bad requests of the experiments after Noell et al.") {

@@ -32,6 +32,7 @@ TEST_CASE("what no estimator can use is refused with the sample's number") {
   refused({{nan, 0.2, 0.3}, rgb::Ones(), 1.0}, "angle is not finite");
   refused({{0.1, 0.2, inf}, rgb::Ones(), 1.0}, "angle is not finite");
   refused({{0.1, 0.2, 0.3}, rgb(1, nan, 1), 1.0}, "reflectance is not finite");
+  refused({{0.1, 0.2, 0.3}, rgb(1, 1, -1e39), 1.0}, "beyond the range of float");
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), -1.0}, "weight");
   refused({{0.1, 0.2, 0.3}, rgb::Ones(), inf}, "weight");
   refused({{1.0, 1.2, 0.0}, rgb::Ones(), 1.0}, "horizon");

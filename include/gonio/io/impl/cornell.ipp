@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -67,7 +68,12 @@ GONIO_INLINE void cornell_parser::read_sample() {
     place_.refuse(std::to_string(fields_.size()) + " fields, expected 4 angles and " + std::to_string(count_) +
                   " reflectances");
   reflectances_.clear();
-  for (std::size_t i = 4; i < fields_.size(); ++i) reflectances_.push_back(number(i));
+  for (std::size_t i = 4; i < fields_.size(); ++i) {
+    reflectances_.push_back(number(i));
+    if (std::abs(reflectances_.back()) > double{std::numeric_limits<float>::max()})
+      place_.refuse("field " + std::to_string(i + 1) + ": " + shortest(reflectances_.back()) +
+                    " sr^-1 is beyond the range of float");
+  }
   const direction wi = read_direction(0), wo = read_direction(2);
   samples_.push_back({to_half_difference(wi, wo), (*colour_)(reflectances_), 1.0});
 }

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -270,6 +271,15 @@ struct row_place {
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
+[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row) {
+  const double* colour = &row.numbers[colour_group.first];
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    if (std::abs(colour[channel]) > double{std::numeric_limits<float>::max()})
+      row.place.refuse({"column ", sample_columns[colour_group.first + channel], ": ", shortest(colour[channel]),
+                        " sr^-1 is beyond the range of float"});
+  return {colour[0], colour[1], colour[2]};
+}
+
 GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
   const half_difference& at = s.angles;
   for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
@@ -298,8 +308,7 @@ GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& 
   detail::row_reader rows(text, name, true);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
-    const double* colour = &row.numbers[detail::colour_group.first];
-    samples.push_back({detail::row_angles(row), {colour[0], colour[1], colour[2]}, detail::row_weight(row)});
+    samples.push_back({detail::row_angles(row), detail::row_value(row), detail::row_weight(row)});
   }
   return samples;
 }

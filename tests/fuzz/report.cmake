@@ -1,0 +1,55 @@
+# Writes how far the harnesses of the readers went, from the logs that `fuzz` leaves in build/fuzz/tests/fuzz/:
+#   cmake -D LOGS=build/fuzz/tests/fuzz -D OUTPUT=docs/results/fuzzing.md -P tests/fuzz/report.cmake
+# A log with a finding is refused: mend it, remove the log, and begin anew.
+cmake_minimum_required(VERSION 3.25)
+
+set(rows)
+set(all 0)
+set(all_seconds 0)
+file(GLOB harnesses "${CMAKE_CURRENT_LIST_DIR}/*.cpp")
+foreach(harness IN LISTS harnesses)
+  get_filename_component(reader "${harness}" NAME_WE)
+  file(READ "${LOGS}/${reader}/log" log)
+  if(log MATCHES "ERROR: |SUMMARY: ")
+    message(FATAL_ERROR "${LOGS}/${reader}/log has a finding")
+  endif()
+  set(sum 0)
+  set(seconds 0)
+  set(slowest 0)
+  set(memory 0)
+  string(REGEX MATCHALL "stat::[a-z_]+: +[0-9]+" figures "${log}")
+  foreach(figure IN LISTS figures)
+    string(REGEX REPLACE "stat::([a-z_]+): +([0-9]+)" "\\1;\\2" pair "${figure}")
+    list(GET pair 0 what)
+    list(GET pair 1 number)
+    if(what STREQUAL "number_of_executed_units")
+      math(EXPR sum "${sum} + ${number}")
+      set(executed ${number})
+    elseif(what STREQUAL "average_exec_per_sec" AND number GREATER 0)
+      math(EXPR seconds "${seconds} + ${executed} / ${number}")
+    elseif(what STREQUAL "slowest_unit_time_sec" AND number GREATER slowest)
+      set(slowest ${number})
+    elseif(what STREQUAL "peak_rss_mb" AND number GREATER memory)
+      set(memory ${number})
+    endif()
+  endforeach()
+  file(GLOB corpus "${LOGS}/${reader}/corpus/*")
+  list(LENGTH corpus kept)
+  math(EXPR all "${all} + ${sum}")
+  math(EXPR all_seconds "${all_seconds} + ${seconds}")
+  string(APPEND rows "| `${reader}` | ${sum} | ${seconds} | ${kept} | ${slowest} | ${memory} |\n")
+endforeach()
+
+string(TIMESTAMP today "%Y-%m-%d")
+file(WRITE "${OUTPUT}" "# How far the readers were fuzzed
+
+Written by `cmake -D LOGS=build/fuzz/tests/fuzz -D OUTPUT=docs/results/fuzzing.md -P tests/fuzz/report.cmake`, ${today}, from the logs of
+the target `fuzz` (`cmake -S . -B build/fuzz -G Ninja -D CMAKE_CXX_COMPILER=clang++-19 -D GONIO_BUILD_FUZZ=ON -D GONIO_FUZZ_SECONDS=200`,
+`ninja -C build/fuzz fuzz`): libFuzzer with the address and undefined-behaviour sanitizers, files of up to 16 KiB, no allocation above 64 MiB,
+512 MB in all, two seconds a file. A finding is a crash, what a sanitizer says, an exception that is no `gonio::error`, and a refusal that does
+not name the file or holds control characters. There is none since the mends that the files in `tests/fuzz/found` and `tests/crafted` keep.
+
+| reader | files read | seconds | files kept, as they reach new code | slowest, whole seconds | largest memory of the process, MB |
+|---|---|---|---|---|---|
+${rows}| all | ${all} | ${all_seconds} | | | |
+")
