@@ -30,7 +30,8 @@ void print(const gonio::comparison& errors) {
        fixed(errors.cosine_rms.mean(), 4) + "   sr^-1, values weighted by max(cos_i cos_o, 0.001)");
   line("Delta E, lights   ", fixed(errors.delta_e_lights, 2) + "   CIELAB 1976, sphere under two lights");
   line("Delta E, env      ", fixed(errors.delta_e_env, 2) + "   the same under the closed-form environment");
-  line("peak ratio        ", fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5, theta_d <= 70 degrees");
+  line("peak ratio        ",
+       fixed(errors.peak_ratio.mean(), 3) + "   99.9th percentile over theta_h < 5, theta_d <= 70 degrees");
   line("spheres: sRGB, D65, exposed so that a white Lambertian sphere has mean luminance 1", "");
 }
 

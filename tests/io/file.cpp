@@ -1,6 +1,7 @@
 #include "scratch.hpp"
 #include <gonio/io/file.hpp>
 
+#include <sched.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -278,16 +279,22 @@ TEST_CASE("a full disk leaves the old file whole") {
 }
 
 TEST_CASE("writers of one file do not disturb each other") {
-  const scratch::folder here;
-  const auto write = [&](char letter) {
-    for (int i = 0; i < 50; ++i) write_atomically(here / "a", bytes_of(std::string(1000, letter)));
-  };
-  std::thread other(write, 'x');
-  write('y');
-  other.join();
-  const std::string content = scratch::get(here / "a");
-  CHECK((content == std::string(1000, 'x') || content == std::string(1000, 'y')));
-  CHECK(here.entries() == 1);
+  for (const staging held : {staging::unnamed, staging::named}) {
+    const scratch::folder here;
+    const auto write = [&](char letter) {
+      for (int i = 0; i < 50; ++i) {
+        file_writer file(here / "a", held);
+        file.write(bytes_of(std::string(1000, letter)));
+        file.commit();
+      }
+    };
+    std::thread other(write, 'x');
+    write('y');
+    other.join();
+    const std::string content = scratch::get(here / "a");
+    CHECK((content == std::string(1000, 'x') || content == std::string(1000, 'y')));
+    CHECK(here.entries() == 1);
+  }
 }
 
 TEST_CASE("a process that is killed while it writes leaves nothing behind") {
@@ -319,6 +326,44 @@ TEST_CASE("a signal's handler removes the files that have a name") {
   CHECK(here.entries() == 0);
   CHECK(signal_that_ends(die_tidily(SIGINT)) == SIGINT);
   CHECK(here.entries() == 0);
+}
+
+TEST_CASE("a file that is refused a name is copied") {
+  const scratch::folder here;
+  scratch::put(here / "a", "old");
+  permit(here / "a", 0640);
+  const std::string content(200'000, 'x');
+  const auto write_where_no_link_is_made = [&] {
+    // The way to a file without a name leads through /proc, which is gone when it is wanted.
+    if (::unshare(CLONE_NEWNS) != 0 || ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) ::_exit(77);
+    for (const char* name : {"a", "b"}) {
+      file_writer file(here / name);
+      file.write(bytes_of(content));
+      if (name[0] == 'a' && ::umount2("/proc", MNT_DETACH) != 0) ::_exit(77);
+      file.commit();
+    }
+  };
+  const pid_t child = ::fork();
+  REQUIRE(child >= 0);
+  if (child == 0) {
+    try {
+      write_where_no_link_is_made();
+      ::_exit(0);
+    } catch (const gonio::error&) {
+      ::_exit(1);
+    }
+  }
+  int status = 0;
+  REQUIRE(::waitpid(child, &status, 0) == child);
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 77) {
+    MESSAGE("skipped: a process without /proc can be made by root only");
+    return;
+  }
+  CHECK(status == 0);
+  CHECK(scratch::get(here / "a") == content);
+  CHECK(scratch::get(here / "b") == content);
+  CHECK(scratch::fs::status(here / "a").permissions() == static_cast<scratch::fs::perms>(0640));
+  CHECK(here.entries() == 2);
 }
 
 TEST_CASE("only what no process can go on with is removed") {

@@ -122,6 +122,8 @@ class file_writer {
   void open_folder();
   [[nodiscard]] bool create_unnamed();
   void create_named();
+  void copy_to_named();
+  void settle();
 
   /// Takes one name after the other until `claim(name)` says that it is free. False, and errno, if none is.
   template <class Claim>

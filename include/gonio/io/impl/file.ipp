@@ -27,6 +27,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
@@ -38,6 +39,8 @@ GONIO_INLINE void refuse_file(const std::filesystem::path& path, std::initialize
 }
 
 inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix = ".tmp";
+
+inline std::atomic<std::uint32_t> next_temporary{0};
 
 /// This machine's name, as far as a file's name can hold it. Made without memory or locks.
 class machine_name {
@@ -95,7 +98,12 @@ GONIO_INLINE bool may_be_abandoned(std::string_view name) {
   if (number < 0 || process <= 0) return false;
   // Earlier versions did not name the machine.
   if (const machine_name here; !name.empty() && name != std::string_view(here)) return false;
-  return process == ::getpid() || (::kill(process, 0) != 0 && errno == ESRCH);
+  if (process != ::getpid()) return ::kill(process, 0) != 0 && errno == ESRCH;
+  // Not those that another thread is writing.
+  return std::ranges::none_of(named_temporaries, [&](const auto& place) {
+    const std::uint64_t note = place.load();
+    return note != 0 && static_cast<std::uint32_t>(note & 0xffff'ffffu) == static_cast<std::uint32_t>(number);
+  });
 }
 
 GONIO_INLINE void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened) {
@@ -162,20 +170,40 @@ GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
 }
 
 GONIO_INLINE void file_writer::commit() {
-  // The old file's permissions are kept where the file system knows such a thing.
-  if (replaces_) static_cast<void>(::fchmod(file_.get(), old_mode_));
-  // Some file systems have nothing to synchronise, and say EINVAL.
-  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
+  settle();
   const std::filesystem::path name = target_.filename();
   if (!temporary_) {
     if (!replaces_ && link_as(name.c_str())) return;
     // A link replaces nothing, a name does.
-    if (!claim_name([&](const char* beside) { return link_as(beside); })) fail();
-  } else if (!file_.close()) {
-    fail();
+    if (!claim_name([&](const char* beside) { return link_as(beside); })) copy_to_named();
   }
+  // Some file systems report a failed write only when a descriptor is closed; this one keeps the lock.
+  if (!detail::descriptor(::dup(file_.get())).close()) fail();
   if (::renameat(folder_.get(), temporary_->c_str(), folder_.get(), name.c_str()) != 0) fail();
   forget_name(false);
+}
+
+GONIO_INLINE void file_writer::settle() {
+  // The old file's permissions are kept where the file system knows such a thing.
+  if (replaces_) static_cast<void>(::fchmod(file_.get(), old_mode_));
+  // Some file systems have nothing to synchronise, and say EINVAL.
+  if (::fsync(file_.get()) != 0 && errno != EINVAL) fail();
+}
+
+/// What has no name may be refused one, by a file system or a policy that knows no links.
+GONIO_INLINE void file_writer::copy_to_named() {
+  const detail::descriptor unnamed = std::move(file_);
+  create_named();
+  std::vector<std::byte> block(std::size_t{1} << 16);
+  for (off_t at = 0;;) {
+    const ssize_t count = ::pread(unnamed.get(), block.data(), block.size(), at);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail();
+    if (count == 0) break;
+    write(std::span(block).first(static_cast<std::size_t>(count)));
+    at += count;
+  }
+  settle();
 }
 
 GONIO_INLINE void file_writer::fail() const {
@@ -205,7 +233,7 @@ GONIO_INLINE void file_writer::open_folder() {
 
 GONIO_INLINE bool file_writer::create_unnamed() {
 #if defined(O_TMPFILE)
-  file_ = detail::descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666));
+  file_ = detail::descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
   if (!file_.is_open()) return false;
   // It is given its name through this link, which a process may not have.
   if (::access(message_of({"/proc/self/fd/", file_.get()}).c_str(), F_OK) == 0) return true;
@@ -224,10 +252,9 @@ GONIO_INLINE void file_writer::create_named() {
 
 template <class Claim>
 bool file_writer::claim_name(Claim&& claim) {
-  static std::atomic<std::uint32_t> next{0};
   // A process of this number that was killed may have left a name that could not be removed.
   for (int attempt = 0; attempt < 1000; ++attempt) {
-    temporary_.emplace(next++);
+    temporary_.emplace(detail::next_temporary++);
     // Noted before it is there, so that a signal at any time removes it.
     for (auto& place : detail::named_temporaries) {
       std::uint64_t free = 0;
