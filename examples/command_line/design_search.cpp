@@ -149,6 +149,19 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
   return with(prior, gonio::near_field_geometry(near_field), options, listener);
 }
 
+designed placed(const gonio::log_relative_pca& prior, const design_options& options,
+                const std::vector<gonio::direction_pair>& poses) {
+  const auto at = [&](const auto& geometry) {
+    capture_plan plan;
+    for (const gonio::direction_pair& pair : poses) plan.candidates.push_back(geometry.nearest(pair));
+    return finished(geometry, plan);
+  };
+  const auto& near_field = options.near_field;
+  if (options.geometry == "point") return at(gonio::point_geometry(prior.cells(), near_field.constraint));
+  if (options.geometry == "sphere") return at(gonio::sphere_geometry(prior.cells()));
+  return at(gonio::near_field_geometry(near_field));
+}
+
 design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options, const designed& found) {
   const gonio::expected_error criterion = expected_error_of(prior, options);
   const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);

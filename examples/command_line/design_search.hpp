@@ -38,6 +38,10 @@ struct designed {
 [[nodiscard]] designed design(const gonio::log_relative_pca& prior, const design_options& options,
                               const gonio::progress& listener = {});
 
+/// What is measured at some poses: at the candidates of the options' geometry that are nearest to them.
+[[nodiscard]] designed placed(const gonio::log_relative_pca& prior, const design_options& options,
+                              const std::vector<gonio::direction_pair>& poses);
+
 /// The expected error of measurements: root mean square over the cells, in the mapped domain; and as a share of what it
 /// is with nothing measured. It is that of materials left out of the prior one by one, unless the options say
 /// otherwise.

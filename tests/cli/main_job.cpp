@@ -105,6 +105,13 @@ TEST_CASE("learning from a folder of tables") {
   const auto learned = gonio_tool("learn --merl " + folder.path().string() + " --components 4 -o " + prior);
   CHECK(learned.exit_code == 0);
   CHECK(learned.output.find("3 materials") != std::string::npos);
+  const auto weight = [&](const std::string& arguments) {
+    const auto made = gonio_tool("learn --merl " + folder.path().string() + " --components 4 -o " + prior + arguments);
+    REQUIRE_MESSAGE(made.exit_code == 0, made.output);
+    return parse_json(gonio_tool("info --json " + prior).output)["cosine_weight"];
+  };
+  CHECK(weight(" --cosine-weight larger") == "larger");
+  CHECK(weight("") == "product");
   CHECK(parse_json(gonio_tool("info --json " + prior).output)["components"] == 4);
   const auto without =
       gonio_tool("learn --merl " + folder.path().string() + " --exclude gold --components 2 -o " + prior);

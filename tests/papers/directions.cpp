@@ -58,6 +58,15 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   REQUIRE_MESSAGE(pictures.exit_code == 0, pictures.output);
   CHECK(parse_json(pictures.output)[0]["result"]["samples"].get<int>() > 100);
 
+  // A set that was written is what was found.
+  const std::string found = "--geometry near-field -n 1 --step 40 --sets expected-error --json";
+  const auto once = evaluate(found + " --write " + at("sets"));
+  REQUIRE_MESSAGE(once.exit_code == 0, once.output);
+  const auto from_file = evaluate("--geometry near-field --step 40 --sets published --json --files " +
+                                  at("sets/near-field-25-1-expected-error.csv"));
+  REQUIRE_MESSAGE(from_file.exit_code == 0, from_file.output);
+  CHECK(rms(from_file.output) == rms(once.output));
+
   const std::string off = "-n 5 --sets published --misplaced 2 --json";
   const auto trusting = evaluate(off), expecting = evaluate(off + " --expected-misplacement 2");
   REQUIRE_MESSAGE(expecting.exit_code == 0, expecting.output);
@@ -69,9 +78,8 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   REQUIRE_MESSAGE(refined.exit_code == 0, refined.output);
   CHECK(rms(refined.output) != rms(evaluate(shots).output));
 
-  for (const char* arguments :
-       {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
-        "--reconstruction-eta gcv --expected-misplacement 1", "--geometry sphere --files none.csv"}) {
+  for (const char* arguments : {"--geometry sphere --misplaced 1", "--geometry sphere --expected-misplacement 1",
+                                "--reconstruction-eta gcv --expected-misplacement 1", "--files none.csv"}) {
     CAPTURE(arguments);
     const auto refused = evaluate(arguments);
     CHECK(refused.exit_code == 2);

@@ -106,8 +106,6 @@ bool exists(const directions_options& options, const std::string& set, std::size
 
 /// All sets that exist, and the files.
 std::vector<judged_set> sets_to_judge(const directions_options& options) {
-  if (!options.files.empty() && options.geometry != "point")
-    throw gonio::error("--files are directions of points, not of " + options.geometry);
   std::vector<judged_set> all;
   for (const std::filesystem::path& file : options.files) {
     auto directions = gonio::io::read_direction_pairs(file);
@@ -124,6 +122,8 @@ std::vector<judged_set> sets_to_judge(const directions_options& options) {
 designed find_set(const laboratory& lab, const directions_options& options, const judged_set& wanted,
                   const gonio::progress& listener) {
   const auto& [set, count, directions] = wanted;
+  if (!directions.empty() && options.geometry != "point")
+    return placed(lab.prior, search_for(options, "expected-error", count), directions);
   if (!directions.empty()) {
     designed found{directions, {}, 0.0};
     for (const auto& [wi, wo] : directions) found.samples.push_back(gonio::to_half_difference(wi, wo));
@@ -324,7 +324,8 @@ void add_directions(command& app) {
       .check(check::one_of(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       .capture_default_str();
-  command.add_input("--files", options->files, "Directions of points to judge beside them (.csv)");
+  command.add_input("--files", options->files,
+                    "Directions to judge beside them, of pictures those of the centre (.csv)");
   add_counts_option(command, options->counts);
   command.add_option("--geometry", options->geometry, "As `gonio design` has them")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
