@@ -2,6 +2,7 @@
 #include "made_up_candidates.hpp"
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/search.hpp>
+#include <gonio/solve/singular_values.hpp>
 
 #include <doctest/doctest.h>
 
