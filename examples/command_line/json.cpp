@@ -191,7 +191,9 @@ class json_reader {
   static void keep_last_of_each_key(std::vector<json::member>& members) {
     std::vector<std::size_t> by_key(members.size());
     std::iota(by_key.begin(), by_key.end(), std::size_t{0});
-    std::ranges::stable_sort(by_key, {}, [&](std::size_t i) -> const std::string& { return members[i].first; });
+    std::ranges::sort(by_key, [&](std::size_t i, std::size_t j) {
+      return std::tie(members[i].first, i) < std::tie(members[j].first, j);
+    });
     std::vector<bool> repeated(members.size());
     for (std::size_t i = 1, first = 0; i < by_key.size(); ++i) {
       if (members[by_key[i]].first != members[by_key[first]].first) {
