@@ -161,7 +161,10 @@ TEST_CASE("small files that were made by hand, and those that fuzzers found, are
       if (!std::filesystem::exists(here)) continue;
       for (const auto& entry : std::filesystem::directory_iterator(here)) {
         INFO(entry.path());
-        crafted::read_in_child(reader, content_of(entry.path()));
+        const crafted::report result = crafted::read_in_child(reader, content_of(entry.path()));
+        // Seeds are of the kind, or a fuzzer would begin with nothing; one grazes the surface.
+        if (folder == std::string("seeds") && entry.path().filename() != "directions.csv")
+          CHECK_MESSAGE(result.how == crafted::outcome::read, result.message);
         ++files;
       }
     }

@@ -109,8 +109,9 @@ put("cornell", "two.brdf", "2\n400\n700\n0 0 0 0 0.5 0.25\n")
 put("capture_constraint", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparation 15 # degrees\nlight_step 7.5 0.5\nforbid 60 90 60 90\n")
 put("capture_constraint", "step.txt", "light_step 7.5\n")
 put("near_field_setup", "target.txt", "size 640 480\nfocal_length 1210.5\nposition 0.5 0 0.3\ntarget 0 0 0\nlight_angles 50 180\nregion 0.1\nblock 4\nsaturation 2\n")
-put("near_field_setup", "rotation.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nwindow 1 2 30 20\nregion 0.2 0.1 0\nup 0 1 0\n")
+put("near_field_setup", "rotation.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nwindow 1 2 30 20\nregion 0.2 0.1 0\n")
 put("scan_journal", "small.scan", "# gonio scan\nlargest_count 255\npose 0 0 1 0.6 0 0.8\npose 0 0 1 0 0.6 0.8\nreading 0 2 0.1 1 1 9 8 7 99 88 77 ?\nreading 1 1 0.5 2 1 2 3 4 5 6 ?\n")
+put("scan_journal", "whole.scan", "# gonio scan\nsample 7 red paint\nsetup ? gantry, ideal\nseed 1\nlargest_count 255\nplan 1 ?\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 ?\n")
 put("scan_journal", "cut.scan", "largest_count 65535\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 99")
 palette = chunk(b"PLTE", bytes(range(12)))
 put("png", "rgb.png", png(3, 4, 8, 2, 3))
@@ -146,7 +147,7 @@ words = {
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
     "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
     "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
-    "scan_journal": ['largest_count', 'pose', 'reading', '?', '#', '\\x0A', '65535', '0 0 1', '0.6 0 0.8', '1000', '1000000', '1e9', 'nan'],
+    "scan_journal": ['sample ', 'setup ? ', 'seed ', 'plan 1 ?', 'largest_count', 'pose', 'reading', '?', '#', '\\x0A', '65535', '0 0 1', '0.6 0 0.8', '1000', '1000000', '1e9', 'nan'],
     "png": ['\\x89PNG\\x0D\\x0A\\x1A\\x0A', 'IHDR', 'IDAT', 'IEND', 'PLTE', 'tRNS', 'gAMA', 'CgBI', '\\x00\\x00\\x40\\x00', '\\x00\\x00\\x00\\x0D', '\\x78\\x9C'],
     "hdr": ['#?RADIANCE', '#?RGBE', 'FORMAT=32-bit_rle_rgbe', 'EXPOSURE=', '-Y ', '+X ', '+Y ', '\\x0A\\x0A', '16384', '\\x02\\x02\\x00\\x08', '\\x88', '\\xFF'],
     "ply": ['ply', 'format ascii 1.0', 'format binary_little_endian 1.0', 'format binary_big_endian 1.0', 'element vertex ', 'element face ', 'property list ', 'property ', 'uchar', 'char', 'short', 'ushort', 'int', 'uint', 'float', 'double', 'int8', 'float64', 'vertex_indices', 'vertex_index', 'end_header', 'comment', 'obj_info', '\\x0A', '4294967295', '18446744073709551615', 'nan'],
