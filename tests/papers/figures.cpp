@@ -74,7 +74,7 @@ TEST_CASE("figures 2015-8, 2015-9 and 2016-19: points and spheres") {
   CHECK(eight[1]["rows"].size() == 3);
 
   // The same reconstruction as the whole pipeline's, whose negative values are clamped.
-  const auto whole = database.evaluate("directions --sets published industry -n 5 --eta 40 --json");
+  const auto whole = database.evaluate("directions --sets published industry -n 5 --reconstruction-eta 40 --json");
   REQUIRE_MESSAGE(whole.exit_code == 0, whole.output);
   const json mean = eight[0]["rows"].back();
   for (const json& set : parse_json(whole.output))

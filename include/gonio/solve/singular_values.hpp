@@ -13,9 +13,9 @@ namespace gonio {
 [[nodiscard]] Eigen::VectorXd singular_values(const matrix_view& a, const char* what);
 
 /// By how much the values of k may be off, as a share of the largest. Measured: 5e-15, 1.7e-14 and 7e-14 for k = 5, 40
-/// and 269, and over 10,000 random matrices of up to 40 columns at most 0.7 of it.
+/// and 269; none of 10,000 random matrices of up to 40 columns is beyond it.
 [[nodiscard]] constexpr double singular_value_rounding(Eigen::Index k) noexcept {
-  return (40.0 + 4.0 * static_cast<double>(k)) * 0x1p-52;
+  return (30.0 + 3.0 * static_cast<double>(k)) * 0x1p-52;
 }
 
 }  // namespace gonio
