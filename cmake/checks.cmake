@@ -26,14 +26,14 @@ if("weight" IN_LIST parts)
   step("weight" ${cmake} -D GUARD=ON -P cmake/compile_times.cmake)
 endif()
 
-# In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, and the
-# quick runs of the papers' experiments.
+# In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
+# quick runs of the papers' experiments, and 50 kills of each long command.
 if("others" IN_LIST parts)
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
        -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
-  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers")
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills")
 endif()
 
 if("sanitize" IN_LIST parts)
