@@ -7,6 +7,17 @@
 
 namespace gonio {
 
+namespace detail {
+
+/// x becomes (r, v) where the reflection I - f (1, v)(1, v)' takes x to (r, 0, ...); returns f, 0 where x is so
+/// already.
+[[nodiscard]] double make_reflection(double* x, Eigen::Index count);
+
+/// y becomes y - f (1, v)(1, v)'y: `count` numbers, of which v has one less.
+void reflect(double factor, const double* v, double* y, Eigen::Index count);
+
+}  // namespace detail
+
 /// A = Q R for n x k: R is min(n, k) x k, upper triangular, with either sign on its diagonal. 2 k^2 (n - k/3)
 /// operations.
 class householder_qr {

@@ -11,22 +11,35 @@
 #include <cmath>
 #include <utility>
 
+namespace gonio::detail {
+
+GONIO_INLINE double make_reflection(double* x, Eigen::Index count) {
+  if (norm(x + 1, count - 1) == 0.0) return 0.0;
+  // What is left of a column that depends on others may be denormal: a power of two gives its digits back.
+  const double inverse = near_inverse(norm(x, count));
+  for (Eigen::Index i = 0; i < count; ++i) x[i] *= inverse;
+  const double reflected = -std::copysign(norm(x, count), *x), first = *x - reflected;
+  for (Eigen::Index i = 1; i < count; ++i) x[i] /= first;
+  *x = reflected / inverse;
+  return -first / reflected;
+}
+
+GONIO_INLINE void reflect(double factor, const double* v, double* y, Eigen::Index count) {
+  const double amount = factor * (y[0] + dot(v, y + 1, count - 1));
+  y[0] -= amount;
+  add_scaled(-amount, v, y + 1, count - 1);
+}
+
+}  // namespace gonio::detail
+
 namespace gonio {
 
 GONIO_INLINE householder_qr::householder_qr(Eigen::MatrixXd a) : packed_(std::move(a)) {
   const Eigen::Index n = packed_.rows(), k = packed_.cols();
   factors_ = Eigen::VectorXd::Zero(std::min(n, k));
   for (Eigen::Index number = 0; number < factors_.size(); ++number) {
-    double* top = &packed_(number, number);
-    const Eigen::Index below = n - number - 1;
-    if (norm(top + 1, below) == 0.0) continue;
-    // What is left of a column that depends on others may be denormal: a power of two gives its digits back.
-    const double inverse = near_inverse(norm(top, below + 1));
-    for (Eigen::Index i = 0; i <= below; ++i) top[i] *= inverse;
-    const double reflected = -std::copysign(norm(top, below + 1), *top), first = *top - reflected;
-    factors_[number] = -first / reflected;
-    for (Eigen::Index i = 1; i <= below; ++i) top[i] /= first;
-    *top = reflected / inverse;
+    factors_[number] = detail::make_reflection(&packed_(number, number), n - number);
+    if (factors_[number] == 0.0) continue;
     for (Eigen::Index column = number + 1; column < k; ++column) reflect(number, &packed_(0, column));
   }
 }
@@ -36,11 +49,8 @@ GONIO_INLINE double householder_qr::length(Eigen::Index column) const {
 }
 
 GONIO_INLINE void householder_qr::reflect(Eigen::Index number, double* y) const {
-  const Eigen::Index below = rows() - number - 1;
   const double* v = packed_.data() + number * rows() + number + 1;
-  const double amount = factors_[number] * (y[number] + dot(v, y + number + 1, below));
-  y[number] -= amount;
-  add_scaled(-amount, v, y + number + 1, below);
+  detail::reflect(factors_[number], v, y + number, rows() - number);
 }
 
 GONIO_INLINE void householder_qr::apply_transposed(double* y) const {

@@ -18,28 +18,12 @@ namespace gonio {
 
 namespace detail {
 
-/// x becomes (r, v) where the reflection I - f (1, v)(1, v)' takes x to (r, 0, ...); returns f.
-[[nodiscard]] GONIO_INLINE double make_reflection(double* x, Eigen::Index count) {
-  const double tail = norm(x + 1, count - 1);
-  if (tail == 0.0) return 0.0;
-  const double reflected = -std::copysign(std::hypot(*x, tail), *x);
-  const double factor = (reflected - *x) / reflected, divisor = *x - reflected;
-  for (Eigen::Index i = 1; i < count; ++i) x[i] /= divisor;
-  *x = reflected;
-  return factor;
-}
-
 /// Column `step` of a square matrix to (.., d, 0, ...) by a reflection of its rows from `step` on; returns d.
 [[nodiscard]] GONIO_INLINE double reflect_rows(Eigen::Index step, Eigen::MatrixXd& r) {
-  const Eigen::Index k = r.cols(), below = k - step - 1;
+  const Eigen::Index k = r.cols();
   double* x = &r(step, step);
-  const double factor = make_reflection(x, below + 1);
-  for (Eigen::Index column = step + 1; column < k; ++column) {
-    double* y = &r(step, column);
-    const double amount = factor * (y[0] + dot(x + 1, y + 1, below));
-    y[0] -= amount;
-    add_scaled(-amount, x + 1, y + 1, below);
-  }
+  const double factor = make_reflection(x, k - step);
+  for (Eigen::Index column = step + 1; column < k; ++column) reflect(factor, x + 1, &r(step, column), k - step);
   return *x;
 }
 
