@@ -14,7 +14,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <vector>
 
 namespace gonio {
 
@@ -30,21 +29,15 @@ template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_noise(const pca<Metric>& prior, const Samples& samples, double noise,
                                   thread_count threads = {}) {
   const located_samples located = locate_samples(prior.cells(), samples, threads);
-  std::vector<left_out_error> errors;  // of each channel, if these do not count alike
-  double largest = 0.0;
+  detail::summed_scores<left_out_error> errors;  // of each channel, if these do not count alike
   for (Eigen::Index column = 0; column < located.weights.cols(); ++column) {
     const Eigen::VectorXd weights = located.weights.col(column);
     if (weights.isZero(0.0)) continue;
-    errors.emplace_back(prior, located.at, weights, noise, threads);
-    largest = std::max(largest, errors.back().largest());
+    errors.parts.emplace_back(prior, located.at, weights, noise, threads);
   }
-  const auto sum = [&](const Eigen::VectorXd& etas) {
-    Eigen::VectorXd all = errors.front()(etas);
-    for (std::size_t i = 1; i < errors.size(); ++i) all += errors[i](etas);
-    return all;
-  };
   // Less than 1e-7 of the largest eigenvalue is no penalty; a hundred times that eigenvalue leaves the mean material.
-  return detail::eta_of_least(sum, 1e-7 * largest, 1e2 * largest);
+  const double largest = errors.largest();
+  return detail::eta_of_least(errors, 1e-7 * largest, 1e2 * largest);
 }
 
 /// The etas of no noise and of the largest that is plausible, for cross-validation to choose between: of a few rows GCV

@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <span>
+#include <vector>
 
 namespace gonio {
 
@@ -47,6 +49,23 @@ template <class Scores>
       geometric(coarse[std::max<Eigen::Index>(best - 1, 0)], coarse[std::min<Eigen::Index>(best + 1, steps)], 31);
   return fine[last_least(scores(fine))];
 }
+
+/// Scores of one eta for several problems: their sum. `largest` of each is the largest eigenvalue of its A'WA.
+template <class Scores>
+struct summed_scores {
+  std::vector<Scores> parts;
+
+  [[nodiscard]] double largest() const {
+    double most = 0.0;
+    for (const Scores& each : parts) most = std::max(most, each.largest());
+    return most;
+  }
+  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const {
+    Eigen::VectorXd sum = parts.front()(etas);
+    for (std::size_t i = 1; i < parts.size(); ++i) sum += parts[i](etas);
+    return sum;
+  }
+};
 
 void require_etas(const eta_range& range);
 

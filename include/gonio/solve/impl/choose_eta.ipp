@@ -191,16 +191,10 @@ GONIO_INLINE double choose_eta(std::span<const least_squares_problem> problems, 
   const auto is_telling = [](const least_squares_problem& problem) { return problem.observations() >= 2; };
   const bool any_tells = std::ranges::any_of(problems, is_telling);
   if (!any_tells && std::isfinite(plausible.highest)) return plausible.highest;
-  std::vector<detail::eta_scores> all;
+  detail::summed_scores<detail::eta_scores> scores;
   for (const least_squares_problem& problem : problems)
-    if (is_telling(problem) || !any_tells) all.emplace_back(problem, criterion);
-  double largest = 0.0;
-  for (const detail::eta_scores& each : all) largest = std::max(largest, each.largest());
-  const auto scores = [&](const Eigen::VectorXd& etas) {
-    Eigen::VectorXd sum = all.front()(etas);
-    for (std::size_t i = 1; i < all.size(); ++i) sum += all[i](etas);
-    return sum;
-  };
+    if (is_telling(problem) || !any_tells) scores.parts.emplace_back(problem, criterion);
+  const double largest = scores.largest();
   const auto bounded = [&](double eta) { return std::clamp(eta, plausible.lowest, plausible.highest); };
   return bounded(detail::eta_of_least(scores, bounded(1e-10 * largest), bounded(1e2 * largest)));
 }
