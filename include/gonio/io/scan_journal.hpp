@@ -7,7 +7,6 @@
 #include <gonio/io/rules.hpp>
 
 #include <sys/file.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>

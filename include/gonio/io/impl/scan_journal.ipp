@@ -4,12 +4,12 @@
 #include <gonio/capture/device.hpp>
 #include <gonio/capture/scan.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/rules.hpp>
 #include <gonio/io/scan_journal.hpp>
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <charconv>
@@ -26,12 +26,10 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::uint32_t crc_of(std::string_view text) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
+GONIO_INLINE std::uint32_t checksum(std::string_view text) { return checksum(std::as_bytes(std::span(text))); }
 
 GONIO_INLINE std::string with_checksum(std::string fields) {
-  return fields + " " + std::to_string(crc_of(fields)) + "\n";
+  return fields + " " + std::to_string(checksum(fields)) + "\n";
 }
 
 GONIO_INLINE bool has_checksum(std::string_view line) {
@@ -62,9 +60,9 @@ GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::sp
          "# wi and wo of each pose; number, frames, times, pixels, counts and checksum of each reading\n"
          "sample " +
          std::to_string(subject.checksum) + ' ' + subject.sample + '\n' + "setup " +
-         std::to_string(crc_of(subject.setup)) + ' ' + subject.setup + '\n' + "seed " + std::to_string(subject.seed) +
+         std::to_string(checksum(subject.setup)) + ' ' + subject.setup + '\n' + "seed " + std::to_string(subject.seed) +
          '\n' + "largest_count " + std::to_string(largest_count) + '\n' + "plan " + std::to_string(poses.size()) + ' ' +
-         std::to_string(crc_of(pose_lines)) + '\n' + pose_lines;
+         std::to_string(checksum(pose_lines)) + '\n' + pose_lines;
 }
 
 GONIO_INLINE std::string format_reading(std::size_t pose, const reading& taken) {
@@ -139,7 +137,7 @@ GONIO_INLINE bool apply_subject_line(std::string_view line, const text_place& pl
     before.subject.sample = text;
     before.subject.checksum = static_cast<std::uint32_t>(number);
   } else {
-    if (number != crc_of(text)) place.refuse("the checksum of 'setup' is wrong, the line is damaged");
+    if (number != checksum(text)) place.refuse("the checksum of 'setup' is wrong, the line is damaged");
     before.subject.setup = text;
   }
   return true;
@@ -178,7 +176,7 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
   if (scan.largest_count == 0) throw error{name, ": the line largest_count is missing"};
   if (scan.poses.empty()) throw error{name, ": there is no pose"};
-  if (all.plan && (all.plan->first != scan.poses.size() || all.plan->second != crc_of(all.pose_lines)))
+  if (all.plan && (all.plan->first != scan.poses.size() || all.plan->second != checksum(all.pose_lines)))
     throw error{name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"};
   if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
     throw error{name, ": of the lines sample, setup, seed and plan some are missing"};
@@ -199,7 +197,7 @@ namespace gonio::io {
 
 GONIO_INLINE std::uint32_t checksum_of_file(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
-  return detail::crc_of(detail::as_text(bytes));
+  return detail::checksum(bytes);
 }
 
 GONIO_INLINE recorded_scan parse_scan(std::string_view text, const std::string& name) {
