@@ -12,6 +12,6 @@
 inline gonio::material_set real_materials() {
   const std::filesystem::path networks = GONIO_BENCH_NETWORKS;
   if (std::filesystem::exists(networks))
-    return gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells());
+    return gonio::model::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells());
   return gonio::expand(gonio::io::read_prior(GONIO_SOURCE_PRIOR));
 }

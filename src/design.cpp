@@ -12,9 +12,9 @@
 #include <gonio/design/impl/search.ipp>
 #include <gonio/design/impl/sphere_geometry.ipp>
 
-namespace gonio {
+namespace gonio::design {
 
 template class extended_error<float>;
 template class extended_error<double>;
 
-}  // namespace gonio
+}  // namespace gonio::design

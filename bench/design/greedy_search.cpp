@@ -34,8 +34,8 @@ const gonio::log_relative_pca& prior() {
   return learned;
 }
 
-const gonio::cell_candidates& candidates() {
-  static const gonio::cell_candidates all(prior(), gonio::expected_error(prior()), {}, threads);
+const gonio::design::cell_candidates& candidates() {
+  static const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior()), {}, threads);
   return all;
 }
 
@@ -64,7 +64,7 @@ BENCHMARK(error_of_one_beside_19)->Unit(benchmark::kMicrosecond);
 void set_up(benchmark::State& state) {
   static_cast<void>(prior());
   for (auto _ : state) {
-    const gonio::cell_candidates all(prior(), gonio::expected_error(prior()), {}, threads);
+    const gonio::design::cell_candidates all(prior(), gonio::design::expected_error(prior()), {}, threads);
     benchmark::DoNotOptimize(all.size());
   }
 }
@@ -116,7 +116,7 @@ void product(benchmark::State& state) {
 BENCHMARK(product)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 void grow_20(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::grow_greedily(candidates(), 20).value);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::design::grow_greedily(candidates(), 20).value);
 }
 BENCHMARK(grow_20)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 

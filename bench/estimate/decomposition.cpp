@@ -26,8 +26,8 @@ const gonio::valid_cells& cells() {
 
 const gonio::sample_set& samples() {
   static const auto measured = [] {
-    const auto truth = gonio::tabulate(gonio::formula_material("red-paint"), cells());
-    return gonio::measure(truth, gonio::cells_at(cells(), gonio::nielsen_directions(20)));
+    const auto truth = gonio::tabulate(gonio::model::formula_material("red-paint"), cells());
+    return gonio::measure(truth, gonio::cells_at(cells(), gonio::design::nielsen_directions(20)));
   }();
   return measured;
 }

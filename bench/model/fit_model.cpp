@@ -9,28 +9,28 @@
 
 namespace {
 
-const std::vector<gonio::fit_observation>& observations() {
+const std::vector<gonio::model::fit_observation>& observations() {
   static const auto all = [] {
     const gonio::material_set materials = real_materials();
     const auto nickel = std::ranges::find(materials.names, "nickel") - materials.names.begin();
-    return gonio::fit_observations(materials.table(static_cast<std::size_t>(nickel)));
+    return gonio::model::fit_observations(materials.table(static_cast<std::size_t>(nickel)));
   }();
   return all;
 }
 
-const std::vector<const gonio::lobe_kind*>& kinds() {
-  static const std::vector all{&gonio::lobe_kind::of<gonio::lambert_shape>(),
-                               &gonio::lobe_kind::of<gonio::torrance_sparrow_shape>()};
+const std::vector<const gonio::model::lobe_kind*>& kinds() {
+  static const std::vector all{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),
+                               &gonio::model::lobe_kind::of<gonio::model::torrance_sparrow_shape>()};
   return all;
 }
 
 /// Of `state.range(0)` random starts beside the consecutive one, in `state.range(1)` threads.
 void fit_table(benchmark::State& state) {
-  const gonio::model_fit_options options{.random_starts = static_cast<std::size_t>(state.range(0)),
-                                         .threads = {static_cast<unsigned>(state.range(1))}};
+  const gonio::model::model_fit_options options{.random_starts = static_cast<std::size_t>(state.range(0)),
+                                                .threads = {static_cast<unsigned>(state.range(1))}};
   static_cast<void>(observations());
-  gonio::model_fit fit;
-  for (auto _ : state) fit = gonio::fit_model(kinds(), observations(), gonio::lin(), options);
+  gonio::model::model_fit fit;
+  for (auto _ : state) fit = gonio::model::fit_model(kinds(), observations(), gonio::lin(), options);
   state.counters["loss"] = fit.loss;
   state.counters["evaluations"] = static_cast<double>(fit.evaluations);
   state.counters["fits/s"] = benchmark::Counter(1.0, benchmark::Counter::kIsIterationInvariantRate);
@@ -40,18 +40,19 @@ void fit_table(benchmark::State& state) {
 BENCHMARK(fit_table)->Args({0, 1})->Args({0, 2})->Args({5, 2})->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
 void fit_table_by_l1(benchmark::State& state) {
-  const gonio::model_fit_options options{.norm = gonio::fit_norm::l1, .threads = {2}};
+  const gonio::model::model_fit_options options{.norm = gonio::model::fit_norm::l1, .threads = {2}};
   static_cast<void>(observations());
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::fit_model(kinds(), observations(), gonio::lin(), options).loss);
+  for (auto _ : state)
+    benchmark::DoNotOptimize(gonio::model::fit_model(kinds(), observations(), gonio::lin(), options).loss);
   state.counters["fits/s"] = benchmark::Counter(1.0, benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(fit_table_by_l1)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(1);
 
 /// What a laboratory fits: 20 samples.
 void fit_20_samples(benchmark::State& state) {
-  std::vector<gonio::fit_observation> few;
+  std::vector<gonio::model::fit_observation> few;
   for (std::size_t i = 0; i < 20; ++i) few.push_back(observations()[i * i * 2711 % observations().size()]);
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::fit_model(kinds(), few).loss);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::model::fit_model(kinds(), few).loss);
 }
 BENCHMARK(fit_20_samples)->Unit(benchmark::kMicrosecond);
 

@@ -12,7 +12,7 @@
 
 namespace {
 
-using gonio::interpolation;
+using gonio::render::interpolation;
 
 template <class Real>
 struct pairs_of {
@@ -113,8 +113,8 @@ void with_arc_functions(benchmark::State& state) {
 }
 
 template <class Stored, interpolation Interpolation>
-const gonio::lookup_table<Stored, Interpolation>& far_table() {
-  static const auto table = gonio::lookup_table<Stored, Interpolation>::tabulated(some_material{});
+const gonio::render::lookup_table<Stored, Interpolation>& far_table() {
+  static const auto table = gonio::render::lookup_table<Stored, Interpolation>::tabulated(some_material{});
   return table;
 }
 
@@ -127,7 +127,7 @@ void one_by_one(benchmark::State& state) {
 template <class Stored, interpolation Interpolation, class Real>
 void one_by_one_near(benchmark::State& state) {
   static const auto table =
-      gonio::lookup_table<Stored, Interpolation>::tabulated(some_material{}, gonio::grid({9, 6, 12}));
+      gonio::render::lookup_table<Stored, Interpolation>::tabulated(some_material{}, gonio::grid({9, 6, 12}));
   look_up_all<Real>(state, table);
 }
 
@@ -137,14 +137,15 @@ class polynomial_lookup {
   polynomial_lookup() : values_(3 * index_.size(), 0.5f) {}
 
   Eigen::Array3f operator()(const Eigen::Vector3f& wi, const Eigen::Vector3f& wo) const {
-    const std::size_t cell = index_.nearest(gonio::to_grid_coordinates(wi.x(), wi.y(), wi.z(), wo.x(), wo.y(), wo.z()));
+    const std::size_t cell =
+        index_.nearest(gonio::render::to_grid_coordinates(wi.x(), wi.y(), wi.z(), wo.x(), wo.y(), wo.z()));
     return {values_[3 * cell], values_[3 * cell + 1], values_[3 * cell + 2]};
   }
 
   [[nodiscard]] std::size_t memory() const { return values_.size() * sizeof(float) + index_.memory(); }
 
  private:
-  gonio::horizon_index index_;
+  gonio::render::horizon_index index_;
   std::vector<float> values_;
 };
 
@@ -170,28 +171,28 @@ void evaluate_all(benchmark::State& state, const Table& table) {
 
 template <class Stored, interpolation Interpolation, class Real>
 void many_at_once(benchmark::State& state) {
-  evaluate_all<gonio::lookup_table<Stored, Interpolation>, Real>(state, far_table<Stored, Interpolation>());
+  evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, far_table<Stored, Interpolation>());
 }
 
 template <class Stored, interpolation Interpolation, class Real>
 void many_at_once_near(benchmark::State& state) {
   static const auto table =
-      gonio::lookup_table<Stored, Interpolation>::tabulated(some_material{}, gonio::grid({9, 6, 12}));
-  evaluate_all<gonio::lookup_table<Stored, Interpolation>, Real>(state, table);
+      gonio::render::lookup_table<Stored, Interpolation>::tabulated(some_material{}, gonio::grid({9, 6, 12}));
+  evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, table);
 }
 
 /// Twenty components of the shipped prior's grid enlarged to MERL's would be another prior; its own grid is coarser.
 template <class Stored, interpolation Interpolation>
 void by_components(benchmark::State& state) {
   static const auto prior = gonio::io::read_prior(GONIO_SOURCE_PRIOR);
-  static const gonio::shared_components<Stored> components(prior, 20);
-  const gonio::component_brdf<Stored, Interpolation> f(components, prior.weights_of(0).topRows(20));
+  static const gonio::render::shared_components<Stored> components(prior, 20);
+  const gonio::render::component_brdf<Stored, Interpolation> f(components, prior.weights_of(0).topRows(20));
   look_up_all<double>(state, f);
   state.counters["shared bytes"] = static_cast<double>(components.memory());
 }
 
 void draw_directions(benchmark::State& state) {
-  static const gonio::half_vector_sampler material(gonio::lookup_table<>::tabulated(some_material{}));
+  static const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::tabulated(some_material{}));
   const auto& all = pairs<double>();
   std::mt19937_64 generator(2);
   std::vector<double> numbers(2 * all.count);
@@ -207,7 +208,7 @@ void draw_directions(benchmark::State& state) {
 
 void construct_sampler(benchmark::State& state) {
   for (auto _ : state) {
-    const gonio::half_vector_sampler material(gonio::brdf_view(far_table<float, interpolation::trilinear>()));
+    const gonio::render::half_vector_sampler material(gonio::brdf_view(far_table<float, interpolation::trilinear>()));
     benchmark::DoNotOptimize(&material);
   }
 }

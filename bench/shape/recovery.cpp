@@ -17,7 +17,7 @@ constexpr gonio::thread_count one{1};
 struct ears {
   lab::ear_canal_family family;
   lab::ear_canal_template common;
-  std::vector<gonio::point_columns> shapes;
+  std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
 
   explicit ears(std::size_t count = 161) {
@@ -27,8 +27,8 @@ struct ears {
     }
   }
 
-  [[nodiscard]] gonio::shape_model learn() const {
-    return gonio::learn_shape_model(shapes, names, common.mesh().triangles, one);
+  [[nodiscard]] gonio::shape::shape_model learn() const {
+    return gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles, one);
   }
   [[nodiscard]] lab::ear_scan scan() const {
     lab::scan_options how;
@@ -43,8 +43,8 @@ const ears& published() {
   return all;
 }
 
-const gonio::shape_model& model() {
-  static const gonio::shape_model learned = published().learn();
+const gonio::shape::shape_model& model() {
+  static const gonio::shape::shape_model learned = published().learn();
   return learned;
 }
 
@@ -54,27 +54,27 @@ void learn(benchmark::State& state) {
 
 void find_pose(benchmark::State& state) {
   const lab::ear_scan scan = published().scan();
-  const gonio::shape_context_matcher matcher(model().mean(), {}, one);
+  const gonio::shape::shape_context_matcher matcher(model().mean(), {}, one);
   for (auto _ : state) benchmark::DoNotOptimize(matcher.align(scan.mesh, one));
 }
 
 void index_scan(benchmark::State& state) {
   const lab::ear_scan scan = published().scan();
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::surface_index(scan.mesh));
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::surface_index(scan.mesh));
 }
 
 void recover(benchmark::State& state) {
   const lab::ear_scan scan = published().scan();
-  const gonio::surface_index index(scan.mesh);
-  const auto pose = gonio::align(scan.truth, model().mean().vertices);
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::recover(model(), index, pose, {}, one));
+  const gonio::shape::surface_index index(scan.mesh);
+  const auto pose = gonio::shape::align(scan.truth, model().mean().vertices);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::recover(model(), index, pose, {}, one));
 }
 
 void recover_as_published(benchmark::State& state) {
   const lab::ear_scan scan = published().scan();
-  const gonio::surface_index index(scan.mesh);
-  const auto pose = gonio::align(scan.truth, model().mean().vertices);
-  for (auto _ : state) benchmark::DoNotOptimize(gonio::recover_as_published(model(), index, pose, {}, one));
+  const gonio::shape::surface_index index(scan.mesh);
+  const auto pose = gonio::shape::align(scan.truth, model().mean().vertices);
+  for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::recover_as_published(model(), index, pose, {}, one));
 }
 
 BENCHMARK(learn)->Unit(benchmark::kMillisecond);

@@ -37,10 +37,10 @@ gonio::brdf_table table_of_prior(const expand_options& options, const gonio::val
 
 gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cells& cells) {
   if (!options.formula.empty())
-    return gonio::tabulate(gonio::formula_material(options.formula), cells, options.threads);
+    return gonio::tabulate(gonio::model::formula_material(options.formula), cells, options.threads);
   if (options.networks.empty()) return table_of_prior(options, cells);
   const auto chosen = networks_in(gonio::io::read_networks(options.networks), {options.name});
-  return gonio::tabulate_networks(chosen, cells, options.threads).table(0);
+  return gonio::model::tabulate_networks(chosen, cells, options.threads).table(0);
 }
 
 }  // namespace
@@ -54,7 +54,8 @@ void add_expand(command& app) {
   add_prior_option(command, options->prior);
   command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
   std::string known;
-  for (const std::string& formula : gonio::formula_material_names()) known += (known.empty() ? "" : ", ") + formula;
+  for (const std::string& formula : gonio::model::formula_material_names())
+    known += (known.empty() ? "" : ", ") + formula;
   command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
       .excludes(networks);
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)")

@@ -22,18 +22,18 @@ namespace {
 struct fit_command_options {
   std::filesystem::path measurements, output, picture, pbrt, mitsuba;
   std::string model = "ggx", metric = "lin";
-  gonio::cell_weighting cell_weights = gonio::cell_weighting::equal;
+  gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool fresnel = false, print_json = false;
   picture_options how;
-  gonio::model_fit_options fit;
+  gonio::model::model_fit_options fit;
 };
 
 bool is_table(const std::filesystem::path& path) { return path.extension() == ".binary" || path.extension() == ".gz"; }
 
-void print(const gonio::model_fit& fit, std::size_t measurements) {
+void print(const gonio::model::model_fit& fit, std::size_t measurements) {
   std::cout << measurements << " measurements, loss " << fit.loss << " after " << fit.evaluations << " evaluations"
             << (fit.converged ? "" : ", which did not converge") << '\n';
-  for (const gonio::analytic_lobe& lobe : fit.model.lobes()) {
+  for (const gonio::model::analytic_lobe& lobe : fit.model.lobes()) {
     std::cout << lobe.kind().name() << ": colour " << fixed(lobe.colour()[0], 4) << ' ' << fixed(lobe.colour()[1], 4)
               << ' ' << fixed(lobe.colour()[2], 4);
     const auto about = lobe.kind().parameters();
@@ -46,15 +46,15 @@ void print(const gonio::model_fit& fit, std::size_t measurements) {
 }
 
 void fit(const fit_command_options& options) {
-  if (options.cell_weights != gonio::cell_weighting::equal && !is_table(options.measurements))
+  if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
     throw gonio::error("--cell-weights needs a table: samples have weights of their own");
   auto kinds = lobes_named(options.model);
   if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
   std::optional<gonio::brdf_table> table;
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
-  const auto observations = table ? gonio::fit_observations(*table, options.fit.threads, options.cell_weights)
-                                  : gonio::fit_observations(read_measurements(options.measurements));
-  const gonio::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
+  const auto observations = table ? gonio::model::fit_observations(*table, options.fit.threads, options.cell_weights)
+                                  : gonio::model::fit_observations(read_measurements(options.measurements));
+  const gonio::model::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
 
   // Both before either is written: what a renderer cannot have leaves nothing behind.
   const std::string pbrt = options.pbrt.empty() ? "" : gonio::io::pbrt_material(found.model);
@@ -70,7 +70,7 @@ void fit(const fit_command_options& options) {
       if (table) pictures.push_back(sphere_picture(*table, options.how, options.fit.threads));
       pictures.push_back(sphere_picture(fitted, options.how, options.fit.threads));
       expose_spheres(pictures, std::span(pictures).first(1), options.how);  // by what was measured
-      gonio::io::write_png(options.picture, gonio::side_by_side(pictures, 8));
+      gonio::io::write_png(options.picture, gonio::render::side_by_side(pictures, 8));
     }
   }
   if (!options.print_json) return print(found, observations.size());
@@ -91,7 +91,7 @@ void add_fit(command& app) {
                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
       .required();
   std::string names;
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
     names += (names.empty() ? "" : ", ") + std::string(kind->name());
   command
       .add_option("--model", options->model,

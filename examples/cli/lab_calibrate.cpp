@@ -18,39 +18,39 @@ struct calibrate_command {
   std::filesystem::path material, reference, response, output;
   double gamma = 0.0;  ///< of a camera that is known; 0: find its response
   double reflectance = 0.99, saturation = 0.98;
-  gonio::sensor_noise noise{.read = 1.6, .shot = 0.2};
+  gonio::capture::sensor_noise noise{.read = 1.6, .shot = 0.2};
   bool brighter = false;  ///< the material than the reference
 };
 
 /// The readings of a scan that are there.
-void append_readings(const gonio::io::recorded_scan& scan, std::vector<gonio::reading>& all) {
+void append_readings(const gonio::io::recorded_scan& scan, std::vector<gonio::capture::reading>& all) {
   for (const auto& each : scan.readings)
     if (each) all.push_back(*each);
 }
 
-gonio::calibration calibration_of(const calibrate_command& options, const gonio::io::recorded_scan& material,
-                                  const gonio::io::recorded_scan& reference) {
+gonio::capture::calibration calibration_of(const calibrate_command& options, const gonio::io::recorded_scan& material,
+                                           const gonio::io::recorded_scan& reference) {
   const std::uint16_t largest = material.largest_count;
   const auto saturation = static_cast<std::uint16_t>(std::lround(options.saturation * largest));
   if (options.gamma > 0.0) {
-    const auto known = gonio::camera_response::power_law(largest, options.gamma);
+    const auto known = gonio::capture::camera_response::power_law(largest, options.gamma);
     return {{known, known, known}, options.noise, options.reflectance, saturation};
   }
-  std::vector<gonio::reading> all;
+  std::vector<gonio::capture::reading> all;
   append_readings(reference, all);
   append_readings(material, all);
-  return {gonio::estimate_responses(all, largest), options.noise, options.reflectance, saturation};
+  return {gonio::capture::estimate_responses(all, largest), options.noise, options.reflectance, saturation};
 }
 
 /// A line for each value of the responses.
-void write_responses(const std::filesystem::path& path, const gonio::calibration& known) {
+void write_responses(const std::filesystem::path& path, const gonio::capture::calibration& known) {
   std::string text = "count,log_exposure_r,log_exposure_g,log_exposure_b\n";
   const auto& responses = known.responses;
   const auto knots = responses[0].log_exposures().size();
   for (Eigen::Index k = 0; k < knots; ++k) {
     text += gonio::io::detail::shortest(static_cast<double>(k + 1) * responses[0].largest_count() /
                                         static_cast<double>(knots));
-    for (const gonio::camera_response& each : responses)
+    for (const gonio::capture::camera_response& each : responses)
       text += ',' + gonio::io::detail::shortest(each.log_exposures()[k]);
     text += '\n';
   }
@@ -65,9 +65,10 @@ void require_same_poses(const calibrate_command& options, const gonio::io::recor
                        ": expected scans of the same poses by the same camera");
 }
 
-void require_reference(const calibrate_command& options, const std::vector<gonio::measured_reflectance>& usable) {
+void require_reference(const calibrate_command& options,
+                       const std::vector<gonio::capture::measured_reflectance>& usable) {
   if (!options.brighter) try {
-      gonio::require_bright_reference(usable, options.reflectance);
+      gonio::capture::require_bright_reference(usable, options.reflectance);
     } catch (const gonio::error& refusal) {
       throw gonio::error{options.reference.native(), ": ", refusal.what(),
                          " (if not, as where only a highlight was measured: --brighter)"};
@@ -77,8 +78,8 @@ void require_reference(const calibrate_command& options, const std::vector<gonio
 void run(const calibrate_command& options) {
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
   require_same_poses(options, material, reference);
-  const gonio::calibration known = calibration_of(options, material, reference);
-  std::vector<gonio::measured_reflectance> usable;
+  const gonio::capture::calibration known = calibration_of(options, material, reference);
+  std::vector<gonio::capture::measured_reflectance> usable;
   const auto leave_out = [&](std::size_t pose, const std::string& reason) {
     std::cout << "left out: pose " << pose + 1 << ", " << in_degrees(material.poses[pose]) << ": " << reason << '\n';
   };
@@ -88,7 +89,7 @@ void run(const calibrate_command& options) {
       leave_out(i, std::string("the scan of the ") + (seen ? "reference" : "material") + " does not have it yet");
       continue;
     }
-    const auto found = gonio::measure_reflectance(*seen, *white, material.poses[i], known);
+    const auto found = gonio::capture::measure_reflectance(*seen, *white, material.poses[i], known);
     if (found.is_usable())
       usable.push_back(found);
     else

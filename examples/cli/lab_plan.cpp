@@ -21,20 +21,20 @@ struct plan_command {
 
 /// A plan, and how many lamps burn one after the other at each stop.
 struct timed_plan {
-  gonio::scan_plan plan;
+  gonio::capture::scan_plan plan;
   std::size_t stops = 0, lamps = 1;
 };
 
 /// The note's whole scan: the camera at every pose of the half hemisphere, under every lamp.
 timed_plan whole_hemisphere(const lab::robot& machine) {
-  const auto seen = gonio::half_hemisphere();
-  const auto order = gonio::short_way(seen);
+  const auto seen = gonio::capture::half_hemisphere();
+  const auto order = gonio::capture::short_way(seen);
   timed_plan result{{}, seen.size(), machine.arc().lamps()};
-  result.plan.length = gonio::length_of_way(seen, order);
+  result.plan.length = gonio::capture::length_of_way(seen, order);
   std::size_t number = 0;
   for (const std::size_t i : order)
     for (std::size_t lamp = 0; lamp < machine.arc().lamps(); ++lamp, ++number) {
-      const gonio::placement found = machine.place({machine.arc().towards(lamp), seen[i]});
+      const gonio::capture::placement found = machine.place({machine.arc().towards(lamp), seen[i]});
       if (found.is_reachable())
         result.plan.poses.push_back(found.at);
       else
@@ -51,8 +51,8 @@ timed_plan plan_of(const plan_command& options) {
   }
   const auto pairs = gonio::io::read_direction_pairs(options.directions);
   timed_plan result;
-  result.plan =
-      with_machine(options.machine, room, [&](const auto& machine) { return gonio::plan_scan(machine, pairs); });
+  result.plan = with_machine(options.machine, room,
+                             [&](const auto& machine) { return gonio::capture::plan_scan(machine, pairs); });
   for (const auto& [number, reason] : result.plan.unreachable)
     std::cout << "not measured: " << number + 1 << ", " << in_degrees(pairs[number]) << ": " << reason << '\n';
   result.stops = result.plan.poses.size();
@@ -63,7 +63,7 @@ void run(const plan_command& options) {
   const auto [plan, stops, lamps] = plan_of(options);
   if (plan.poses.empty()) throw gonio::error("the machine can measure none of the directions");
   gonio::io::write_direction_pairs(options.output, plan.poses);
-  const double minutes = gonio::duration_of_scan(plan.length, stops, lamps) / 60.0;
+  const double minutes = gonio::capture::duration_of_scan(plan.length, stops, lamps) / 60.0;
   std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the way is "
             << fixed(gonio::degrees(plan.length), 0) << " degrees long, and a scan takes about " << fixed(minutes, 1)
             << " minutes\n";

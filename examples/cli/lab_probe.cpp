@@ -23,16 +23,16 @@ struct probe_command {
   std::filesystem::path input, output, truth, picture;
   double distance = 0.0;  ///< in radii of the sphere; 0: far away
   std::size_t pixels = 1024;
-  gonio::unwrap_options unwrapping;
+  gonio::capture::unwrap_options unwrapping;
   gonio::thread_count threads;
 };
 
-gonio::mirror_sphere sphere_of(const probe_command& options) {
-  return options.distance > 0.0 ? gonio::mirror_sphere(options.distance) : gonio::mirror_sphere();
+gonio::capture::mirror_sphere sphere_of(const probe_command& options) {
+  return options.distance > 0.0 ? gonio::capture::mirror_sphere(options.distance) : gonio::capture::mirror_sphere();
 }
 
 void photograph(const probe_command& options) {
-  const gonio::environment_map around(gonio::io::read_hdr(options.input));
+  const gonio::render::environment_map around(gonio::io::read_hdr(options.input));
   const auto radiance = [&](const gonio::direction& towards) { return around(towards); };
   gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
@@ -57,7 +57,7 @@ gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::
 /// The probe beside the map, exposed so that the map's mean is a middle grey; highlights are clipped.
 gonio::image picture_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
   const std::array both{averaged(probe, map.shape(0), file), map};
-  gonio::image picture = gonio::side_by_side(both, 4);
+  gonio::image picture = gonio::render::side_by_side(both, 4);
   const double mean = std::accumulate(map.data(), map.data() + map.size(), 0.0) / static_cast<double>(map.size());
   const auto exposure = static_cast<float>(mean > 0.0 ? 0.18 / mean : 1.0);
   std::transform(picture.data(), picture.data() + picture.size(), picture.data(),
@@ -67,7 +67,8 @@ gonio::image picture_of(const gonio::image& probe, const gonio::image& map, cons
 
 /// The mean relative error of a map, by solid angle, of all but the 10 degrees around what the sphere hides. Pixels in
 /// which the truth is black do not count.
-double relative_error(const gonio::image& map, const gonio::environment_map& truth, double largest_polar_angle) {
+double relative_error(const gonio::image& map, const gonio::render::environment_map& truth,
+                      double largest_polar_angle) {
   double sum = 0.0, weights = 0.0;
   for (std::size_t row = 0; row < truth.rows(); ++row)
     for (std::size_t column = 0; column < truth.columns(); ++column) {
@@ -82,11 +83,11 @@ double relative_error(const gonio::image& map, const gonio::environment_map& tru
 }
 
 void unwrap(const probe_command& options) {
-  const gonio::mirror_sphere sphere = sphere_of(options);
+  const gonio::capture::mirror_sphere sphere = sphere_of(options);
   const gonio::image probe = gonio::io::read_hdr(options.input);
   const auto map = [&] {
     try {
-      return gonio::unwrap(probe, sphere, options.unwrapping, options.threads);
+      return gonio::capture::unwrap(probe, sphere, options.unwrapping, options.threads);
     } catch (const gonio::error& refusal) {
       throw gonio::error(options.input.string() + ": " + refusal.what());
     }
@@ -94,7 +95,7 @@ void unwrap(const probe_command& options) {
   gonio::io::write_hdr(options.output, map);
   if (!options.picture.empty()) gonio::io::write_png(options.picture, picture_of(probe, map, options.input));
   if (options.truth.empty()) return;
-  const gonio::environment_map truth(
+  const gonio::render::environment_map truth(
       averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
   std::cout << "mean relative error " << fixed(100.0 * relative_error(map, truth, sphere.largest_polar_angle()), 2)
             << " % outside the 10 degrees around what the sphere hides\n";

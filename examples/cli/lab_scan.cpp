@@ -102,7 +102,7 @@ void scan_into(const std::filesystem::path& output, const gonio::io::scan_subjec
                const std::vector<gonio::direction_pair>& poses) {
   gonio::io::scan_journal journal(output, subject, poses, machine.largest_count());
   progress_bar bar;
-  const gonio::scan_outcome outcome = gonio::scan(machine, poses, journal, {}, bar.listener());
+  const gonio::capture::scan_outcome outcome = gonio::capture::scan(machine, poses, journal, {}, bar.listener());
   bar.wipe();
   for (const auto& [number, reason] : outcome.missing)
     std::cout << "missing: pose " << number + 1 << ", " << in_degrees(poses[number]) << ": " << gonio::printable(reason)

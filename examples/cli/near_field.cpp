@@ -38,14 +38,14 @@ struct near_field_command {
 struct taken_picture {
   std::string file, setup_file;
   gonio::image pixels;
-  gonio::near_field_setup setup;
+  gonio::capture::near_field_setup setup;
 };
 
 std::vector<taken_picture> read_pictures(const near_field_command& options) {
   std::vector<taken_picture> taken;
   for (const auto& [picture, setup] : options.pictures) {
     if (setup.empty()) throw gonio::error("pictures: " + picture + " is not followed by its set-up");
-    gonio::near_field_setup read = gonio::io::read_near_field_setup(setup);
+    gonio::capture::near_field_setup read = gonio::io::read_near_field_setup(setup);
     taken.push_back({picture, setup, gonio::io::read_hdr(picture), std::move(read)});
   }
   return taken;
@@ -53,7 +53,7 @@ std::vector<taken_picture> read_pictures(const near_field_command& options) {
 
 gonio::picture_samples samples_of(const taken_picture& picture) {
   try {
-    return gonio::near_field_pairs(picture.pixels, picture.setup);
+    return gonio::capture::near_field_pairs(picture.pixels, picture.setup);
   } catch (const gonio::error& refusal) {
     throw gonio::error(picture.file + " (as " + picture.setup_file + " says): " + refusal.what());
   }
@@ -130,24 +130,25 @@ void require_fixed_camera(const std::vector<taken_picture>& pictures) {
 }
 
 /// Clusters of the pixels of a picture's region by their reflectance.
-gonio::colour_clusters clusters_of(const taken_picture& picture, const std::vector<std::size_t>& region,
-                                   const near_field_command& options) {
+gonio::capture::colour_clusters clusters_of(const taken_picture& picture, const std::vector<std::size_t>& region,
+                                            const near_field_command& options) {
   static_cast<void>(samples_of(picture));  // refuses what is no picture of the sample
   const std::size_t columns = picture.setup.camera.intrinsics().columns;
-  gonio::point_matrix colours(std::ssize(region), 3);
+  gonio::capture::point_matrix colours(std::ssize(region), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i) {
     const std::size_t number = region[static_cast<std::size_t>(i)];
     const gonio::rgb value = gonio::pixel(picture.pixels, number / columns, number % columns);
     colours.row(i) = (value / picture.setup.light.irradiance).matrix().transpose();
   }
   if (options.clusters == "auto")
-    return gonio::cluster_colours(colours, gonio::cluster_count_choice{}, options.seed, options.threads);
+    return gonio::capture::cluster_colours(colours, gonio::capture::cluster_count_choice{}, options.seed,
+                                           options.threads);
   Eigen::Index count = 0;
   const std::string& text = options.clusters;
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (failed != std::errc() || end != text.data() + text.size() || count < 1)
     throw gonio::error("--clusters is auto or a positive number, not '" + text + "'");
-  return gonio::cluster_colours(colours, count, options.seed, options.threads);
+  return gonio::capture::cluster_colours(colours, count, options.seed, options.threads);
 }
 
 /// FILE.csv of material 2 is FILE-2.csv.
@@ -158,7 +159,7 @@ std::filesystem::path path_of_material(const std::filesystem::path& output, std:
 }
 
 /// Each material's pixels in its mean colour, the brightest channel of all of them white; black around.
-gonio::image label_map(const gonio::colour_clusters& clusters, const std::vector<std::size_t>& region,
+gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<std::size_t>& region,
                        const gonio::camera_intrinsics& size) {
   gonio::image map = gonio::uniform_image(size.rows, size.columns);
   const double brightest = std::max(clusters.centres.maxCoeff(), 1e-30);
@@ -176,8 +177,8 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const command& g
   require_fixed_camera(pictures);
   const taken_picture& diffuse = pictures.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
-  const std::vector<std::size_t> region = gonio::pixels_of_region(diffuse.setup);
-  const gonio::colour_clusters clusters = clusters_of(diffuse, region, options);
+  const std::vector<std::size_t> region = gonio::capture::pixels_of_region(diffuse.setup);
+  const gonio::capture::colour_clusters clusters = clusters_of(diffuse, region, options);
   for (std::size_t material = 0; material < clusters.count(); ++material)
     given.require_writable(path_of_material(options.output, material));
   if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));

@@ -46,15 +46,15 @@ inline void add_image_options(command& to, picture_options& options, option imag
 /// luminance 1.
 [[nodiscard]] inline gonio::image sphere_picture(const gonio::brdf_table& table, const picture_options& options,
                                                  gonio::thread_count threads) {
-  return gonio::render_sphere(gonio::horizon_lookup(table), gonio::two_lights(),
-                              {.size = options.size, .supersampling = 3}, threads);
+  return gonio::render::render_sphere(gonio::render::horizon_lookup(table), gonio::render::two_lights(),
+                                      {.size = options.size, .supersampling = 3}, threads);
 }
 
 /// Exposes spheres alike: as the options say, or such that the brightest of some is white at its 99th percentile.
 inline void expose_spheres(std::span<gonio::image> spheres, std::span<const gonio::image> by,
                            const picture_options& options) {
-  const double exposure = options.exposure ? *options.exposure : gonio::exposure_of_spheres(by);
-  for (gonio::image& sphere : spheres) gonio::expose(sphere, exposure);
+  const double exposure = options.exposure ? *options.exposure : gonio::render::exposure_of_spheres(by);
+  for (gonio::image& sphere : spheres) gonio::render::expose(sphere, exposure);
 }
 
 inline void expose_spheres(std::span<gonio::image> spheres, const picture_options& options) {
@@ -64,7 +64,7 @@ inline void expose_spheres(std::span<gonio::image> spheres, const picture_option
 /// A slice at phi_d = 90 degrees: theta_h to the right, theta_d upwards.
 [[nodiscard]] inline gonio::image slice_picture(const gonio::brdf_table& table, const picture_options& options,
                                                 gonio::thread_count threads) {
-  return gonio::render_slice(table, {.rows = options.size, .columns = options.size}, threads);
+  return gonio::render::render_slice(table, {.rows = options.size, .columns = options.size}, threads);
 }
 
 }  // namespace cli

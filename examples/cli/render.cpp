@@ -30,23 +30,24 @@ struct render_options {
 };
 
 void render(const render_options& options) {
-  std::optional<gonio::environment_sampler> light;
-  if (!options.environment.empty()) light.emplace(gonio::environment_map(gonio::io::read_hdr(options.environment)));
+  std::optional<gonio::render::environment_sampler> light;
+  if (!options.environment.empty())
+    light.emplace(gonio::render::environment_map(gonio::io::read_hdr(options.environment)));
   progress_bar bar;
   const auto picture_of = [&](const gonio::brdf_table& table) {
     if (options.slices) return slice_picture(table, options.picture, options.threads);
     if (!light) return sphere_picture(table, options.picture, options.threads);
-    const gonio::half_vector_sampler material(gonio::lookup_table<>::of(table));
-    const gonio::sampled_sphere_view view{.size = options.picture.size,
-                                          .samples = options.quality,
-                                          .seed = options.seed,
-                                          .white = options.picture.exposure.value_or(exposure_in_environment)};
-    return gonio::render_sphere(material, *light, view, options.threads, bar.listener());
+    const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
+    const gonio::render::sampled_sphere_view view{.size = options.picture.size,
+                                                  .samples = options.quality,
+                                                  .seed = options.seed,
+                                                  .white = options.picture.exposure.value_or(exposure_in_environment)};
+    return gonio::render::render_sphere(material, *light, view, options.threads, bar.listener());
   };
   std::vector<gonio::image> pictures;
   for (const auto& path : options.tables) pictures.push_back(picture_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(pictures, options.picture);
-  gonio::io::write_png(options.output, gonio::side_by_side(pictures, 8));
+  gonio::io::write_png(options.output, gonio::render::side_by_side(pictures, 8));
 }
 
 }  // namespace

@@ -8,12 +8,13 @@ namespace cli {
 
 namespace {
 
-gonio::named_networks select(const gonio::named_networks& all, const std::vector<std::string>& names, bool wanted) {
+gonio::model::named_networks select(const gonio::model::named_networks& all, const std::vector<std::string>& names,
+                                    bool wanted) {
   for (const std::string& name : names)
     if (std::ranges::find(all.names, name) == all.names.end())
       throw gonio::error("there is no material named '" + name + "' among the " + std::to_string(all.names.size()) +
                          " networks");
-  gonio::named_networks chosen;
+  gonio::model::named_networks chosen;
   for (std::size_t i = 0; i < all.names.size(); ++i) {
     const bool listed = std::ranges::find(names, all.names[i]) != names.end();
     if (listed != wanted) continue;
@@ -25,11 +26,13 @@ gonio::named_networks select(const gonio::named_networks& all, const std::vector
 
 }  // namespace
 
-gonio::named_networks networks_in(const gonio::named_networks& all, const std::vector<std::string>& names) {
+gonio::model::named_networks networks_in(const gonio::model::named_networks& all,
+                                         const std::vector<std::string>& names) {
   return select(all, names, true);
 }
 
-gonio::named_networks networks_except(const gonio::named_networks& all, const std::vector<std::string>& names) {
+gonio::model::named_networks networks_except(const gonio::model::named_networks& all,
+                                             const std::vector<std::string>& names) {
   return select(all, names, false);
 }
 

@@ -13,27 +13,27 @@ namespace cli {
 
 namespace {
 
-using gonio::capture_plan;
+using gonio::design::capture_plan;
 using prior_t = gonio::log_relative_pca;
 
 /// Xu et al. 2016, section 5.1.
 constexpr std::size_t random_candidates = 500;
 
-gonio::expected_error_options expectation_of(const design_options& options) {
+gonio::design::expected_error_options expectation_of(const design_options& options) {
   return {.eta = options.eta,
           .noise = options.noise,
           .common_shift = options.common_shift,
           .leave_out = !options.in_sample};
 }
 
-gonio::expected_error expected_error_of(const prior_t& prior, const design_options& options) {
-  return gonio::expected_error(prior, expectation_of(options));
+gonio::design::expected_error expected_error_of(const prior_t& prior, const design_options& options) {
+  return gonio::design::expected_error(prior, expectation_of(options));
 }
 
 /// The one that a search is to make small.
-gonio::expected_error criterion_of(const prior_t& prior, const design_options& options) {
+gonio::design::expected_error criterion_of(const prior_t& prior, const design_options& options) {
   if (options.criterion != "perceived") return expected_error_of(prior, options);
-  return gonio::expected_error(prior, expectation_of(options), gonio::perceived_norm(prior, options.threads));
+  return gonio::design::expected_error(prior, expectation_of(options), gonio::perceived_norm(prior, options.threads));
 }
 
 template <class Geometry>
@@ -44,12 +44,13 @@ capture_plan start_of(const Geometry& geometry, const design_options& options) {
 }
 
 /// Searches by sweeps over all candidates.
-template <gonio::sweeping_objective Objective>
+template <gonio::design::sweeping_objective Objective>
 capture_plan sweep(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   const capture_plan start = start_of(objective.geometry(), options);
-  const capture_plan greedy = gonio::grow_greedily(objective, options.count, start, listener);
+  const capture_plan greedy = gonio::design::grow_greedily(objective, options.count, start, listener);
   if (options.search == "greedy" || !start.candidates.empty()) return greedy;
-  return gonio::descend(objective.geometry(), objective, gonio::exchange(objective, greedy, listener), options.seed);
+  return gonio::design::descend(objective.geometry(), objective, gonio::design::exchange(objective, greedy, listener),
+                                options.seed);
 }
 
 /// Searches among few candidates.
@@ -57,8 +58,8 @@ template <class Objective>
 capture_plan slide(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   if (!options.start.empty())
     throw gonio::error("a start can be added to by the expected error and an exhaustive search only");
-  return gonio::grow_and_descend(objective.geometry(), objective, options.count, random_candidates, options.seed,
-                                 listener);
+  return gonio::design::grow_and_descend(objective.geometry(), objective, options.count, random_candidates,
+                                         options.seed, listener);
 }
 
 template <class Geometry>
@@ -76,19 +77,19 @@ designed finished(const Geometry& geometry, const capture_plan& plan) {
 template <class Geometry>
 designed by_expected_error(const prior_t& prior, const Geometry& geometry, const design_options& options,
                            const gonio::progress& listener) {
-  gonio::expected_error criterion = criterion_of(prior, options);
-  if constexpr (std::is_same_v<Geometry, gonio::point_geometry>) {
+  gonio::design::expected_error criterion = criterion_of(prior, options);
+  if constexpr (std::is_same_v<Geometry, gonio::design::point_geometry>) {
     const std::vector<double> own_etas = options.misplacement > 0.0
                                              ? gonio::misplacement_etas(prior, options.misplacement, options.threads)
                                              : std::vector<double>{};
-    const gonio::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint, options.threads,
-                                            own_etas);
+    const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
+                                                    options.threads, own_etas);
     return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
                                                           : sweep(candidates, options, listener));
   } else {
-    gonio::image_objective objective(prior, std::move(criterion), geometry);
+    gonio::design::image_objective objective(prior, std::move(criterion), geometry);
     if (options.search == "descent") return finished(geometry, slide(objective, options, listener));
-    const gonio::image_candidates candidates(std::move(objective), options.threads, listener);
+    const gonio::design::image_candidates candidates(std::move(objective), options.threads, listener);
     return finished(geometry, sweep(candidates, options, listener));
   }
 }
@@ -97,28 +98,30 @@ template <class Geometry>
 designed with(const prior_t& prior, const Geometry& geometry, const design_options& options,
               const gonio::progress& listener) {
   const auto by = [&](auto criterion) {
-    return finished(geometry, slide(gonio::criterion_of_plan{prior, geometry, criterion}, options, listener));
+    return finished(geometry, slide(gonio::design::criterion_of_plan{prior, geometry, criterion}, options, listener));
   };
-  if (options.criterion == "condition") return by(gonio::condition_number{});
+  if (options.criterion == "condition") return by(gonio::design::condition_number{});
   // Independent noise is a larger penalty of every row: eta / m is the variance of its error.
   const double eta = options.eta + expected_error_of(prior, options).noise_eta();
-  if (options.criterion == "d-optimal") return by(gonio::d_optimality(eta));
-  if (options.criterion == "a-optimal") return by(gonio::a_optimality(prior.singular_values().cwiseAbs2(), eta));
+  if (options.criterion == "d-optimal") return by(gonio::design::d_optimality(eta));
+  if (options.criterion == "a-optimal")
+    return by(gonio::design::a_optimality(prior.singular_values().cwiseAbs2(), eta));
   return by_expected_error(prior, geometry, options, listener);
 }
 
 /// The best of all cameras (or lights) that stand still, each with its own best lights (or cameras).
 designed with_one_fixed(const prior_t& prior, const design_options& options,
-                        std::optional<double> gonio::near_field_options::*fixed, const gonio::progress& listener) {
+                        std::optional<double> gonio::design::near_field_options::*fixed,
+                        const gonio::progress& listener) {
   designed best;
   best.value = std::numeric_limits<double>::infinity();
-  const gonio::near_field_options& setup = options.near_field;
+  const gonio::design::near_field_options& setup = options.near_field;
   for (double theta = 0.0; theta <= setup.largest_polar_angle + 1e-9; theta += setup.step) {
     gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(theta))),
                   theta / setup.largest_polar_angle);
-    gonio::near_field_options here = setup;
+    gonio::design::near_field_options here = setup;
     here.*fixed = theta;
-    designed found = with(prior, gonio::near_field_geometry(here), options, listener);
+    designed found = with(prior, gonio::design::near_field_geometry(here), options, listener);
     if (found.value < best.value) best = std::move(found);
   }
   return best;
@@ -140,13 +143,14 @@ designed design(const gonio::log_relative_pca& prior, const design_options& opti
                        std::to_string(gonio::degrees(options.misplacement)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
-    return with(prior, gonio::point_geometry(prior.cells(), near_field.constraint), options, listener);
-  if (options.geometry == "sphere") return with(prior, gonio::sphere_geometry(prior.cells()), options, listener);
+    return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener);
+  if (options.geometry == "sphere")
+    return with(prior, gonio::design::sphere_geometry(prior.cells()), options, listener);
   if (options.geometry == "fixed-camera")
-    return with_one_fixed(prior, options, &gonio::near_field_options::fixed_camera, listener);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_camera, listener);
   if (options.geometry == "fixed-light")
-    return with_one_fixed(prior, options, &gonio::near_field_options::fixed_light, listener);
-  return with(prior, gonio::near_field_geometry(near_field), options, listener);
+    return with_one_fixed(prior, options, &gonio::design::near_field_options::fixed_light, listener);
+  return with(prior, gonio::design::near_field_geometry(near_field), options, listener);
 }
 
 designed placed(const gonio::log_relative_pca& prior, const design_options& options,
@@ -157,16 +161,16 @@ designed placed(const gonio::log_relative_pca& prior, const design_options& opti
     return finished(geometry, plan);
   };
   const auto& near_field = options.near_field;
-  if (options.geometry == "point") return at(gonio::point_geometry(prior.cells(), near_field.constraint));
-  if (options.geometry == "sphere") return at(gonio::sphere_geometry(prior.cells()));
-  return at(gonio::near_field_geometry(near_field));
+  if (options.geometry == "point") return at(gonio::design::point_geometry(prior.cells(), near_field.constraint));
+  if (options.geometry == "sphere") return at(gonio::design::sphere_geometry(prior.cells()));
+  return at(gonio::design::near_field_geometry(near_field));
 }
 
 design_quality quality_of(const gonio::log_relative_pca& prior, const design_options& options, const designed& found) {
-  const gonio::expected_error criterion = expected_error_of(prior, options);
-  const auto few = gonio::compressed(gonio::rows_at(prior, found.samples), 1e-3 * options.eta);
+  const gonio::design::expected_error criterion = expected_error_of(prior, options);
+  const auto few = gonio::design::compressed(gonio::design::rows_at(prior, found.samples), 1e-3 * options.eta);
   const double error = criterion(criterion.prepare(few.components, few.noise));
-  const double nothing = criterion(gonio::expected_error::rows(0, criterion.coefficients().rows()));
+  const double nothing = criterion(gonio::design::expected_error::rows(0, criterion.coefficients().rows()));
   // A prior may have been learned on more cells than it keeps; its singular values are of all of them.
   const double kept = prior.components().cast<double>().squaredNorm() / prior.singular_values().squaredNorm();
   return {error * std::sqrt(kept / static_cast<double>(prior.cells().size())), error / nothing};

@@ -18,11 +18,11 @@ struct design_options {
   std::size_t count = 20;
   std::string geometry = "point", criterion = "expected-error", search = "exchange";
   double eta = gonio::default_eta;
-  double noise = 0.0, common_shift = 0.0;    ///< of every measurement's logarithm: independent, and shared by all
-  bool in_sample = false;                    ///< is the error expected of materials that the prior has seen?
-  double misplacement = 0.0;                 ///< radians by which light and viewer may be off: of points
-  gonio::near_field_options near_field;      ///< its constraint holds for points, too
-  std::vector<gonio::direction_pair> start;  ///< above the horizon
+  double noise = 0.0, common_shift = 0.0;        ///< of every measurement's logarithm: independent, and shared by all
+  bool in_sample = false;                        ///< is the error expected of materials that the prior has seen?
+  double misplacement = 0.0;                     ///< radians by which light and viewer may be off: of points
+  gonio::design::near_field_options near_field;  ///< its constraint holds for points, too
+  std::vector<gonio::direction_pair> start;      ///< above the horizon
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };

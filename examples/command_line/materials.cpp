@@ -21,7 +21,7 @@ gonio::material_set read_materials(const material_source& source, gonio::thread_
   if (!source.tables.empty()) return gonio::io::read_merl_directory(source.tables, source.exclude, listener);
   if (source.networks.empty()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
   const auto chosen = networks_except(gonio::io::read_networks(source.networks), source.exclude);
-  return gonio::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
+  return gonio::model::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
 }
 
 }  // namespace cli

@@ -7,38 +7,38 @@
 
 namespace cli {
 
-std::vector<const gonio::lobe_kind*> lobes_named(const std::string& model) {
+std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model) {
   constexpr std::string_view prefix = "sum:";
   if (!model.starts_with(prefix)) {
-    const gonio::lobe_kind& kind = gonio::lobe_kind_named(model);
-    const auto& lambert = gonio::lobe_kind::of<gonio::lambert_shape>();
+    const gonio::model::lobe_kind& kind = gonio::model::lobe_kind_named(model);
+    const auto& lambert = gonio::model::lobe_kind::of<gonio::model::lambert_shape>();
     if (kind == lambert) return {&lambert};
     return {&lambert, &kind};
   }
-  std::vector<const gonio::lobe_kind*> kinds;
+  std::vector<const gonio::model::lobe_kind*> kinds;
   for (std::size_t begin = prefix.size(); begin <= model.size();) {
     const std::size_t end = std::min(model.find('+', begin), model.size());
-    kinds.push_back(&gonio::lobe_kind_named(model.substr(begin, end - begin)));
+    kinds.push_back(&gonio::model::lobe_kind_named(model.substr(begin, end - begin)));
     begin = end + 1;
   }
   return kinds;
 }
 
-const gonio::lobe_kind& with_fresnel_factor(const gonio::lobe_kind& kind) {
+const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind) {
   const std::string name = std::string(kind.name()) + "-fresnel";
-  for (const gonio::lobe_kind* other : gonio::lobe_kinds())
+  for (const gonio::model::lobe_kind* other : gonio::model::lobe_kinds())
     if (other->name() == name) return *other;
   throw gonio::error(
       "there is no " + std::string(kind.name()) +
       " with Fresnel's factor: it is for phong, blinn-phong and phong-blinn (microfacet models have it)");
 }
 
-void add_fit_options(command& to, gonio::model_fit_options& options) {
+void add_fit_options(command& to, gonio::model::model_fit_options& options) {
   to.add_choice(
-        "--loss", [&options](int norm) { options.norm = static_cast<gonio::fit_norm>(norm); },
-        {{"l1", static_cast<int>(gonio::fit_norm::l1)},
-         {"l2", static_cast<int>(gonio::fit_norm::l2)},
-         {"huber", static_cast<int>(gonio::fit_norm::huber)}},
+        "--loss", [&options](int norm) { options.norm = static_cast<gonio::model::fit_norm>(norm); },
+        {{"l1", static_cast<int>(gonio::model::fit_norm::l1)},
+         {"l2", static_cast<int>(gonio::model::fit_norm::l2)},
+         {"huber", static_cast<int>(gonio::model::fit_norm::huber)}},
         "How residuals add up: l1 (the base of highlights), l2 (their tops), huber")
       .default_str("l2");
   to.add_flag("--cosine-weighted", options.cosine_weighted, "Compare reflectance times the cosine of the light");
@@ -48,27 +48,28 @@ void add_fit_options(command& to, gonio::model_fit_options& options) {
   to.add_option("--seed", options.seed, "Seed of the random starts").capture_default_str();
 }
 
-void add_cell_weights_option(command& to, gonio::cell_weighting& weighting) {
+void add_cell_weights_option(command& to, gonio::model::cell_weighting& weighting) {
   to.add_choice(
-        "--cell-weights", [&weighting](int chosen) { weighting = static_cast<gonio::cell_weighting>(chosen); },
-        {{"equal", static_cast<int>(gonio::cell_weighting::equal)},
-         {"solid-angle", static_cast<int>(gonio::cell_weighting::solid_angle)},
-         {"cosine", static_cast<int>(gonio::cell_weighting::cosine)}},
+        "--cell-weights", [&weighting](int chosen) { weighting = static_cast<gonio::model::cell_weighting>(chosen); },
+        {{"equal", static_cast<int>(gonio::model::cell_weighting::equal)},
+         {"solid-angle", static_cast<int>(gonio::model::cell_weighting::solid_angle)},
+         {"cosine", static_cast<int>(gonio::model::cell_weighting::cosine)}},
         "What a table's cells count: all the same, by their solid angle, or by that times both cosines")
       .default_str("equal");
 }
 
-gonio::model_fit fit_by_metric(const std::string& metric, const std::vector<const gonio::lobe_kind*>& kinds,
-                               std::span<const gonio::fit_observation> observations,
-                               const gonio::model_fit_options& options) {
-  if (metric == "log") return gonio::fit_model(kinds, observations, gonio::log(), options);
-  if (metric == "cubic") return gonio::fit_model(kinds, observations, gonio::root(3.0), options);
-  return gonio::fit_model(kinds, observations, gonio::lin(), options);
+gonio::model::model_fit fit_by_metric(const std::string& metric,
+                                      const std::vector<const gonio::model::lobe_kind*>& kinds,
+                                      std::span<const gonio::model::fit_observation> observations,
+                                      const gonio::model::model_fit_options& options) {
+  if (metric == "log") return gonio::model::fit_model(kinds, observations, gonio::log(), options);
+  if (metric == "cubic") return gonio::model::fit_model(kinds, observations, gonio::root(3.0), options);
+  return gonio::model::fit_model(kinds, observations, gonio::lin(), options);
 }
 
-json to_json(const gonio::analytic_brdf& model) {
+json to_json(const gonio::model::analytic_brdf& model) {
   json lobes = json::array();
-  for (const gonio::analytic_lobe& lobe : model.lobes()) {
+  for (const gonio::model::analytic_lobe& lobe : model.lobes()) {
     json parameters = json::object();
     const auto about = lobe.kind().parameters();
     for (std::size_t i = 0; i < about.size(); ++i) parameters[std::string(about[i].name)] = lobe.parameters()[i];

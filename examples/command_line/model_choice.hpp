@@ -12,24 +12,24 @@
 namespace cli {
 
 /// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
-[[nodiscard]] std::vector<const gonio::lobe_kind*> lobes_named(const std::string& model);
+[[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
 
 /// A kind with Fresnel's factor: phong becomes phong-fresnel. Throws gonio::error for a kind that has none.
-[[nodiscard]] const gonio::lobe_kind& with_fresnel_factor(const gonio::lobe_kind& kind);
+[[nodiscard]] const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind& kind);
 
 /// Adds `--loss`, `--cosine-weighted`, `--starts` and `--seed`.
-void add_fit_options(command& to, gonio::model_fit_options& options);
+void add_fit_options(command& to, gonio::model::model_fit_options& options);
 
 /// Adds `--cell-weights`.
-void add_cell_weights_option(command& to, gonio::cell_weighting& weighting);
+void add_cell_weights_option(command& to, gonio::model::cell_weighting& weighting);
 
 /// Fits by one of the metrics lin, log and cubic.
-[[nodiscard]] gonio::model_fit fit_by_metric(const std::string& metric,
-                                             const std::vector<const gonio::lobe_kind*>& kinds,
-                                             std::span<const gonio::fit_observation> observations,
-                                             const gonio::model_fit_options& options);
+[[nodiscard]] gonio::model::model_fit fit_by_metric(const std::string& metric,
+                                                    const std::vector<const gonio::model::lobe_kind*>& kinds,
+                                                    std::span<const gonio::model::fit_observation> observations,
+                                                    const gonio::model::model_fit_options& options);
 
 /// The lobes with their colours and parameters.
-[[nodiscard]] json to_json(const gonio::analytic_brdf& model);
+[[nodiscard]] json to_json(const gonio::model::analytic_brdf& model);
 
 }  // namespace cli

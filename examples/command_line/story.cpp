@@ -30,12 +30,12 @@ gonio::image doubled(const gonio::image& picture) {
 
 template <gonio::brdf Brdf>
 gonio::image slice(const Brdf& f, gonio::thread_count threads) {
-  return gonio::render_slice(f, {.rows = tile, .columns = tile}, threads);
+  return gonio::render::render_slice(f, {.rows = tile, .columns = tile}, threads);
 }
 
 /// A factor's colour: blue for a half or less, green for 1, red for 2 or more; the mean of the channels' logarithms.
 gonio::rgb factor_colour(const gonio::rgb& sigma) {
-  return gonio::false_colour(sigma.max(1e-6).log().mean() / std::numbers::ln2, {-1.0, 1.0});
+  return gonio::render::false_colour(sigma.max(1e-6).log().mean() / std::numbers::ln2, {-1.0, 1.0});
 }
 
 /// A slice of factors in false colour. `sigma(wi, wo)` is a factor for each channel.
@@ -93,7 +93,7 @@ gonio::image in_columns(const std::vector<std::vector<gonio::image>>& columns) {
   gonio::image canvas = gonio::uniform_image(margin + rows * step, margin + columns.size() * step, paper);
   for (std::size_t x = 0; x < columns.size(); ++x)
     for (std::size_t y = 0; y < columns[x].size(); ++y)
-      gonio::paste(canvas, columns[x][y], margin + y * step, margin + x * step);
+      gonio::render::paste(canvas, columns[x][y], margin + y * step, margin + x * step);
   return canvas;
 }
 
@@ -102,12 +102,12 @@ class gallery {
  public:
   gallery(const gonio::brdf_table& reference, gonio::thread_count threads)
       : threads_(threads),
-        judge_(reference.cells(), gonio::environment_lighting{}, cells_across, gonio::sphere_judge::middle_grey,
+        judge_(reference.cells(), gonio::render::environment_lighting{}, cells_across, gonio::sphere_judge::middle_grey,
                threads),
         reference_(judge_.expose(reference, threads)) {}
 
   [[nodiscard]] gonio::image sphere(const gonio::brdf_table& table) const {
-    const gonio::sphere_colours colours = reference_.exposure * judge_.sphere().apply(table, threads_);
+    const gonio::render::sphere_colours colours = reference_.exposure * judge_.sphere().apply(table, threads_);
     return doubled(judge_.sphere().to_image(colours, paper));
   }
 

@@ -117,9 +117,9 @@ class dark_room {
   void place_camera(const Eigen::Vector3d& position) { camera_ = position; }
   void light(bool is_on) { is_lit_ = is_on; }
 
-  [[nodiscard]] gonio::camera_frame expose(double seconds) {
+  [[nodiscard]] gonio::capture::camera_frame expose(double seconds) {
     const double exposed = seconds / chip_.saturating * (1.0 + wrong_.flicker * normal_(generator_));
-    gonio::camera_frame counts(chip_.side * chip_.side, 3);
+    gonio::capture::camera_frame counts(chip_.side * chip_.side, 3);
     for (int row = 0; row < chip_.side; ++row)
       for (int column = 0; column < chip_.side; ++column) {
         // Places across the picture, from -1 to 1.
@@ -210,19 +210,19 @@ class room_camera {
   [[nodiscard]] std::uint16_t largest_count() const { return room_->chip().largest_count; }
   [[nodiscard]] double shortest_time() const { return room_->chip().shortest_time; }
   [[nodiscard]] double longest_time() const { return room_->chip().longest_time; }
-  [[nodiscard]] gonio::camera_frame expose(double seconds) {
+  [[nodiscard]] gonio::capture::camera_frame expose(double seconds) {
     if (!(seconds >= shortest_time() && seconds <= longest_time()))
-      throw gonio::device_failure("the camera does not expose for " + std::to_string(seconds) + " s");
+      throw gonio::capture::device_failure("the camera does not expose for " + std::to_string(seconds) + " s");
     return room_->expose(seconds);
   }
 
  private:
   dark_room* room_;
 };
-static_assert(gonio::camera<room_camera>);
+static_assert(gonio::capture::camera<room_camera>);
 
 /// Switches a lamp on, and off again whatever happens.
-template <gonio::light_source Lights>
+template <gonio::capture::light_source Lights>
 class lit {
  public:
   lit(Lights& lights, std::size_t lamp) : lights_(lights) { lights_.switch_on(lamp); }

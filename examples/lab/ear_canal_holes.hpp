@@ -50,9 +50,9 @@ struct hole_options {
 
 /// A mesh on a surface with the surface's normals and places.
 struct sampled_surface {
-  gonio::triangle_mesh mesh;
+  gonio::shape::triangle_mesh mesh;
   parameter_columns places;
-  gonio::point_columns normals;
+  gonio::shape::point_columns normals;
 
   /// Removes the triangles that have a vertex without a property, what then hangs together in a point only, all but
   /// the largest part, and the vertices of no triangle. Returns the former indices of the vertices that are left.
@@ -136,8 +136,8 @@ struct sampled_surface {
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (int corner = 0; corner < 3; ++corner)
         mesh.triangles(corner, static_cast<Eigen::Index>(t)) = number[static_cast<std::size_t>(triangles[t][corner])];
-    mesh.vertices = gonio::point_columns(mesh.vertices(Eigen::all, left));
-    normals = gonio::point_columns(normals(Eigen::all, left));
+    mesh.vertices = gonio::shape::point_columns(mesh.vertices(Eigen::all, left));
+    normals = gonio::shape::point_columns(normals(Eigen::all, left));
     places = parameter_columns(places(Eigen::all, left));
     return left;
   }
@@ -199,7 +199,7 @@ class ear_hole {
 
   void disturb_edge(sampled_surface& sampled, const std::vector<bool>& on_edge, number_source& numbers) const {
     if (options_.edge_noise <= 0.0) return;
-    const gonio::point_columns before = sampled.mesh.vertices;
+    const gonio::shape::point_columns before = sampled.mesh.vertices;
     for (Eigen::Index i = 0; i < before.cols(); ++i) {
       double distance = std::numeric_limits<double>::infinity();
       for (Eigen::Index j = 0; j < before.cols(); ++j)

@@ -31,7 +31,7 @@ using parametric_surface = std::function<Eigen::Vector3d(double u, double v)>;
 
 /// A mesh with the places of its vertices.
 struct parametric_mesh {
-  gonio::triangle_mesh mesh;
+  gonio::shape::triangle_mesh mesh;
   parameter_columns places;
 };
 
@@ -64,7 +64,7 @@ class ring_mesher {
     points_.push_back(surface_(1.0, 0.0));
     for (std::size_t ring = 0; ring + 1 < counts_.size(); ++ring) stitch(ring);
     close_tip();
-    return {{columns_of<gonio::point_columns>(points_), columns_of<gonio::triangle_columns>(triangles_)},
+    return {{columns_of<gonio::shape::point_columns>(points_), columns_of<gonio::shape::triangle_columns>(triangles_)},
             columns_of<parameter_columns>(places_)};
   }
 
@@ -253,8 +253,9 @@ class ring_mesher {
 parametric_surface surface_of(ear_canal&&) = delete;
 
 /// The points of an individual at some places: 3 x places.
-[[nodiscard]] inline gonio::point_columns points_at(const ear_canal& individual, const parameter_columns& places) {
-  gonio::point_columns points(3, places.cols());
+[[nodiscard]] inline gonio::shape::point_columns points_at(const ear_canal& individual,
+                                                           const parameter_columns& places) {
+  gonio::shape::point_columns points(3, places.cols());
   for (Eigen::Index i = 0; i < places.cols(); ++i) points.col(i) = individual.at(places(0, i), places(1, i));
   return points;
 }
@@ -268,11 +269,11 @@ class ear_canal_template {
             mesh_of([mean = ear_canal_family::mean()](double u, double v) { return mean.at(u, v); }, 0.0, vertices)) {}
 
   /// On the family's mean.
-  [[nodiscard]] const gonio::triangle_mesh& mesh() const noexcept { return on_mean_.mesh; }
+  [[nodiscard]] const gonio::shape::triangle_mesh& mesh() const noexcept { return on_mean_.mesh; }
   [[nodiscard]] const parameter_columns& places() const noexcept { return on_mean_.places; }
 
   /// The true places of the vertices on an individual: 3 x vertices.
-  [[nodiscard]] gonio::point_columns corresponded(const ear_canal& individual) const {
+  [[nodiscard]] gonio::shape::point_columns corresponded(const ear_canal& individual) const {
     return points_at(individual, on_mean_.places);
   }
 

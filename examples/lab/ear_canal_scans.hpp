@@ -48,13 +48,14 @@ struct scan_options {
 
 /// A scan and what is true about it.
 struct ear_scan {
-  gonio::triangle_mesh mesh;
-  parameter_columns places;    ///< (u, v) of each vertex of `mesh`; that of a neighbour for spurious flaps
-  gonio::point_columns truth;  ///< the template's vertices, in the scan's coordinates; none for another object
+  gonio::shape::triangle_mesh mesh;
+  parameter_columns places;           ///< (u, v) of each vertex of `mesh`; that of a neighbour for spurious flaps
+  gonio::shape::point_columns truth;  ///< the template's vertices, in the scan's coordinates; none for another object
   /// Which of them are on the part of the surface that was scanned, up to a triangle's size.
   std::vector<bool> covered;
-  gonio::triangle_mesh complete;  ///< without holes and noise, in the scan's coordinates, from `ear_canal::outermost`
-  Eigen::Affine3d placement;      ///< from the family's coordinates to the scan's; reflects if mirrored
+  gonio::shape::triangle_mesh
+      complete;               ///< without holes and noise, in the scan's coordinates, from `ear_canal::outermost`
+  Eigen::Affine3d placement;  ///< from the family's coordinates to the scan's; reflects if mirrored
   scan_defect defect = scan_defect::none;
   ear_canal individual;  ///< for another object, the one that it replaces
 
@@ -168,7 +169,7 @@ class scanner {
     const auto slanted = [this](double u, double v) { return surface_(u + slant_at(u, v), v); };
     parametric_mesh made = mesh_of(slanted, cut_, options_.vertices > 0 ? options_.vertices : drawn, irregular);
     for (auto place : made.places.colwise()) place.x() += slant_at(place.x(), place.y());
-    gonio::point_columns normals(3, made.places.cols());
+    gonio::shape::point_columns normals(3, made.places.cols());
     for (Eigen::Index i = 0; i < normals.cols(); ++i)
       normals.col(i) = normal_of(surface_, made.places(0, i), made.places(1, i));
     return {std::move(made.mesh), std::move(made.places), std::move(normals)};
@@ -198,12 +199,13 @@ class scanner {
     return options_.defect != scan_defect::half || (place.x() < 0.5) == keeps_outer_half();
   }
 
-  [[nodiscard]] gonio::triangle_mesh complete() const {
+  [[nodiscard]] gonio::shape::triangle_mesh complete() const {
     const double from = options_.defect == scan_defect::other_object ? -0.03 : ear_canal::outermost;
     return mesh_of(surface_, from, options_.complete_vertices).mesh;
   }
 
-  [[nodiscard]] static gonio::triangle_mesh placed(gonio::triangle_mesh mesh, const Eigen::Affine3d& placement) {
+  [[nodiscard]] static gonio::shape::triangle_mesh placed(gonio::shape::triangle_mesh mesh,
+                                                          const Eigen::Affine3d& placement) {
     mesh.vertices = (placement * mesh.vertices).eval();
     if (placement.linear().determinant() < 0.0) mesh.triangles.row(0).swap(mesh.triangles.row(1));
     return mesh;

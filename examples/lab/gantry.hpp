@@ -27,7 +27,7 @@ class gantry_arm {
   std::string name_;
   double radius_, largest_polar_angle_;
 };
-static_assert(gonio::positioner<gantry_arm>);
+static_assert(gonio::capture::positioner<gantry_arm>);
 
 /// The lamp on the arm.
 class gantry_lamp {
@@ -40,7 +40,7 @@ class gantry_lamp {
  private:
   dark_room* room_;
 };
-static_assert(gonio::light_source<gantry_lamp>);
+static_assert(gonio::capture::light_source<gantry_lamp>);
 
 class gantry {
  public:
@@ -51,7 +51,7 @@ class gantry {
         lamp_(room),
         camera_(room) {}
 
-  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+  [[nodiscard]] gonio::capture::placement place(const gonio::direction_pair& pair) const {
     std::string obstacle = lamp_arm_.obstacle(pair.wi);
     if (obstacle.empty()) obstacle = camera_arm_.obstacle(pair.wo);
     const double apart = gonio::angle_between(pair.wi, pair.wo);
@@ -65,12 +65,12 @@ class gantry {
   }
   [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
 
-  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+  [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     room_->begin(pair);
     lamp_arm_.move_to(pair.wi);
     camera_arm_.move_to(pair.wo);
     const lit burning(lamp_, 0);
-    return gonio::expose_bracket(camera_);
+    return gonio::capture::expose_bracket(camera_);
   }
 
   static constexpr double lamp_distance = 1000.0, camera_distance = 600.0;
@@ -83,6 +83,6 @@ class gantry {
   gantry_lamp lamp_;
   room_camera camera_;
 };
-static_assert(gonio::goniometer<gantry>);
+static_assert(gonio::capture::goniometer<gantry>);
 
 }  // namespace lab

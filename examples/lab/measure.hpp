@@ -13,40 +13,39 @@ namespace lab {
 
 /// A record that forgets all when it ends.
 struct scan_in_memory {
-  std::map<std::size_t, gonio::reading> readings{};
+  std::map<std::size_t, gonio::capture::reading> readings{};
 
   [[nodiscard]] bool has(std::size_t pose) const { return readings.contains(pose); }
-  void add(std::size_t pose, const gonio::reading& taken) { readings.emplace(pose, taken); }
+  void add(std::size_t pose, const gonio::capture::reading& taken) { readings.emplace(pose, taken); }
 };
-static_assert(gonio::scan_record<scan_in_memory>);
+static_assert(gonio::capture::scan_record<scan_in_memory>);
 
-/// The readings of all poses. Throws gonio::device_failure if one stays missing.
-template <gonio::goniometer Machine>
-[[nodiscard]] std::vector<gonio::reading> measure_all(Machine& machine, std::span<const gonio::direction_pair> poses) {
+/// The readings of all poses. Throws gonio::capture::device_failure if one stays missing.
+template <gonio::capture::goniometer Machine>
+[[nodiscard]] std::vector<gonio::capture::reading> measure_all(Machine& machine,
+                                                               std::span<const gonio::direction_pair> poses) {
   scan_in_memory record;
-  const gonio::scan_outcome outcome = gonio::scan(machine, poses, record);
+  const gonio::capture::scan_outcome outcome = gonio::capture::scan(machine, poses, record);
   if (!outcome.is_complete())
-    throw gonio::device_failure("pose " + std::to_string(outcome.missing.front().number) + ": " +
-                                outcome.missing.front().reason);
-  std::vector<gonio::reading> all;
+    throw gonio::capture::device_failure("pose " + std::to_string(outcome.missing.front().number) + ": " +
+                                         outcome.missing.front().reason);
+  std::vector<gonio::capture::reading> all;
   for (auto& [pose, taken] : record.readings) all.push_back(std::move(taken));
   return all;
 }
 
 /// What scans of a material and of the white reference at the same poses say of its BRDF, by the response that both
 /// show the camera to have.
-[[nodiscard]] inline std::vector<gonio::measured_reflectance> calibrate(const std::vector<gonio::reading>& material,
-                                                                        const std::vector<gonio::reading>& reference,
-                                                                        std::span<const gonio::direction_pair> poses,
-                                                                        const sensor& chip,
-                                                                        const gonio::sensor_noise& noise) {
-  std::vector<gonio::reading> both = reference;
+[[nodiscard]] inline std::vector<gonio::capture::measured_reflectance> calibrate(
+    const std::vector<gonio::capture::reading>& material, const std::vector<gonio::capture::reading>& reference,
+    std::span<const gonio::direction_pair> poses, const sensor& chip, const gonio::capture::sensor_noise& noise) {
+  std::vector<gonio::capture::reading> both = reference;
   both.insert(both.end(), material.begin(), material.end());
-  const gonio::calibration known{gonio::estimate_responses(both, chip.largest_count), noise, 0.99,
-                                 static_cast<std::uint16_t>(0.98 * chip.largest_count)};
-  std::vector<gonio::measured_reflectance> measured;
+  const gonio::capture::calibration known{gonio::capture::estimate_responses(both, chip.largest_count), noise, 0.99,
+                                          static_cast<std::uint16_t>(0.98 * chip.largest_count)};
+  std::vector<gonio::capture::measured_reflectance> measured;
   for (std::size_t i = 0; i < poses.size(); ++i)
-    measured.push_back(gonio::measure_reflectance(material[i], reference[i], poses[i], known));
+    measured.push_back(gonio::capture::measure_reflectance(material[i], reference[i], poses[i], known));
   return measured;
 }
 

@@ -8,8 +8,8 @@ namespace lab {
 /// A square picture that the sphere fills, black beside it. `radiance(direction)` is the light from a direction;
 /// `samples` rays across each pixel see it, of which those beside the sphere are black.
 template <class Radiance>
-[[nodiscard]] gonio::image photograph(const gonio::mirror_sphere& sphere, const Radiance& radiance, std::size_t pixels,
-                                      int samples = 4) {
+[[nodiscard]] gonio::image photograph(const gonio::capture::mirror_sphere& sphere, const Radiance& radiance,
+                                      std::size_t pixels, int samples = 4) {
   gonio::image picture = gonio::uniform_image(pixels, pixels);
   const double scale = 2.0 / static_cast<double>(pixels);
   for (std::size_t row = 0; row < pixels; ++row)

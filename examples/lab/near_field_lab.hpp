@@ -24,9 +24,9 @@ struct near_field_defects {
 /// A picture of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
 /// below the horizon. The defects come from the seed alone; the set-up is what the experimenter believes.
 template <gonio::brdf Brdf>
-[[nodiscard]] gonio::image photograph(const Brdf& material, const gonio::sample_disc& disc,
-                                      const gonio::near_field_setup& setup, const near_field_defects& defects = {},
-                                      std::uint64_t seed = 0) {
+[[nodiscard]] gonio::image photograph(const Brdf& material, const gonio::capture::sample_disc& disc,
+                                      const gonio::capture::near_field_setup& setup,
+                                      const near_field_defects& defects = {}, std::uint64_t seed = 0) {
   std::mt19937_64 generator(seed);
   const Eigen::Matrix3d turn_light = random_turn(defects.misalignment, generator);
   const Eigen::Matrix3d turn_camera = random_turn(defects.misalignment, generator);

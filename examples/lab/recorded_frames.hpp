@@ -51,16 +51,16 @@ class recorded_frames {
     return all;
   }
 
-  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+  [[nodiscard]] gonio::capture::placement place(const gonio::direction_pair& pair) const {
     return {pair, find(pair) ? "" : "no frame was recorded there"};
   }
   [[nodiscard]] double travel(const gonio::direction_pair&, const gonio::direction_pair&) const { return 0.0; }
   [[nodiscard]] std::uint16_t largest_count() const { return largest_count_; }
 
-  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+  [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     const recorded_pose* found = find(pair);
-    if (found == nullptr) throw gonio::device_failure("no frame was recorded there");
-    gonio::reading taken;
+    if (found == nullptr) throw gonio::capture::device_failure("no frame was recorded there");
+    gonio::capture::reading taken;
     for (const auto& [seconds, file] : found->frames) {
       taken.times.push_back(seconds);
       taken.frames.push_back(read_frame(folder_ / file));
@@ -145,13 +145,14 @@ class recorded_frames {
   }
 
   /// A file that is missing or damaged is a frame that did not arrive.
-  [[nodiscard]] gonio::camera_frame read_frame(const std::filesystem::path& file) const try {
+  [[nodiscard]] gonio::capture::camera_frame read_frame(const std::filesystem::path& file) const try {
     const gonio::io::stored_codes codes = gonio::io::read_png_codes(file);
     const window seen = window_.value_or(window{0, 0, codes.columns, codes.rows});
     if (seen.column + seen.columns > codes.columns || seen.row + seen.rows > codes.rows)
-      throw gonio::device_failure(file.string() + ": the window ends outside the picture of " +
-                                  std::to_string(codes.columns) + " x " + std::to_string(codes.rows) + " pixels");
-    gonio::camera_frame counts(static_cast<Eigen::Index>(seen.rows * seen.columns), 3);
+      throw gonio::capture::device_failure(file.string() + ": the window ends outside the picture of " +
+                                           std::to_string(codes.columns) + " x " + std::to_string(codes.rows) +
+                                           " pixels");
+    gonio::capture::camera_frame counts(static_cast<Eigen::Index>(seen.rows * seen.columns), 3);
     for (std::size_t row = 0; row < seen.rows; ++row)
       for (std::size_t column = 0; column < seen.columns; ++column)
         for (std::size_t channel = 0; channel < 3; ++channel)
@@ -159,7 +160,7 @@ class recorded_frames {
               codes.at(seen.row + row, seen.column + column, channel);
     return counts;
   } catch (const gonio::error& refusal) {
-    throw gonio::device_failure(refusal.what());
+    throw gonio::capture::device_failure(refusal.what());
   }
 
   std::filesystem::path folder_;
@@ -169,6 +170,6 @@ class recorded_frames {
   std::vector<recorded_pose> recorded_;
   std::multimap<double, std::size_t> by_key_;  ///< numbers of the poses
 };
-static_assert(gonio::goniometer<recorded_frames>);
+static_assert(gonio::capture::goniometer<recorded_frames>);
 
 }  // namespace lab

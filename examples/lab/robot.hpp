@@ -10,7 +10,7 @@ namespace lab {
 /// The arc: lamps every 7.5 degrees at 1000 mm, one of which burns.
 class lamp_arc {
  public:
-  explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::arc_lamps()) {}
+  explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::capture::arc_lamps()) {}
 
   [[nodiscard]] std::size_t lamps() const { return towards_.size(); }
   void switch_on(std::size_t lamp) {
@@ -32,7 +32,7 @@ class lamp_arc {
   dark_room* room_;
   std::vector<gonio::direction> towards_;
 };
-static_assert(gonio::light_source<lamp_arc>);
+static_assert(gonio::capture::light_source<lamp_arc>);
 
 /// The six-axis robot with the camera in its hand. What it is told are positions and quaternions in its own axes, in
 /// which the arc lies above y.
@@ -47,23 +47,23 @@ class robot_arm {
   }
   void move_to(const gonio::direction& w) { obey(sphere_.towards(w)); }
 
-  [[nodiscard]] const gonio::camera_sphere& sphere() const { return sphere_; }
+  [[nodiscard]] const gonio::capture::camera_sphere& sphere() const { return sphere_; }
 
  private:
   /// As the robot's controller does: it goes where it is told, and the camera sees the sample if it looks there.
-  void obey(const gonio::camera_pose& pose) {
+  void obey(const gonio::capture::camera_pose& pose) {
     const gonio::direction to_sample = (sphere_.centre - pose.position).normalized();
     if (gonio::angle_between(pose.looks_along(), to_sample) > gonio::radians(0.01))
-      throw gonio::device_failure("the robot's camera does not look at the sample");
+      throw gonio::capture::device_failure("the robot's camera does not look at the sample");
     room_->place_camera(sphere_.radius * sphere_.seen_from(pose));
   }
 
   static constexpr double lowest = 83.0 * std::numbers::pi / 180.0;
 
   dark_room* room_;
-  gonio::camera_sphere sphere_;
+  gonio::capture::camera_sphere sphere_;
 };
-static_assert(gonio::positioner<robot_arm>);
+static_assert(gonio::capture::positioner<robot_arm>);
 
 /// Robot and arc. A light of which the nearest lamp is farther than `tolerance` cannot be had; else it is measured
 /// where that lamp is.
@@ -72,11 +72,11 @@ class robot {
   explicit robot(dark_room& room, double tolerance = gonio::radians(0.5))
       : room_(&room), arc_(room), arm_(room), camera_(room), tolerance_(tolerance) {}
 
-  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+  [[nodiscard]] gonio::capture::placement place(const gonio::direction_pair& pair) const {
     const bool is_above = std::abs(pair.wi.y()) < 1e-9 && pair.wo.y() > -1e-9;
-    const gonio::direction_pair turned = is_above ? pair : gonio::above_arc(pair);
+    const gonio::direction_pair turned = is_above ? pair : gonio::capture::above_arc(pair);
     const gonio::direction lamp = arc_.towards(arc_.nearest(turned.wi));
-    const gonio::placement at{{lamp, turned.wo}, arm_.obstacle(turned.wo)};
+    const gonio::capture::placement at{{lamp, turned.wo}, arm_.obstacle(turned.wo)};
     if (!at.is_reachable()) return at;
     const double off = gonio::angle_between(lamp, turned.wi), apart = gonio::angle_between(lamp, turned.wo);
     if (off > tolerance_ + 1e-9)
@@ -92,11 +92,11 @@ class robot {
   [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
   [[nodiscard]] const lamp_arc& arc() const { return arc_; }
 
-  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+  [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     room_->begin(pair);
     arm_.move_to(pair.wo);
     const lit burning(arc_, arc_.nearest(pair.wi));
-    return gonio::expose_bracket(camera_);
+    return gonio::capture::expose_bracket(camera_);
   }
 
  private:
@@ -110,6 +110,6 @@ class robot {
   room_camera camera_;
   double tolerance_;
 };
-static_assert(gonio::goniometer<robot>);
+static_assert(gonio::capture::goniometer<robot>);
 
 }  // namespace lab

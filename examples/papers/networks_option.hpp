@@ -20,7 +20,7 @@ struct studied_networks {
   std::filesystem::path file;
   thinning thin = {};
 
-  [[nodiscard]] gonio::named_networks read() const { return gonio::io::read_networks(file); }
+  [[nodiscard]] gonio::model::named_networks read() const { return gonio::io::read_networks(file); }
   [[nodiscard]] gonio::valid_cells cells() const { return thin.of(gonio::valid_cells()); }
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 using gonio::direction;
 using gonio::rgb;
-using material = gonio::half_vector_sampler<gonio::lookup_table<Eigen::half>>;
+using material = gonio::render::half_vector_sampler<gonio::render::lookup_table<Eigen::half>>;
 
 struct sphere {
   direction centre;
@@ -43,7 +43,7 @@ struct hit {
 
 struct scene {
   std::vector<sphere> spheres;
-  gonio::environment_sampler light;
+  gonio::render::environment_sampler light;
 
   /// The nearest surface along a ray: a sphere, or the floor y = 0.
   [[nodiscard]] std::optional<hit> meet(const direction& from, const direction& towards) const {
@@ -91,7 +91,7 @@ rgb radiance(const scene& world, direction from, direction towards, Number& numb
       return sum + carried * share * world.light.map()(towards);
     }
     from += met->distance * towards;
-    const gonio::surface_frame surface(met->normal);
+    const gonio::render::surface_frame surface(met->normal);
     const direction wo = surface.to_local(-towards);
 
     const double u1 = number(), u2 = number(), u3 = number(), u4 = number();
@@ -147,12 +147,13 @@ std::vector<material> measured_and_reconstructed(const std::filesystem::path& pr
   for (const std::size_t i : tested) {
     const gonio::brdf_table truth = all.table(i);
     gonio::sample_set samples;
-    for (const auto& angles : gonio::nielsen_directions(20)) {
+    for (const auto& angles : gonio::design::nielsen_directions(20)) {
       const auto [wi, wo] = gonio::to_directions(angles);
       samples.push_back({angles, truth(wi, wo)});
     }
-    materials.emplace_back(gonio::lookup_table<Eigen::half>::of(truth));
-    materials.emplace_back(gonio::lookup_table<Eigen::half>::of(estimator.fit(samples).tabulate(truth.cells())));
+    materials.emplace_back(gonio::render::lookup_table<Eigen::half>::of(truth));
+    materials.emplace_back(
+        gonio::render::lookup_table<Eigen::half>::of(estimator.fit(samples).tabulate(truth.cells())));
   }
   return materials;
 }
@@ -166,8 +167,9 @@ int main(int count, char** arguments) try {
   if (samples < 1) throw gonio::error("the samples for each pixel are a number, at least 1");
   const auto made_of = measured_and_reconstructed(arguments[1]);
   scene world{{},
-              gonio::environment_sampler(count > 3 ? gonio::environment_map(gonio::io::read_hdr(arguments[3]))
-                                                   : gonio::environment_map::of(gonio::formula_environment{}))};
+              gonio::render::environment_sampler(
+                  count > 3 ? gonio::render::environment_map(gonio::io::read_hdr(arguments[3]))
+                            : gonio::render::environment_map::of(gonio::render::formula_environment{}))};
   for (std::size_t i = 0; i < made_of.size(); ++i)
     world.spheres.push_back(
         {{1.25 * (static_cast<double>(i / 2) - 4.5), 0.55, i % 2 == 0 ? -1.2 : 0.9}, 0.55, &made_of[i]});

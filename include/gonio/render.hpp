@@ -4,8 +4,8 @@
 /// is estimated. Compiles with -fno-exceptions -fno-rtti, where what is otherwise thrown ends the program. After
 /// construction nothing allocates, locks or throws, and any number of threads may read.
 /// ```cpp
-/// const auto table = gonio::lookup_table<Eigen::half>::from_merl(planes);
-/// const gonio::half_vector_sampler paint(table);
+/// const auto table = gonio::render::lookup_table<Eigen::half>::from_merl(planes);
+/// const gonio::render::half_vector_sampler paint(table);
 /// const auto [wi, weight, pdf] = paint.sample(wo, u1, u2);
 /// ```
 

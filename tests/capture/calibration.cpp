@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
-using gonio::camera_response;
-using gonio::measure_reflectance;
-using gonio::reading;
+using gonio::capture::camera_response;
+using gonio::capture::measure_reflectance;
+using gonio::capture::reading;
 
 namespace {
 
@@ -14,8 +14,8 @@ const std::array linear_cameras{camera_response::power_law(4095), camera_respons
 /// What a linear camera of 12 bits counts of counts per second, at the note's times and four pixels.
 reading photographed(const gonio::rgb& per_second) {
   reading taken;
-  for (const double time : gonio::note_exposure_times) {
-    gonio::camera_frame counts(4, 3);
+  for (const double time : gonio::capture::note_exposure_times) {
+    gonio::capture::camera_frame counts(4, 3);
     for (Eigen::Index pixel = 0; pixel < 4; ++pixel)
       for (Eigen::Index channel = 0; channel < 3; ++channel)
         counts(pixel, channel) = static_cast<std::uint16_t>(std::lround(std::min(4095.0, time * per_second[channel])));
@@ -26,7 +26,7 @@ reading photographed(const gonio::rgb& per_second) {
 }
 
 const gonio::direction_pair somewhere{gonio::spherical_direction(0.4, 0.0), gonio::spherical_direction(0.7, 2.0)};
-const gonio::calibration known{linear_cameras, {.read = 1.0, .shot = 0.0, .relative = 0.01}, 0.99};
+const gonio::capture::calibration known{linear_cameras, {.read = 1.0, .shot = 0.0, .relative = 0.01}, 0.99};
 
 }  // namespace
 
@@ -73,7 +73,7 @@ TEST_CASE("calibration: what means nothing says why") {
 TEST_CASE(
     "calibration: a channel counts by its own deviation: the near-black one of a paint less than the bright ones") {
   const auto measured = [](const gonio::rgb& value, const gonio::rgb& deviation) {
-    return gonio::measured_reflectance{somewhere, value, deviation}.as_sample().weight;
+    return gonio::capture::measured_reflectance{somewhere, value, deviation}.as_sample().weight;
   };
   // Noise of 0.002 is a percent of one channel and all of another.
   const auto red = measured({0.2, 0.002, 0.0}, gonio::rgb::Constant(0.002));
@@ -91,15 +91,16 @@ TEST_CASE("calibration: the responses of the three colours come from the times t
   for (const double brightness : {300.0, 900.0, 2'500.0, 7'000.0, 20'000.0, 50'000.0, 120'000.0})
     readings.push_back(photographed({brightness, 0.5 * brightness, 0.2 * brightness}));
   readings[1].times.push_back(0.8);
-  readings[1].frames.push_back(gonio::camera_frame::Constant(4, 3, 4095));
-  for (const camera_response& each : gonio::estimate_responses(readings, 4095))
+  readings[1].frames.push_back(gonio::capture::camera_frame::Constant(4, 3, 4095));
+  for (const camera_response& each : gonio::capture::estimate_responses(readings, 4095))
     for (const double count : {200.0, 500.0, 1'000.0, 3'000.0})
       CHECK(each.exposure(count) == doctest::Approx(count / 2047.5).epsilon(0.01));
 
   using doctest::Contains;
-  CHECK_THROWS_WITH_AS((void)gonio::estimate_responses({}, 4095), Contains("needs readings"), gonio::error);
-  readings.push_back({{0.05}, {gonio::camera_frame::Constant(4, 3, 100)}});
-  CHECK_THROWS_WITH_AS((void)gonio::estimate_responses(readings, 4095), Contains("in common, not 1"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)gonio::capture::estimate_responses({}, 4095), Contains("needs readings"), gonio::error);
+  readings.push_back({{0.05}, {gonio::capture::camera_frame::Constant(4, 3, 100)}});
+  CHECK_THROWS_WITH_AS((void)gonio::capture::estimate_responses(readings, 4095), Contains("in common, not 1"),
+                       gonio::error);
 }
 
 TEST_CASE("calibration: frames that saturate in a pixel take no part, nor do those of which the response is a guess") {
@@ -117,7 +118,7 @@ TEST_CASE("calibration: a reference darker than most of what is measured beside 
   const gonio::direction up(0.0, 0.0, 1.0), aslant = gonio::spherical_direction(gonio::radians(50.0), 0.0);
   // Values of a share of white, half of them highlights.
   const auto measured = [&](std::initializer_list<double> highlights, std::initializer_list<double> others) {
-    std::vector<gonio::measured_reflectance> all;
+    std::vector<gonio::capture::measured_reflectance> all;
     const auto add = [&](const gonio::direction_pair& at, double share) {
       all.push_back({at, gonio::rgb(0.5, 1.5, 1.0) * share * 0.99 / std::numbers::pi, gonio::rgb::Zero(), ""});
     };
@@ -125,7 +126,7 @@ TEST_CASE("calibration: a reference darker than most of what is measured beside 
     for (const double share : others) add({up, aslant}, share);
     return all;
   };
-  const auto accepts = [](const auto& all) { gonio::require_bright_reference(all, 0.99); };
+  const auto accepts = [](const auto& all) { gonio::capture::require_bright_reference(all, 0.99); };
   accepts(measured({}, {}));
   accepts(measured({0.5, 7.0}, {0.2, 0.9}));
   accepts(measured({9.0, 7.0}, {0.2, 0.9}));

@@ -8,9 +8,9 @@
 #include <functional>
 #include <random>
 
-using gonio::camera_response;
-using gonio::estimate_response;
-using gonio::exposure_counts;
+using gonio::capture::camera_response;
+using gonio::capture::estimate_response;
+using gonio::capture::exposure_counts;
 
 namespace {
 
@@ -27,12 +27,12 @@ exposure_counts expose(const curve& response, std::uint16_t largest, double nois
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> log_radiance(std::log(0.02), std::log(60.0));
-  exposure_counts counts(pixels, std::ssize(gonio::note_exposure_times));
+  exposure_counts counts(pixels, std::ssize(gonio::capture::note_exposure_times));
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
     const double radiance = std::exp(log_radiance(generator));
     for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-      const double exposure =
-          radiance * gonio::note_exposure_times[static_cast<std::size_t>(j)] * (1.0 + noise * normal(generator));
+      const double exposure = radiance * gonio::capture::note_exposure_times[static_cast<std::size_t>(j)] *
+                              (1.0 + noise * normal(generator));
       counts(i, j) = static_cast<std::uint16_t>(std::lround(largest * response(std::clamp(exposure, 0.0, 1.0))));
     }
   }
@@ -63,8 +63,8 @@ TEST_CASE("camera response: within 1 % for linear, gamma 2.2 and S-shaped camera
   for (const unsigned seed : {1u, 2u, 3u})
     for (const curve& response : {curve(linear), curve(gamma_curve), curve(s_shaped)})
       for (const std::uint16_t largest : {std::uint16_t(255), std::uint16_t(4095), std::uint16_t(65535)}) {
-        const auto found =
-            estimate_response(expose(response, largest, 0.01, 2000, seed), gonio::note_exposure_times, largest);
+        const auto found = estimate_response(expose(response, largest, 0.01, 2000, seed),
+                                             gonio::capture::note_exposure_times, largest);
         // Below 13 of 255 counts, rounding to whole ones is more than the noise.
         CHECK(worst_error(found, response, largest == 255 ? 0.05 : 0.02) < 0.01);
       }
@@ -74,7 +74,7 @@ TEST_CASE("camera response: exact without noise, for every power law") {
   rc::check("a power law is found again", [] {
     const double exponent = *rc::gen::inRange(3, 30) / 10.0;
     const auto counts = expose([&](double x) { return std::pow(x, 1.0 / exponent); }, 65535, 0.0, 200, 5);
-    const auto found = estimate_response(counts, gonio::note_exposure_times, 65535);
+    const auto found = estimate_response(counts, gonio::capture::note_exposure_times, 65535);
     const auto expected = camera_response::power_law(65535, exponent);
     for (const double share : {0.05, 0.2, 0.4, 0.8, 0.95})
       RC_ASSERT(std::abs(found.log_exposure(share * 65535) - expected.log_exposure(share * 65535)) < 2e-3);
@@ -87,7 +87,7 @@ TEST_CASE("camera response: it never falls, whatever the counts") {
     exposure_counts counts(30, 5);
     for (Eigen::Index i = 0; i < counts.size(); ++i)
       counts.data()[i] = static_cast<std::uint16_t>(std::uniform_int_distribution<int>(1, 254)(generator));
-    const auto found = estimate_response(counts, gonio::note_exposure_times, 255);
+    const auto found = estimate_response(counts, gonio::capture::note_exposure_times, 255);
     for (Eigen::Index k = 1; k < found.log_exposures().size(); ++k)
       RC_ASSERT(found.log_exposures()[k] >= found.log_exposures()[k - 1]);
   });

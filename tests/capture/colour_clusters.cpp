@@ -5,10 +5,10 @@
 
 #include <array>
 
-using gonio::cluster_colours;
-using gonio::cluster_count_choice;
-using gonio::point_matrix;
 using gonio::rgb;
+using gonio::capture::cluster_colours;
+using gonio::capture::cluster_count_choice;
+using gonio::capture::point_matrix;
 
 namespace {
 
@@ -160,7 +160,7 @@ TEST_CASE("coordinates are CIELAB, exposed to the brightest but for one in a hun
   colours.row(7) << 40.0, 40.0, 40.0;
   colours.row(8) << 0.25, 0.5, 0.0;
   colours.row(9) << -0.1, 0.0, 0.0;
-  const auto lab = gonio::clustering_coordinates(colours);
+  const auto lab = gonio::capture::clustering_coordinates(colours);
   CHECK((lab.row(0) - Eigen::RowVector3d(100, 0, 0)).norm() < 0.02);
   CHECK(lab.row(7) == lab.row(0));
   CHECK((lab.row(8).transpose().array() - gonio::to_lab({0.5, 1.0, 0.0})).abs().maxCoeff() < 1e-12);

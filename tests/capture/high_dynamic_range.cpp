@@ -6,10 +6,10 @@
 
 #include <random>
 
-using gonio::camera_response;
-using gonio::measured_radiance;
-using gonio::merge_exposures;
-using gonio::sensor_noise;
+using gonio::capture::camera_response;
+using gonio::capture::measured_radiance;
+using gonio::capture::merge_exposures;
+using gonio::capture::sensor_noise;
 
 namespace {
 
@@ -18,7 +18,7 @@ std::vector<std::uint16_t> expose(double radiance, double gamma, double largest,
                                   std::mt19937_64& generator) {
   std::normal_distribution<double> normal;
   std::vector<std::uint16_t> counts;
-  for (const double time : gonio::note_exposure_times) {
+  for (const double time : gonio::capture::note_exposure_times) {
     const double exposure = radiance * time * (1.0 + noise.relative * normal(generator));
     const double exact = largest / 2.0 * std::pow(exposure, 1.0 / gamma);
     const double noisy = exact + std::sqrt(noise.read * noise.read + noise.shot * exact) * normal(generator);
@@ -37,8 +37,8 @@ TEST_CASE("high dynamic range: without noise the radiance of four decades comes 
     const auto camera = camera_response::power_law(65535, gamma);
     const double radiance = std::exp(*rc::gen::inRange(-200, 400) / 100.0);
     std::mt19937_64 generator(0);
-    const auto merged =
-        merge_exposures(expose(radiance, gamma, 65535, none, generator), gonio::note_exposure_times, camera, none);
+    const auto merged = merge_exposures(expose(radiance, gamma, 65535, none, generator),
+                                        gonio::capture::note_exposure_times, camera, none);
     RC_ASSERT(merged.usable());
     RC_ASSERT(std::abs(merged.value / radiance - 1.0) < 1e-3);
   });
@@ -52,8 +52,8 @@ TEST_CASE("high dynamic range: the deviation is the one that is made") {
     constexpr int repetitions = 4000;
     double bias = 0.0, squares = 0.0, within = 0.0;
     for (int i = 0; i < repetitions; ++i) {
-      const auto merged = merge_exposures(expose(radiance, 1.0, 4095, noise, generator), gonio::note_exposure_times,
-                                          camera, noise, 4000);
+      const auto merged = merge_exposures(expose(radiance, 1.0, 4095, noise, generator),
+                                          gonio::capture::note_exposure_times, camera, noise, 4000);
       const double off = (merged.value - radiance) / merged.deviation;
       bias += off / repetitions;
       squares += off * off / repetitions;
@@ -71,19 +71,19 @@ TEST_CASE("high dynamic range: the deviation is the one that is made") {
 TEST_CASE("high dynamic range: what no exposure shows is told apart") {
   const auto camera = camera_response::power_law(255);
   const std::vector<std::uint16_t> dark(5, 0), bright(5, 255), both{0, 0, 255, 255, 255};
-  const measured_radiance black = merge_exposures(dark, gonio::note_exposure_times, camera);
+  const measured_radiance black = merge_exposures(dark, gonio::capture::note_exposure_times, camera);
   CHECK((black.dark && !black.saturated && !black.usable()));
   CHECK(black.value == 0.0);
   CHECK(black.deviation == doctest::Approx(camera.exposure(1.0) / 0.2));
-  const measured_radiance white = merge_exposures(bright, gonio::note_exposure_times, camera);
+  const measured_radiance white = merge_exposures(bright, gonio::capture::note_exposure_times, camera);
   CHECK((white.saturated && !white.dark && !white.usable()));
   CHECK(white.value == doctest::Approx(camera.exposure(255.0) / 0.0125));
   CHECK(std::isinf(white.deviation));
-  CHECK(merge_exposures(both, gonio::note_exposure_times, camera).saturated);
+  CHECK(merge_exposures(both, gonio::capture::note_exposure_times, camera).saturated);
   // A limit below the largest count takes part in that.
   const std::vector<std::uint16_t> nearly(5, 251);
-  CHECK(merge_exposures(nearly, gonio::note_exposure_times, camera).usable());
-  CHECK(merge_exposures(nearly, gonio::note_exposure_times, camera, {}, 250).saturated);
+  CHECK(merge_exposures(nearly, gonio::capture::note_exposure_times, camera).usable());
+  CHECK(merge_exposures(nearly, gonio::capture::note_exposure_times, camera, {}, 250).saturated);
 }
 
 TEST_CASE("high dynamic range: bad input is refused") {

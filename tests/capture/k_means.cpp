@@ -3,9 +3,9 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-using gonio::k_means;
-using gonio::mean_silhouette;
-using gonio::point_matrix;
+using gonio::capture::k_means;
+using gonio::capture::mean_silhouette;
+using gonio::capture::point_matrix;
 
 namespace {
 
@@ -88,10 +88,10 @@ TEST_CASE("k-means: the same bytes for any number of threads") {
 
 TEST_CASE("k-means: a cluster that loses its points takes the farthest one") {
   const point_matrix points = Eigen::VectorXd{{0, 1, 2, 50}};
-  const auto found = gonio::refine_clusters(points, Eigen::VectorXd{{1, 1000}});
+  const auto found = gonio::capture::refine_clusters(points, Eigen::VectorXd{{1, 1000}});
   CHECK(found.sizes == std::vector<std::size_t>{3, 1});
   CHECK(found.centres == point_matrix(Eigen::VectorXd{{1, 50}}));
-  const auto several = gonio::refine_clusters(points, Eigen::VectorXd{{1, 1000, 2000, 3000}});
+  const auto several = gonio::capture::refine_clusters(points, Eigen::VectorXd{{1, 1000, 2000, 3000}});
   CHECK(several.sizes == std::vector<std::size_t>{1, 1, 1, 1});
   CHECK(several.inertia == 0.0);
 }
@@ -122,9 +122,9 @@ TEST_CASE("k-means: bad input") {
   CHECK_THROWS_WITH_AS((void)k_means(points, 0, 0), doctest::Contains("at least one"), gonio::error);
   CHECK_THROWS_WITH_AS((void)k_means(points, 5, 0), doctest::Contains("only 4 of 4"), gonio::error);
   CHECK_THROWS_AS((void)k_means(point_matrix(0, 3), 1, 0), gonio::error);
-  CHECK_THROWS_WITH_AS((void)gonio::refine_clusters(points, point_matrix::Zero(2, 3)),
+  CHECK_THROWS_WITH_AS((void)gonio::capture::refine_clusters(points, point_matrix::Zero(2, 3)),
                        doctest::Contains("centres of 3"), gonio::error);
-  CHECK_THROWS_AS((void)gonio::refine_clusters(points, point_matrix(0, 1)), gonio::error);
+  CHECK_THROWS_AS((void)gonio::capture::refine_clusters(points, point_matrix(0, 1)), gonio::error);
   CHECK_THROWS_AS((void)mean_silhouette(points, Eigen::VectorXi{{0, 1, 0}}), gonio::error);
   CHECK_THROWS_AS((void)mean_silhouette(points, Eigen::VectorXi{{0, 1, 0, -1}}), gonio::error);
   points(2, 0) = std::nan("");

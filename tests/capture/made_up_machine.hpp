@@ -10,10 +10,10 @@
 /// Reaches what is less than 60 degrees from the normal, counts to 100, and does before each measurement what a test
 /// says: throw, or return another reading.
 struct made_up_machine {
-  std::function<void(gonio::reading&)> fault = [](gonio::reading&) {};
+  std::function<void(gonio::capture::reading&)> fault = [](gonio::capture::reading&) {};
   std::vector<gonio::direction_pair> measured{};
 
-  [[nodiscard]] gonio::placement place(const gonio::direction_pair& pair) const {
+  [[nodiscard]] gonio::capture::placement place(const gonio::direction_pair& pair) const {
     const bool low = std::min(pair.wi.z(), pair.wo.z()) < 0.2 || pair.wi.z() < 0.5;
     return {pair, low ? "the lamp is too low" : ""};
   }
@@ -21,23 +21,24 @@ struct made_up_machine {
     return gonio::angle_between(from.wo, to.wo);
   }
   [[nodiscard]] std::uint16_t largest_count() const { return 100; }
-  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+  [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     measured.push_back(pair);
-    gonio::reading taken{{0.1, 0.2},
-                         {gonio::camera_frame::Constant(2, 3, 10), gonio::camera_frame::Constant(2, 3, 20)}};
+    gonio::capture::reading taken{
+        {0.1, 0.2},
+        {gonio::capture::camera_frame::Constant(2, 3, 10), gonio::capture::camera_frame::Constant(2, 3, 20)}};
     fault(taken);
     return taken;
   }
 };
-static_assert(gonio::goniometer<made_up_machine>);
+static_assert(gonio::capture::goniometer<made_up_machine>);
 
 struct made_up_record {
-  std::map<std::size_t, gonio::reading> kept{};
+  std::map<std::size_t, gonio::capture::reading> kept{};
 
   [[nodiscard]] bool has(std::size_t pose) const { return kept.contains(pose); }
-  void add(std::size_t pose, const gonio::reading& taken) { kept.emplace(pose, taken); }
+  void add(std::size_t pose, const gonio::capture::reading& taken) { kept.emplace(pose, taken); }
 };
-static_assert(gonio::scan_record<made_up_record>);
+static_assert(gonio::capture::scan_record<made_up_record>);
 
 /// Poses that the machine reaches, at azimuths all around.
 inline std::vector<gonio::direction_pair> made_up_poses(std::size_t count) {

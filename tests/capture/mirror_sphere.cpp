@@ -5,14 +5,15 @@
 #include <lab/mirror_sphere_lab.hpp>
 #include <rapidcheck.h>
 
-using gonio::mirror_sphere;
-using gonio::unwrap;
+using gonio::capture::mirror_sphere;
+using gonio::capture::unwrap;
 
 namespace {
 
 /// The mean over the pixels of a map, weighed by solid angle, of how far another is off relative to it, where light
 /// comes from at most this angle from the camera.
-double mean_relative_error(const gonio::environment_map& truth, const gonio::image& found, double largest_angle) {
+double mean_relative_error(const gonio::render::environment_map& truth, const gonio::image& found,
+                           double largest_angle) {
   double sum = 0.0, weights = 0.0;
   for (std::size_t row = 0; row < truth.rows(); ++row)
     for (std::size_t column = 0; column < truth.columns(); ++column) {
@@ -72,7 +73,7 @@ TEST_CASE("mirror sphere: what it shows and hides") {
 }
 
 TEST_CASE("mirror sphere: a map, its picture in the sphere, and back") {
-  const auto truth = gonio::environment_map::of(gonio::formula_environment{}, 64);
+  const auto truth = gonio::render::environment_map::of(gonio::render::formula_environment{}, 64);
   for (const mirror_sphere& sphere : {mirror_sphere(), mirror_sphere(4.0), mirror_sphere(20.0)}) {
     const auto probe = lab::photograph(sphere, truth, 512);
     const auto map = unwrap(probe, sphere, {.rows = 64});

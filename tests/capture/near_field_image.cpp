@@ -11,10 +11,10 @@
 #include <limits>
 
 using gonio::image;
-using gonio::near_field_samples;
-using gonio::near_field_setup;
 using gonio::radians;
 using gonio::rgb;
+using gonio::capture::near_field_samples;
+using gonio::capture::near_field_setup;
 
 namespace {
 
@@ -28,13 +28,13 @@ near_field_setup setup_at(double light, double camera, double azimuth) {
   const Eigen::Vector3d position = gonio::spherical_direction(radians(camera), 0.3);
   return {.camera = gonio::pinhole_camera::look_at(intrinsics, position, {0.0, 0.0, 0.0}, {-0.2, 0.1, 1.0}),
           .light = {gonio::spherical_direction(radians(light), 0.3 + radians(azimuth)), {2.0, 1.0, 0.5}},
-          .disc = gonio::sample_disc{radius}};
+          .disc = gonio::capture::sample_disc{radius}};
 }
 
 /// The same in the middle of the range, for what does not depend on the directions.
 near_field_setup ordinary_setup() { return setup_at(50.0, 40.0, 180.0); }
 
-const gonio::formula_brdf paint = gonio::formula_material("red-paint");
+const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
 
 rgb truth_at(const gonio::half_difference& angles) {
   const auto [wi, wo] = gonio::to_directions(angles);
@@ -101,13 +101,13 @@ TEST_CASE("the region is the disc, the window, or both") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, {.radius = 3.0}, setup);
   const std::size_t disc = near_field_samples(picture, setup).size();
-  setup.window = gonio::pixel_window{30, 20, 7, 5};
+  setup.window = gonio::capture::pixel_window{30, 20, 7, 5};
   CHECK(near_field_samples(picture, setup).size() == 35);
   setup.disc = {};
   CHECK(near_field_samples(picture, setup).size() == 35);
   setup.window = {};
   CHECK(near_field_samples(picture, setup).size() == 60 * 80);
-  setup.disc = gonio::sample_disc{.radius = std::tan(radians(12.5)), .centre = {0.02, 0.0}};
+  setup.disc = gonio::capture::sample_disc{.radius = std::tan(radians(12.5)), .centre = {0.02, 0.0}};
   const std::size_t beside = near_field_samples(picture, setup).size();
   CHECK(beside != disc);
   CHECK(static_cast<double>(beside) == doctest::Approx(static_cast<double>(disc)).epsilon(0.05));
@@ -116,7 +116,7 @@ TEST_CASE("the region is the disc, the window, or both") {
 TEST_CASE("a mask leaves pixels out, and the region's pixels are those that bring samples") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);
-  const auto region = gonio::pixels_of_region(setup);
+  const auto region = gonio::capture::pixels_of_region(setup);
   const auto all = near_field_samples(picture, setup);
   REQUIRE(region.size() == all.size());
   setup.mask.assign(60 * 80, false);
@@ -124,7 +124,7 @@ TEST_CASE("a mask leaves pixels out, and the region's pixels are those that brin
   const auto half = near_field_samples(picture, setup);
   REQUIRE(half.size() == (all.size() + 1) / 2);
   for (std::size_t i = 0; i < half.size(); ++i) CHECK(half[i].angles.theta_h == all[2 * i].angles.theta_h);
-  CHECK(gonio::pixels_of_region(setup).size() == half.size());
+  CHECK(gonio::capture::pixels_of_region(setup).size() == half.size());
   setup.mask.pop_back();
   CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(picture, setup)), doctest::Contains("mask"), gonio::error);
 }
@@ -172,7 +172,7 @@ TEST_CASE("a slight misalignment of light and camera costs what the paint's slop
     const image picture = lab::photograph(paint, {.radius = 0.4}, setup, shifted, seed);
     CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.2);  // measured: up to 0.135
     // A Lambertian knows the light's cosine alone: cos(theta + 1 degree) / cos(theta).
-    const gonio::lambertian grey{rgb::Constant(0.18)};
+    const gonio::model::lambertian grey{rgb::Constant(0.18)};
     const double bound = std::tan(radians(50.0)) * radians(1.0) * 1.02;
     for (const gonio::sample& s :
          near_field_samples(lab::photograph(grey, {.radius = 0.4}, setup, shifted, seed), setup))
@@ -197,12 +197,12 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
   CHECK(saturated < all / 10);
   CHECK(near_field_samples(picture, setup).size() == all - saturated);
   // Of a block of three by three whose middle is saturated nothing is left.
-  setup.window = gonio::pixel_window{40, 28, 3, 3};
+  setup.window = gonio::capture::pixel_window{40, 28, 3, 3};
   CHECK(near_field_samples(picture, setup).size() < 9);
   setup.block = 3;
   CHECK_THROWS_AS(near_field_samples(picture, setup), gonio::error);
   setup.block = 60;
-  setup.window = gonio::pixel_window{10, 0, 60, 60};
+  setup.window = gonio::capture::pixel_window{10, 0, 60, 60};
   CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains("saturated"), gonio::error);
 }
 
@@ -243,9 +243,9 @@ TEST_CASE("what cannot be measured is refused") {
   refused([](auto& s) { s.light.irradiance = {1.0, infinity, 1.0}; }, "irradiance");
   refused([](auto& s) { s.disc->radius = 0.0; }, "positive radius");
   refused([](auto& s) { s.disc->centre.x() = infinity; }, "finite centre");
-  refused([](auto& s) { s.window = gonio::pixel_window{0, 0, 0, 5}; }, "window");
-  refused([](auto& s) { s.window = gonio::pixel_window{79, 0, 2, 5}; }, "80 x 60");
-  refused([](auto& s) { s.window = gonio::pixel_window{0, 60, 2, 1}; }, "80 x 60");
+  refused([](auto& s) { s.window = gonio::capture::pixel_window{0, 0, 0, 5}; }, "window");
+  refused([](auto& s) { s.window = gonio::capture::pixel_window{79, 0, 2, 5}; }, "80 x 60");
+  refused([](auto& s) { s.window = gonio::capture::pixel_window{0, 60, 2, 1}; }, "80 x 60");
   refused([](auto& s) { s.saturation = 0.0; }, "saturation must be positive");
   refused([](auto& s) { s.saturation = 1e-9; }, "is saturated");
   refused([](auto& s) { s.block = 0; }, "block");

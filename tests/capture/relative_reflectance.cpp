@@ -6,18 +6,19 @@
 #include <limits>
 #include <random>
 
-using gonio::illumination;
-using gonio::reference_light;
-using gonio::uncertain;
+using gonio::capture::illumination;
+using gonio::capture::reference_light;
+using gonio::capture::uncertain;
 
 TEST_CASE("solid angle of a pixel: Eq. 4 and 5, and a sphere seen from its centre") {
   // D = 50 / 2 = 25 mm at 350 mm.
   const double half = std::atan(25.0 / 700.0);
-  CHECK(gonio::pixel_solid_angle(50.0, 2.0, 350.0) ==
+  CHECK(gonio::capture::pixel_solid_angle(50.0, 2.0, 350.0) ==
         doctest::Approx(2.0 * std::numbers::pi * (1.0 - std::cos(half))).epsilon(1e-9));
-  CHECK(gonio::pixel_solid_angle(1.0, 1.0, 1e9) == doctest::Approx(std::numbers::pi / 4.0 * 1e-18));
-  CHECK(gonio::pixel_solid_angle(1e9, 1.0, 1e-9) == doctest::Approx(2.0 * std::numbers::pi));
-  CHECK_THROWS_WITH_AS(gonio::pixel_solid_angle(0.0, 1.0, 1.0), doctest::Contains("must be positive"), gonio::error);
+  CHECK(gonio::capture::pixel_solid_angle(1.0, 1.0, 1e9) == doctest::Approx(std::numbers::pi / 4.0 * 1e-18));
+  CHECK(gonio::capture::pixel_solid_angle(1e9, 1.0, 1e-9) == doctest::Approx(2.0 * std::numbers::pi));
+  CHECK_THROWS_WITH_AS(gonio::capture::pixel_solid_angle(0.0, 1.0, 1.0), doctest::Contains("must be positive"),
+                       gonio::error);
 }
 
 TEST_CASE("relative reflectance: f = dL / dE wherever lamp, reference and material are") {
@@ -52,20 +53,20 @@ TEST_CASE("relative reflectance: the deviations of both exposures add up") {
 }
 
 TEST_CASE("relative reflectance: Eq. 13 and 17 agree") {
-  const double omega = gonio::pixel_solid_angle(25.0, 4.0, 350.0), cosine = 0.6;
+  const double omega = gonio::capture::pixel_solid_angle(25.0, 4.0, 350.0), cosine = 0.6;
   const uncertain f = reference_light({3.0, 0.0}, 1.0).brdf({1.2, 0.0});
-  CHECK(gonio::reflectance_into(f.value, omega, cosine) ==
+  CHECK(gonio::capture::reflectance_into(f.value, omega, cosine) ==
         doctest::Approx(1.2 / 3.0 * omega * cosine / std::numbers::pi));
 }
 
 TEST_CASE("weights fall with the square of the deviation") {
-  CHECK(gonio::weight_of(0.0) == 1.0);
-  CHECK(gonio::weight_of(0.01) == doctest::Approx(1.0).epsilon(2e-4));
-  CHECK(gonio::weight_of(0.1) == doctest::Approx(1.0 / 1.01));
-  CHECK(gonio::weight_of(2.0) == doctest::Approx(0.2));
-  CHECK(gonio::weight_of(0.1, 0.05) == doctest::Approx(0.2));
-  CHECK(gonio::weight_of(std::numeric_limits<double>::infinity()) == 0.0);
-  CHECK(gonio::weight_of(std::nan("")) == 0.0);  // 0 +- 0
+  CHECK(gonio::capture::weight_of(0.0) == 1.0);
+  CHECK(gonio::capture::weight_of(0.01) == doctest::Approx(1.0).epsilon(2e-4));
+  CHECK(gonio::capture::weight_of(0.1) == doctest::Approx(1.0 / 1.01));
+  CHECK(gonio::capture::weight_of(2.0) == doctest::Approx(0.2));
+  CHECK(gonio::capture::weight_of(0.1, 0.05) == doctest::Approx(0.2));
+  CHECK(gonio::capture::weight_of(std::numeric_limits<double>::infinity()) == 0.0);
+  CHECK(gonio::capture::weight_of(std::nan("")) == 0.0);  // 0 +- 0
 }
 
 TEST_CASE("relative reflectance: bad input is refused") {

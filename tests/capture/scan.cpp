@@ -12,7 +12,7 @@ TEST_CASE("scan: a plan has all that can be reached, by a short way, and names t
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(0.2, 1.0)});  // by reciprocity
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(1.3, 1.0)});  // not at all
   const made_up_machine machine;
-  const gonio::scan_plan plan = gonio::plan_scan(machine, pairs);
+  const gonio::capture::scan_plan plan = gonio::capture::plan_scan(machine, pairs);
   CHECK(plan.poses.size() == 13u);
   REQUIRE(plan.unreachable.size() == 1u);
   CHECK(plan.unreachable[0].number == 13u);
@@ -31,13 +31,13 @@ TEST_CASE("scan: what is kept is not measured again") {
   const auto poses = made_up_poses(5);
   record.add(1, {});
   record.add(4, {});
-  const auto outcome = gonio::scan(machine, poses, record);
+  const auto outcome = gonio::capture::scan(machine, poses, record);
   CHECK(outcome.measured == 3u);
   CHECK(outcome.kept_before == 2u);
   CHECK(outcome.is_complete());
   CHECK(machine.measured.size() == 3u);
   CHECK(record.kept.size() == 5u);
-  CHECK(gonio::scan(machine, poses, record).kept_before == 5u);
+  CHECK(gonio::capture::scan(machine, poses, record).kept_before == 5u);
   CHECK(machine.measured.size() == 3u);
 }
 
@@ -45,28 +45,28 @@ TEST_CASE("scan: a device that fails once is tried again, one that fails twice i
   made_up_machine machine;
   made_up_record record;
   int calls = 0;
-  machine.fault = [&](gonio::reading&) {
+  machine.fault = [&](gonio::capture::reading&) {
     ++calls;
-    if (calls == 2 || calls == 4 || calls == 5) throw gonio::device_failure("the shutter is stuck");
+    if (calls == 2 || calls == 4 || calls == 5) throw gonio::capture::device_failure("the shutter is stuck");
   };
-  const auto outcome = gonio::scan(machine, made_up_poses(5), record);
+  const auto outcome = gonio::capture::scan(machine, made_up_poses(5), record);
   CHECK(outcome.measured == 4u);
   REQUIRE(outcome.missing.size() == 1u);
   CHECK(outcome.missing[0].number == 2u);
   CHECK(outcome.missing[0].reason == "the shutter is stuck");
   CHECK(!outcome.is_broken_off);
   CHECK(!outcome.is_complete());
-  machine.fault = [](gonio::reading&) {};
-  CHECK(gonio::scan(machine, made_up_poses(5), record).measured == 1u);
+  machine.fault = [](gonio::capture::reading&) {};
+  CHECK(gonio::capture::scan(machine, made_up_poses(5), record).measured == 1u);
 }
 
 TEST_CASE("scan: a machine that keeps failing is given up, and what was measured is kept") {
   made_up_machine machine;
   made_up_record record;
-  machine.fault = [&](gonio::reading&) {
-    if (machine.measured.size() > 2) throw gonio::device_failure("no power");
+  machine.fault = [&](gonio::capture::reading&) {
+    if (machine.measured.size() > 2) throw gonio::capture::device_failure("no power");
   };
-  const auto outcome = gonio::scan(machine, made_up_poses(20), record);
+  const auto outcome = gonio::capture::scan(machine, made_up_poses(20), record);
   CHECK(outcome.measured == 2u);
   CHECK(outcome.missing.size() == 3u);
   CHECK(outcome.is_broken_off);
@@ -77,25 +77,25 @@ TEST_CASE("scan: a machine that keeps failing is given up, and what was measured
 TEST_CASE("scan: another exception passes, and what was measured is kept") {
   made_up_machine machine;
   made_up_record record;
-  machine.fault = [&](gonio::reading&) {
+  machine.fault = [&](gonio::capture::reading&) {
     if (machine.measured.size() == 3) throw std::logic_error("a bug in the driver");
   };
-  CHECK_THROWS_AS(gonio::scan(machine, made_up_poses(5), record), std::logic_error);
+  CHECK_THROWS_AS(gonio::capture::scan(machine, made_up_poses(5), record), std::logic_error);
   CHECK(record.kept.size() == 2u);
 }
 
 TEST_CASE("scan: a reading that is none is not kept") {
-  using change = std::function<void(gonio::reading&)>;
+  using change = std::function<void(gonio::capture::reading&)>;
   const std::vector<std::pair<change, std::string>> faults{
-      {[](gonio::reading& taken) { taken = {}; }, "no frame"},
-      {[](gonio::reading& taken) { taken.frames.pop_back(); }, "1 frames for 2 exposures"},
-      {[](gonio::reading& taken) { taken.frames[1] = gonio::camera_frame::Constant(1, 3, 5); },
+      {[](gonio::capture::reading& taken) { taken = {}; }, "no frame"},
+      {[](gonio::capture::reading& taken) { taken.frames.pop_back(); }, "1 frames for 2 exposures"},
+      {[](gonio::capture::reading& taken) { taken.frames[1] = gonio::capture::camera_frame::Constant(1, 3, 5); },
        "a frame has 1 pixels, the first 2"},
-      {[](gonio::reading& taken) { taken.frames[0](1, 2) = 101; }, "101 counts"}};
+      {[](gonio::capture::reading& taken) { taken.frames[0](1, 2) = 101; }, "101 counts"}};
   for (const auto& [fault, message] : faults) {
     made_up_machine machine{fault};
     made_up_record record;
-    const auto outcome = gonio::scan(machine, made_up_poses(1), record);
+    const auto outcome = gonio::capture::scan(machine, made_up_poses(1), record);
     CHECK(record.kept.empty());
     REQUIRE(outcome.missing.size() == 1u);
     CHECK(outcome.missing[0].reason.find(message) != std::string::npos);
@@ -108,7 +108,7 @@ TEST_CASE("scan: a pose that cannot be reached is missing, and the machine does 
   made_up_record record;
   std::vector<direction_pair> poses = made_up_poses(3);
   poses[1].wi = spherical_direction(1.3, 0.0);
-  const auto outcome = gonio::scan(machine, poses, record);
+  const auto outcome = gonio::capture::scan(machine, poses, record);
   CHECK(outcome.measured == 2u);
   REQUIRE(outcome.missing.size() == 1u);
   CHECK(outcome.missing[0].reason == "the lamp is too low");

@@ -7,8 +7,8 @@
 #include <random>
 #include <set>
 
-using gonio::camera_sphere;
 using gonio::direction;
+using gonio::capture::camera_sphere;
 
 namespace {
 
@@ -45,18 +45,19 @@ TEST_CASE("trajectory: Eq. 1-5, and the camera looks at the sample") {
 }
 
 TEST_CASE("trajectory: 11 rows of 25, and right above; 23 lamps") {
-  const auto seen = gonio::half_hemisphere();
+  const auto seen = gonio::capture::half_hemisphere();
   CHECK(seen.size() == 11 * 25 + 1);
   CHECK(gonio::degrees(gonio::polar_angle(seen.front())) == doctest::Approx(82.5));
   for (const direction& wo : seen) CHECK(wo.y() >= -1e-12);
-  const auto lamps = gonio::arc_lamps();
+  const auto lamps = gonio::capture::arc_lamps();
   CHECK(lamps.size() == 23);
   for (const direction& wi : lamps) {
     CHECK(std::abs(wi.y()) < 1e-12);
     CHECK(wi.z() > 0.1);
   }
-  CHECK_THROWS_WITH_AS(gonio::arc_lamps({gonio::radians(7.0)}), doctest::Contains("7.000000 degrees"), gonio::error);
-  CHECK_THROWS_WITH_AS(gonio::half_hemisphere({0.0}), doctest::Contains("do not divide"), gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::capture::arc_lamps({gonio::radians(7.0)}), doctest::Contains("7.000000 degrees"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::capture::half_hemisphere({0.0}), doctest::Contains("do not divide"), gonio::error);
 }
 
 TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic material") {
@@ -65,7 +66,7 @@ TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic mat
     const double turn = *rc::gen::inRange(0, 628) / 100.0;
     const gonio::direction_pair pair{gonio::turned_about_normal(two[0], turn),
                                      gonio::turned_about_normal(two[1], turn)};
-    const auto turned = gonio::above_arc(pair);
+    const auto turned = gonio::capture::above_arc(pair);
     RC_ASSERT(std::abs(turned.wi.y()) < 1e-12);
     RC_ASSERT(turned.wi.x() >= 0.0);
     RC_ASSERT(turned.wo.y() >= 0.0);
@@ -73,38 +74,39 @@ TEST_CASE("trajectory: a pair above the arc is the same pair to an isotropic mat
     RC_ASSERT(std::abs(turned.wo.z() - pair.wo.z()) < 1e-12);
     RC_ASSERT(std::abs(turned.wi.dot(turned.wo) - pair.wi.dot(pair.wo)) < 1e-12);
   });
-  const auto above = gonio::above_arc({direction::UnitZ(), gonio::spherical_direction(0.5, 2.0)});
+  const auto above = gonio::capture::above_arc({direction::UnitZ(), gonio::spherical_direction(0.5, 2.0)});
   CHECK((above.wo - gonio::spherical_direction(0.5, 0.0)).norm() < 1e-12);
 }
 
 TEST_CASE("trajectory: every pose once, by a way that no stretch turned round shortens") {
   rc::check("a way of scattered directions", [] {
     const auto directions = scattered(*rc::gen::inRange<std::size_t>(1, 25), *rc::gen::arbitrary<unsigned>());
-    const auto order = gonio::short_way(directions);
+    const auto order = gonio::capture::short_way(directions);
     RC_ASSERT(std::set<std::size_t>(order.begin(), order.end()).size() == directions.size());
     RC_ASSERT(order.front() == 0u);
-    const double length = gonio::length_of_way(directions, order);
+    const double length = gonio::capture::length_of_way(directions, order);
     for (std::size_t i = 1; i < order.size(); ++i)
       for (std::size_t j = i + 1; j < order.size(); ++j) {
         auto other = order;
         std::reverse(other.begin() + static_cast<std::ptrdiff_t>(i),
                      other.begin() + static_cast<std::ptrdiff_t>(j) + 1);
-        RC_ASSERT(gonio::length_of_way(directions, other) > length - 1e-8);
+        RC_ASSERT(gonio::capture::length_of_way(directions, other) > length - 1e-8);
       }
   });
-  CHECK(gonio::short_way({}).empty());
+  CHECK(gonio::capture::short_way({}).empty());
 }
 
 TEST_CASE("trajectory: the note's scan takes about its three hours") {
-  const auto seen = gonio::half_hemisphere();
-  const auto order = gonio::short_way(seen);
+  const auto seen = gonio::capture::half_hemisphere();
+  const auto order = gonio::capture::short_way(seen);
   std::vector<std::size_t> as_listed(seen.size());
   std::iota(as_listed.begin(), as_listed.end(), std::size_t{0});
-  CHECK(gonio::length_of_way(seen, order) < 0.85 * gonio::length_of_way(seen, as_listed));
-  const double hours =
-      gonio::duration_of_scan(gonio::length_of_way(seen, order), seen.size(), gonio::arc_lamps().size()) / 3600.0;
+  CHECK(gonio::capture::length_of_way(seen, order) < 0.85 * gonio::capture::length_of_way(seen, as_listed));
+  const double hours = gonio::capture::duration_of_scan(gonio::capture::length_of_way(seen, order), seen.size(),
+                                                        gonio::capture::arc_lamps().size()) /
+                       3600.0;
   CHECK(hours > 2.0);
   CHECK(hours < 3.5);
-  CHECK_THROWS_WITH_AS((void)gonio::duration_of_scan(1.0, 1, 23, {.radians_per_second = 0.0}),
+  CHECK_THROWS_WITH_AS((void)gonio::capture::duration_of_scan(1.0, 1, 23, {.radians_per_second = 0.0}),
                        doctest::Contains("speed"), gonio::error);
 }

@@ -16,23 +16,24 @@ namespace {
 
 /// Light and camera at half and difference angles in degrees as seen from the middle of the sample, a disc that spans
 /// 25 degrees; blocks of two by two of its pixels are samples.
-gonio::near_field_setup shot_at(double theta_h, double theta_d, double phi_d) {
+gonio::capture::near_field_setup shot_at(double theta_h, double theta_d, double phi_d) {
   const auto [light, camera] =
       gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
   const auto intrinsics = gonio::camera_intrinsics::square(64, gonio::radians(26.0));
   return {.camera = gonio::pinhole_camera::look_at(intrinsics, camera, {0.0, 0.0, 0.0}, {0.1, 0.2, 1.0}),
           .light = {light, gonio::rgb::Constant(3.0)},
-          .disc = gonio::sample_disc{std::tan(gonio::radians(12.5))},
+          .disc = gonio::capture::sample_disc{std::tan(gonio::radians(12.5))},
           .block = 2};
 }
 
 /// Pictures of a material, each with a seed of its own, as samples.
-gonio::sample_set measured(const gonio::formula_brdf& material, const std::vector<gonio::near_field_setup>& shots,
+gonio::sample_set measured(const gonio::model::formula_brdf& material,
+                           const std::vector<gonio::capture::near_field_setup>& shots,
                            const lab::near_field_defects& defects = {}) {
   gonio::sample_set samples;
-  for (const gonio::near_field_setup& shot : shots) {
+  for (const gonio::capture::near_field_setup& shot : shots) {
     const auto picture = lab::photograph(material, {.radius = 0.5}, shot, defects, samples.size());
-    const auto some = gonio::near_field_samples(picture, shot);
+    const auto some = gonio::capture::near_field_samples(picture, shot);
     samples.insert(samples.end(), some.begin(), some.end());
   }
   return samples;
@@ -40,7 +41,7 @@ gonio::sample_set measured(const gonio::formula_brdf& material, const std::vecto
 
 /// Root mean square of the logarithms' difference, where light and viewer are at least 15 degrees above the horizon:
 /// below it, what MERL's materials have in common is too bright for a formula.
-double error_of(const gonio::brdf_table& estimate, const gonio::formula_brdf& truth) {
+double error_of(const gonio::brdf_table& estimate, const gonio::model::formula_brdf& truth) {
   double sum = 0.0, count = 0.0;
   for (std::size_t cell = 0; cell < estimate.cells().size(); cell += 101) {
     const auto [wi, wo] = gonio::to_directions(estimate.cells().angles(cell));
@@ -57,9 +58,9 @@ TEST_CASE("one picture tells much, two tell more, noise and a slight misalignmen
   const auto prior = gonio::io::read_prior(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior");
   const gonio::decomposition estimator{prior, gonio::tikhonov{40.0}};
   const auto first = shot_at(3.0, 50.0, 0.0), second = shot_at(8.0, 70.0, 60.0);
-  for (const std::string& name : gonio::formula_material_names()) {
+  for (const std::string& name : gonio::model::formula_material_names()) {
     CAPTURE(name);
-    const auto truth = gonio::formula_material(name);
+    const auto truth = gonio::model::formula_material(name);
     const auto error = [&](const gonio::sample_set& samples) {
       return error_of(estimator.fit(samples).tabulate(gonio::valid_cells()), truth);
     };

@@ -20,7 +20,7 @@ using json = nlohmann::json;
 
 /// Samples of red paint, which is a sum of Lambert and GGX, in a file.
 std::string write_samples(const scratch::folder& folder, std::size_t count) {
-  const gonio::formula_brdf paint = gonio::formula_material("red-paint");
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
   std::mt19937 random(2);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   gonio::sample_set samples;

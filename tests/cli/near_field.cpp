@@ -35,7 +35,7 @@ class two_shots {
   [[nodiscard]] std::string shot(const std::string& name) const { return at(name) + ".hdr " + at(name) + ".txt "; }
   [[nodiscard]] bool has(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
-  const gonio::formula_brdf paint = gonio::formula_material("red-paint");
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
 
  private:
   scratch::folder folder_;
@@ -142,7 +142,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
 
 TEST_CASE("two materials in one picture get a file each, and a map of where they are") {
   const two_shots shots;
-  const gonio::formula_brdf other = gonio::formula_material("blue-rubber");
+  const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
     const auto setup = gonio::io::parse_near_field_setup(text, name);
     gonio::image picture = gonio::io::read_hdr(shots.at(name) + ".hdr");
@@ -157,7 +157,7 @@ TEST_CASE("two materials in one picture get a file each, and a map of where they
   REQUIRE_MESSAGE(result.exit_code == 0, result.output);
   CHECK_FALSE(shots.has("m-3.csv"));
   CHECK(shots.has("map.png"));
-  const auto agrees = [&](const std::string& file, const gonio::formula_brdf& material) {
+  const auto agrees = [&](const std::string& file, const gonio::model::formula_brdf& material) {
     const auto samples = gonio::io::read_samples(shots.at(file));
     CHECK(samples.size() > 50);
     return std::ranges::all_of(samples, [&](const gonio::sample& s) {
@@ -175,7 +175,7 @@ TEST_CASE("two materials in one picture get a file each, and a map of where they
 TEST_CASE("two materials in one picture were under one light: one pose for both") {
   // Blue rubber alone says little of where the light was; the red paint beside it, with a highlight, says it for both.
   const two_shots shots;
-  const gonio::formula_brdf other = gonio::formula_material("blue-rubber");
+  const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
     const auto setup = gonio::io::parse_near_field_setup(text, name);
     const lab::near_field_defects defects{.misalignment = gonio::radians(1.0)};

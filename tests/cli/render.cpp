@@ -19,7 +19,7 @@ struct rendered_folder {
 
   rendered_folder() {
     REQUIRE(gonio_tool("expand --formula gold-metal -o " + table).exit_code == 0);
-    gonio::io::write_hdr(sky, gonio::environment_map::of(gonio::formula_environment{}, 16).picture());
+    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).picture());
   }
   [[nodiscard]] std::string at(const char* name) const { return (folder / name).string(); }
 };

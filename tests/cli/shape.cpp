@@ -56,7 +56,7 @@ double number_behind(const std::string& text, const std::string& word) {
 }
 
 /// A mesh without the triangles that come near one of its vertices.
-gonio::triangle_mesh with_hole(const gonio::triangle_mesh& mesh, Eigen::Index vertex, double radius) {
+gonio::shape::triangle_mesh with_hole(const gonio::shape::triangle_mesh& mesh, Eigen::Index vertex, double radius) {
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Matrix3d corners = mesh.corners(t).colwise() - mesh.vertices.col(vertex);
@@ -88,7 +88,7 @@ TEST_CASE("shape demo: what is known of ears fills a hole better than a smooth s
   CHECK(ways["gonio"]["absolute_mean"].get<double>() < ways["thin plate"]["absolute_mean"].get<double>());
 
   CHECK(scratch::get(made.ear("recovered.png")).starts_with("\x89PNG"));
-  const gonio::shape_model model = io::read_shape_model(made.ear("ears.shapes"));
+  const gonio::shape::shape_model model = io::read_shape_model(made.ear("ears.shapes"));
   CHECK(model.shapes() == 40);
   CHECK(model.vertices() == report["vertices"]);
   CHECK(io::read_mesh(made.ear("recovered.ply")).triangles == model.triangles());
@@ -121,9 +121,9 @@ TEST_CASE("shape recover: the scan of the demo, beside the truth") {
 
 TEST_CASE("shape learn: a model of meshes in correspondence, and what it recovers") {
   const auto& made = demonstrated();
-  const gonio::shape_model model = io::read_shape_model(made.ear("ears.shapes"));
+  const gonio::shape::shape_model model = io::read_shape_model(made.ear("ears.shapes"));
   std::string files;
-  gonio::triangle_mesh whole;
+  gonio::shape::triangle_mesh whole;
   for (Eigen::Index i = 0; i < 12; ++i) {
     whole = model.shape(model.basis().coefficients().row(i).cast<double>());
     files += made.at("ear" + std::to_string(i) + ".ply") + " ";
@@ -131,7 +131,7 @@ TEST_CASE("shape learn: a model of meshes in correspondence, and what it recover
   }
   const std::string learned = run_shape("learn " + files + "-o " + made.at("dozen.shapes"));
   CHECK(learned.starts_with("12 shapes of " + std::to_string(model.vertices()) + " vertices; "));
-  const gonio::shape_model dozen = io::read_shape_model(made.at("dozen.shapes"));
+  const gonio::shape::shape_model dozen = io::read_shape_model(made.at("dozen.shapes"));
   CHECK(dozen.triangles() == model.triangles());
   REQUIRE(dozen.shapes() == 12);
   CHECK(dozen.basis().names()[10] == "ear10");
@@ -197,7 +197,7 @@ TEST_CASE("shape recover: scans and models that are none are refused by name") {
   scratch::put(made.at("half.shapes"), whole.substr(0, whole.size() / 2));
   refuses_to_recover(scan, made.at("half.shapes"), "half.shapes: the compressed data is truncated");
 
-  gonio::triangle_mesh stretched = io::read_mesh(scan);
+  gonio::shape::triangle_mesh stretched = io::read_mesh(scan);
   stretched.vertices.row(1) *= 4.0;
   io::write_mesh(made.at("stretched.ply"), stretched);
   refuses_to_recover(made.at("stretched.ply"), model, "stretched.ply: the scan matches the model nowhere");
@@ -211,7 +211,7 @@ TEST_CASE("shape learn: shapes that do not correspond, or do not differ, are ref
     CHECK_FALSE(std::filesystem::exists(out));
   };
   refuses_to_learn(shape + " " + made.ear("truth.ply"), "truth.ply: does not have the vertices and triangles of");
-  gonio::triangle_mesh turned = io::read_mesh(shape);
+  gonio::shape::triangle_mesh turned = io::read_mesh(shape);
   turned.triangles.row(0).swap(turned.triangles.row(1));
   io::write_mesh(made.at("turned.ply"), turned);
   refuses_to_learn(shape + " " + made.at("turned.ply"), "turned.ply: does not have the vertices and triangles of");

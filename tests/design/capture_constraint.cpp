@@ -2,10 +2,10 @@
 
 #include <doctest/doctest.h>
 
-using gonio::capture_constraint;
 using gonio::direction_pair;
 using gonio::radians;
 using gonio::spherical_direction;
+using gonio::design::capture_constraint;
 
 namespace {
 

@@ -12,18 +12,18 @@ struct line_of_candidates {
   [[nodiscard]] gonio::direction_pair centre(std::size_t) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
   [[nodiscard]] std::size_t nearest(const gonio::direction_pair&) const { return 0; }
   [[nodiscard]] std::vector<gonio::half_difference> directions(std::size_t) const { return {{0.1, 0.2, 0.3}}; }
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const gonio::grid_step& step) const {
+  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const gonio::design::grid_step& step) const {
     const int to = static_cast<int>(from) + step[0];
     if (to < 0 || to > 2 || step[1] != 0 || step[2] != 0) return {};
     return static_cast<std::size_t>(to);
   }
 };
-static_assert(gonio::capture_geometry<line_of_candidates>);
+static_assert(gonio::design::capture_geometry<line_of_candidates>);
 
 }  // namespace
 
 TEST_CASE("steps stay on valid cells, and phi_d goes round") {
-  const gonio::point_geometry points(small_cells());
+  const gonio::design::point_geometry points(small_cells());
   for (std::size_t from = 0; from < points.size(); from += 7) {
     const auto there = points.stepped(from, {0, 0, 2});
     if (!there) continue;
@@ -35,9 +35,9 @@ TEST_CASE("steps stay on valid cells, and phi_d goes round") {
 }
 
 TEST_CASE("a point sample is in the direction of its cell; steps do not lead to what the constraint excludes") {
-  gonio::capture_constraint constraint;
+  gonio::design::capture_constraint constraint;
   constraint.light.largest = gonio::radians(45);
-  const gonio::point_geometry points(small_cells(), constraint);
+  const gonio::design::point_geometry points(small_cells(), constraint);
   std::size_t allowed = 0;
   for (std::size_t cell = 0; cell < points.size(); ++cell) {
     const auto angles = points.directions(cell);
@@ -51,7 +51,7 @@ TEST_CASE("a point sample is in the direction of its cell; steps do not lead to 
     if (!points.allows(cell)) continue;
     CHECK(constraint(centre));
     ++allowed;
-    for (const gonio::grid_step& step : {gonio::grid_step{1, 0, 0}, {0, -1, 0}, {0, 0, 1}})
+    for (const gonio::design::grid_step& step : {gonio::design::grid_step{1, 0, 0}, {0, -1, 0}, {0, 0, 1}})
       if (const auto to = points.stepped(cell, step)) CHECK(points.allows(*to));
   }
   CHECK(allowed > 0);

@@ -7,14 +7,15 @@
 namespace {
 
 /// Rows of a few directions with small changes, as a picture has them.
-gonio::component_rows related_rows(Eigen::Index n, Eigen::Index k, unsigned seed) {
+gonio::design::component_rows related_rows(Eigen::Index n, Eigen::Index k, unsigned seed) {
   std::srand(seed);
   const Eigen::MatrixXd rows =
       Eigen::MatrixXd::Random(n, 3) * Eigen::MatrixXd::Random(3, k) + 1e-6 * Eigen::MatrixXd::Random(n, k);
   return {rows, Eigen::VectorXd::Ones(n)};
 }
 
-void check_equivalent(const gonio::component_rows& rows, const gonio::component_rows& few, double tolerance) {
+void check_equivalent(const gonio::design::component_rows& rows, const gonio::design::component_rows& few,
+                      double tolerance) {
   const double scale = rows.components.squaredNorm();
   CHECK((few.components.transpose() * few.components - rows.components.transpose() * rows.components).norm() <
         tolerance * scale);
@@ -26,10 +27,10 @@ void check_equivalent(const gonio::component_rows& rows, const gonio::component_
 TEST_CASE("compressed rows have the same normal equations, tall and wide") {
   for (const auto& [n, k] : {std::pair{200, 20}, {20, 200}, {50, 50}}) {
     const auto rows = related_rows(n, k, 5);
-    const auto few = gonio::compressed(rows, 1e-4);
+    const auto few = gonio::design::compressed(rows, 1e-4);
     CHECK(few.components.rows() == 3);
     check_equivalent(rows, few, 1e-6);
-    check_equivalent(rows, gonio::compressed(rows, 0.0), 1e-12);
+    check_equivalent(rows, gonio::design::compressed(rows, 0.0), 1e-12);
   }
 }
 
@@ -42,7 +43,7 @@ TEST_CASE("cells that are met several times count as often") {
     each.row(static_cast<Eigen::Index>(i)) =
         candidate_basis().components().row(static_cast<Eigen::Index>(cells[i])).cast<double>();
   }
-  const auto rows = gonio::rows_at(candidate_basis(), directions);
+  const auto rows = gonio::design::rows_at(candidate_basis(), directions);
   CHECK(rows.components.rows() == 3);
   check_equivalent({each, Eigen::VectorXd::Ones(6)}, rows, 1e-12);
 }

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-using gonio::a_optimality;
-using gonio::condition_number;
-using gonio::d_optimality;
+using gonio::design::a_optimality;
+using gonio::design::condition_number;
+using gonio::design::d_optimality;
 
 namespace {
 
@@ -16,7 +16,7 @@ namespace {
 struct first_entry {
   double operator()(const Eigen::MatrixXd& components) const { return components(0, 0); }
 };
-static_assert(gonio::design_criterion<first_entry>);
+static_assert(gonio::design::design_criterion<first_entry>);
 
 Eigen::MatrixXd random_rows(Eigen::Index n, Eigen::Index k) {
   std::srand(11);
@@ -83,11 +83,11 @@ TEST_CASE("more measurements are never worse, and their order does not matter") 
 }
 
 TEST_CASE("any criterion guides a search") {
-  const gonio::point_geometry points(small_cells());
-  const gonio::criterion_of_plan condition{candidate_basis(), points, condition_number{}};
-  const auto found = gonio::grow_and_descend(points, condition, 3, 50, 1);
+  const gonio::design::point_geometry points(small_cells());
+  const gonio::design::criterion_of_plan condition{candidate_basis(), points, condition_number{}};
+  const auto found = gonio::design::grow_and_descend(points, condition, 3, 50, 1);
   CHECK(found.value >= 1.0);
-  CHECK(found.value <= gonio::swap_at_random(points, condition, 3, 50, 1).value);
+  CHECK(found.value <= gonio::design::swap_at_random(points, condition, 3, 50, 1).value);
 }
 
 TEST_CASE("what cannot be is refused") {

@@ -6,8 +6,8 @@
 namespace {
 
 /// The best pair of all.
-gonio::capture_plan best_pair(const gonio::cell_candidates& candidates) {
-  gonio::capture_plan best;
+gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& candidates) {
+  gonio::design::capture_plan best;
   for (std::size_t a = 0; a < candidates.size(); ++a) {
     const std::vector<float> errors = candidates.errors_with_each(std::vector<std::size_t>{a});
     const auto b = static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
@@ -21,35 +21,37 @@ gonio::capture_plan best_pair(const gonio::cell_candidates& candidates) {
 
 TEST_CASE("the first cell of greedy growth is the best of all; each error is less than the last") {
   const auto candidates = made_up_candidates();
-  const auto one = gonio::grow_greedily(candidates, 1);
+  const auto one = gonio::design::grow_greedily(candidates, 1);
   for (std::size_t cell = 0; cell < candidates.size(); ++cell)
     CHECK(one.value <= candidates(std::vector<std::size_t>{cell}) * (1.0 + 1e-6));
-  const auto three = gonio::grow_greedily(candidates, 3), five = gonio::grow_greedily(candidates, 5, three);
+  const auto three = gonio::design::grow_greedily(candidates, 3),
+             five = gonio::design::grow_greedily(candidates, 5, three);
   CHECK(three.candidates[0] == one.candidates[0]);
   CHECK(three.value < one.value);
   CHECK(five.value < three.value);
-  CHECK(five.candidates == gonio::grow_greedily(candidates, 5).candidates);
-  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::grow_greedily(candidates, 0)), doctest::Contains("cannot choose 0"),
-                       gonio::error);
-  CHECK_THROWS_AS(static_cast<void>(gonio::grow_greedily(candidates, candidates.size() + 1)), gonio::error);
+  CHECK(five.candidates == gonio::design::grow_greedily(candidates, 5).candidates);
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::design::grow_greedily(candidates, 0)),
+                       doctest::Contains("cannot choose 0"), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(gonio::design::grow_greedily(candidates, candidates.size() + 1)), gonio::error);
 }
 
 TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of all, or next to it") {
   const auto candidates = made_up_candidates();
   const auto best = best_pair(candidates);
-  const auto greedy = gonio::grow_greedily(candidates, 2), exchanged = gonio::exchange(candidates, greedy);
+  const auto greedy = gonio::design::grow_greedily(candidates, 2),
+             exchanged = gonio::design::exchange(candidates, greedy);
   CHECK(exchanged.value <= greedy.value);
   CHECK(exchanged.value >= best.value * (1.0 - 1e-6));
   CHECK(exchanged.value <= best.value * 1.02);
   double of_many = exchanged.value;
   for (const std::size_t start : {std::size_t{10}, std::size_t{150}, std::size_t{300}})
-    of_many = std::min(of_many, gonio::exchange(candidates, {{start, start + 20}}).value);
+    of_many = std::min(of_many, gonio::design::exchange(candidates, {{start, start + 20}}).value);
   CHECK(of_many == doctest::Approx(best.value).epsilon(1e-6));
 }
 
 TEST_CASE("after exchange no single replacement improves") {
   const auto candidates = made_up_candidates({.eta = 0.1, .common_shift = 0.2});
-  const auto found = gonio::exchange(candidates, gonio::grow_greedily(candidates, 4));
+  const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
   for (std::size_t position = 0; position < 4; ++position)
     for (std::size_t cell = 0; cell < candidates.size(); ++cell) {
       auto other = found.candidates;
@@ -59,18 +61,19 @@ TEST_CASE("after exchange no single replacement improves") {
 }
 
 TEST_CASE("cells that the constraint excludes are no candidates") {
-  gonio::capture_constraint constraint;
+  gonio::design::capture_constraint constraint;
   constraint.light.largest = gonio::radians(40);
-  const gonio::cell_candidates candidates(candidate_basis(), gonio::expected_error(candidate_basis(), {.eta = 0.5}),
-                                          constraint);
-  const auto found = gonio::exchange(candidates, gonio::grow_greedily(candidates, 4));
+  const gonio::design::cell_candidates candidates(
+      candidate_basis(), gonio::design::expected_error(candidate_basis(), {.eta = 0.5}), constraint);
+  const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
   for (const std::size_t cell : found.candidates) {
     const gonio::direction_pair pair = gonio::to_directions(small_cells().angles(cell));
     CHECK(std::max(pair.wi.z(), pair.wo.z()) >= std::cos(gonio::radians(40.001)));
   }
   constraint.light.smallest = constraint.light.largest = gonio::radians(39.123);
-  CHECK_THROWS_WITH_AS(
-      static_cast<void>(gonio::grow_greedily(
-          gonio::cell_candidates(candidate_basis(), gonio::expected_error(candidate_basis()), constraint), 1)),
-      doctest::Contains("of 0 candidates"), gonio::error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::design::grow_greedily(
+                           gonio::design::cell_candidates(candidate_basis(),
+                                                          gonio::design::expected_error(candidate_basis()), constraint),
+                           1)),
+                       doctest::Contains("of 0 candidates"), gonio::error);
 }

@@ -8,8 +8,8 @@
 
 #include <random>
 
-using gonio::expected_error;
-static_assert(gonio::design_criterion<expected_error>);
+using gonio::design::expected_error;
+static_assert(gonio::design::design_criterion<expected_error>);
 
 namespace {
 

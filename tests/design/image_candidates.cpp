@@ -8,11 +8,11 @@
 
 namespace {
 
-using gonio::expected_error;
-using gonio::near_field_geometry;
-using gonio::sphere_geometry;
+using gonio::design::expected_error;
+using gonio::design::near_field_geometry;
+using gonio::design::sphere_geometry;
 
-constexpr gonio::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
+constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
 
 /// E of all samples of some pictures, one row each.
 template <class Geometry>
@@ -35,7 +35,7 @@ near_field_geometry coarse_near_field() {
 
 template <class Geometry>
 auto objective_of(const Geometry& geometry) {
-  return gonio::image_objective(candidate_basis(), expected_error(candidate_basis(), with_noise), geometry);
+  return gonio::design::image_objective(candidate_basis(), expected_error(candidate_basis(), with_noise), geometry);
 }
 
 }  // namespace
@@ -51,7 +51,7 @@ TEST_CASE("compressed pictures are worth what all of their samples are") {
 
 TEST_CASE("prepared pictures, pictures beside others and sweeps agree") {
   const auto objective = objective_of(coarse_near_field());
-  const gonio::image_candidates prepared(objective);
+  const gonio::design::image_candidates prepared(objective);
   const std::vector<std::size_t> two{30, 170};
   CHECK(prepared(two) == doctest::Approx(objective(two)).epsilon(1e-12));
   const auto errors = prepared.errors_with_each(two);
@@ -64,30 +64,30 @@ TEST_CASE("prepared pictures, pictures beside others and sweeps agree") {
     CHECK(double{errors[candidate]} == doctest::Approx(with(candidate)).epsilon(1e-6));
     CHECK(with(candidate) == doctest::Approx(objective(std::vector<std::size_t>{30, 170, candidate})).epsilon(1e-12));
   }
-  CHECK(errors == gonio::image_candidates(objective, {1}).errors_with_each(two));
+  CHECK(errors == gonio::design::image_candidates(objective, {1}).errors_with_each(two));
 }
 
 TEST_CASE("two pictures: exchange comes to the best pair of all") {
-  const gonio::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
+  const gonio::design::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
   double best = 1e9;
   for (std::size_t a = 0; a < 7; ++a)
     for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<std::size_t>{a, b}));
   double found = 1e9;
   for (std::size_t first = 0; first < 7; ++first)
-    found = std::min(found, gonio::exchange(spheres, {{first, (first + 3) % 7}}).value);
+    found = std::min(found, gonio::design::exchange(spheres, {{first, (first + 3) % 7}}).value);
   CHECK(found == doctest::Approx(best).epsilon(1e-6));
-  const auto slid = gonio::descend(spheres.geometry(), spheres, gonio::grow_greedily(spheres, 2));
+  const auto slid = gonio::design::descend(spheres.geometry(), spheres, gonio::design::grow_greedily(spheres, 2));
   CHECK(slid.value >= best * (1.0 - 1e-9));
 }
 
 TEST_CASE("a picture is worth more than its centre") {
   const auto near_field = coarse_near_field();
   const expected_error criterion(candidate_basis(), {.eta = 0.5});
-  const gonio::image_objective objective(candidate_basis(), criterion, near_field);
+  const gonio::design::image_objective objective(candidate_basis(), criterion, near_field);
   for (const std::size_t picture : {std::size_t{45}, std::size_t{88}}) {
     const std::vector<gonio::half_difference> centre{
         gonio::to_half_difference(near_field.centre(picture).wi, near_field.centre(picture).wo)};
     CHECK(objective(std::vector<std::size_t>{picture}) <
-          criterion(gonio::rows_at(candidate_basis(), centre).components));
+          criterion(gonio::design::rows_at(candidate_basis(), centre).components));
   }
 }

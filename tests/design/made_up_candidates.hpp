@@ -9,8 +9,8 @@ inline const gonio::log_relative_pca& candidate_basis() {
   return basis;
 }
 
-inline gonio::cell_candidates made_up_candidates(const gonio::expected_error_options& options = {.eta = 0.5},
-                                                 gonio::thread_count threads = {},
-                                                 std::span<const double> own_etas = {}) {
-  return {candidate_basis(), gonio::expected_error(candidate_basis(), options), {}, threads, own_etas};
+inline gonio::design::cell_candidates made_up_candidates(
+    const gonio::design::expected_error_options& options = {.eta = 0.5}, gonio::thread_count threads = {},
+    std::span<const double> own_etas = {}) {
+  return {candidate_basis(), gonio::design::expected_error(candidate_basis(), options), {}, threads, own_etas};
 }

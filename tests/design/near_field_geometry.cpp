@@ -6,8 +6,8 @@
 #include <functional>
 
 using gonio::degrees;
-using gonio::near_field_geometry;
 using gonio::radians;
+using gonio::design::near_field_geometry;
 
 namespace {
 
@@ -85,7 +85,7 @@ TEST_CASE("every pixel is above the horizon, whatever the candidate") {
 TEST_CASE("steps there and back; nothing beyond the ends; one azimuth at the zenith") {
   const near_field_geometry geometry;
   const std::size_t from = candidate_at(geometry, 30, 45, 90);
-  for (const gonio::grid_step& step : {gonio::grid_step{3, 0, 0}, {0, -1, 0}, {0, 0, 3}}) {
+  for (const gonio::design::grid_step& step : {gonio::design::grid_step{3, 0, 0}, {0, -1, 0}, {0, 0, 3}}) {
     const auto to = geometry.stepped(from, step);
     REQUIRE(to.has_value());
     CHECK(geometry.stepped(*to, {-step[0], -step[1], -step[2]}) == from);
@@ -104,7 +104,7 @@ TEST_CASE("a fixed camera or light is where it is fixed") {
 }
 
 TEST_CASE("constraints hold for the centre of the picture") {
-  gonio::capture_constraint constraint;
+  gonio::design::capture_constraint constraint;
   constraint.light_step = radians(15);
   constraint.smallest_separation = radians(20);
   const near_field_geometry geometry({.constraint = constraint});
@@ -113,8 +113,8 @@ TEST_CASE("constraints hold for the centre of the picture") {
 }
 
 TEST_CASE("what cannot be built is refused") {
-  const auto refused = [](const std::function<void(gonio::near_field_options&)>& change, const char* why) {
-    gonio::near_field_options options;
+  const auto refused = [](const std::function<void(gonio::design::near_field_options&)>& change, const char* why) {
+    gonio::design::near_field_options options;
     change(options);
     CHECK_THROWS_WITH_AS(near_field_geometry{options}, doctest::Contains(why), gonio::error);
   };

@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 TEST_CASE("the published directions are above the horizon and as many as asked for") {
-  for (const std::size_t n : gonio::nielsen_direction_counts) {
-    const auto directions = gonio::nielsen_directions(n);
+  for (const std::size_t n : gonio::design::nielsen_direction_counts) {
+    const auto directions = gonio::design::nielsen_directions(n);
     CHECK(directions.size() == n);
     for (const auto& angles : directions) {
       const auto cosine = gonio::cosines(angles);
@@ -13,17 +13,17 @@ TEST_CASE("the published directions are above the horizon and as many as asked f
       CHECK(cosine.o > 0.0);
     }
   }
-  CHECK(gonio::degrees(gonio::nielsen_directions(20)[19].theta_d) == doctest::Approx(43));
-  CHECK(gonio::degrees(gonio::nielsen_directions(1)[0].theta_d) == doctest::Approx(66));
+  CHECK(gonio::degrees(gonio::design::nielsen_directions(20)[19].theta_d) == doctest::Approx(43));
+  CHECK(gonio::degrees(gonio::design::nielsen_directions(1)[0].theta_d) == doctest::Approx(66));
 }
 
 TEST_CASE("a number that is not in the table is refused") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::nielsen_directions(3)), doctest::Contains("1, 2, 5, 10 or 20"),
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::design::nielsen_directions(3)), doctest::Contains("1, 2, 5, 10 or 20"),
                        gonio::error);
 }
 
 TEST_CASE("industry's directions are in the plane of the light, whose angle from the mirror direction they state") {
-  const auto directions = gonio::westlund_meyer_directions();
+  const auto directions = gonio::design::westlund_meyer_directions();
   REQUIRE(directions.size() == 5);
   const std::array aspecular{15.0, 25.0, 45.0, 75.0, 110.0};
   for (std::size_t i = 0; i < 5; ++i) {

@@ -6,7 +6,7 @@
 
 #include <set>
 
-using gonio::capture_plan;
+using gonio::design::capture_plan;
 
 namespace {
 
@@ -27,8 +27,8 @@ double distance_from_places(std::span<const std::size_t> cells) {
   return sum;
 }
 
-const gonio::point_geometry& small_points() {
-  static const gonio::point_geometry points(small_cells());
+const gonio::design::point_geometry& small_points() {
+  static const gonio::design::point_geometry points(small_cells());
   return points;
 }
 
@@ -36,7 +36,7 @@ const gonio::point_geometry& small_points() {
 bool no_step_improves(const capture_plan& plan) {
   capture_plan copy = plan;
   for (std::size_t position = 0; position < plan.candidates.size(); ++position)
-    if (gonio::detail::move_one(small_points(), distance_from_places, copy, position, 1)) return false;
+    if (gonio::design::detail::move_one(small_points(), distance_from_places, copy, position, 1)) return false;
   return true;
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("descent ends where no step improves") {
     const auto any = rc::gen::inRange<std::size_t>(0, small_cells().size());
     const auto n = *rc::gen::inRange<std::size_t>(1, 5);
     const auto cells = *rc::gen::unique<std::vector<std::size_t>>(n, any);
-    const capture_plan found = gonio::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
+    const capture_plan found = gonio::design::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
     RC_ASSERT(found.value <= distance_from_places(cells));
     RC_ASSERT(found.value == distance_from_places(found.candidates));
     RC_ASSERT(no_step_improves(found));
@@ -57,7 +57,7 @@ TEST_CASE("descent ends where no step improves") {
 
 TEST_CASE("growing finds all three places from many tries, and the same for a seed") {
   const auto grown = [](std::size_t n, std::size_t tries, std::uint64_t seed) {
-    return gonio::grow_and_descend(small_points(), distance_from_places, n, tries, seed);
+    return gonio::design::grow_and_descend(small_points(), distance_from_places, n, tries, seed);
   };
   CHECK(grown(3, 200, 1).value == 0.0);
   CHECK(grown(3, 5, 2).candidates == grown(3, 5, 2).candidates);
@@ -68,7 +68,7 @@ TEST_CASE("growing finds all three places from many tries, and the same for a se
 }
 
 TEST_CASE("values may be negative or infinite: ties and rounding are no improvements, and every search ends") {
-  using gonio::detail::improves;
+  using gonio::design::detail::improves;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (const double on : {-3.0, 3.0}) {
     CHECK_FALSE(improves(on, on));
@@ -81,8 +81,8 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
   CHECK(improves(-1e-300, 0.0));
 
   const auto below_zero = [](std::span<const std::size_t> cells) { return distance_from_places(cells) - 100.0; };
-  const capture_plan found = gonio::grow_and_descend(small_points(), below_zero, 3, 20, 6),
-                     same = gonio::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
+  const capture_plan found = gonio::design::grow_and_descend(small_points(), below_zero, 3, 20, 6),
+                     same = gonio::design::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
   CHECK(found.candidates == same.candidates);
   CHECK(found.value == doctest::Approx(same.value - 100.0));
 }
@@ -90,25 +90,26 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
 TEST_CASE("random swaps never make it worse, and all cells are a choice, too") {
   double before = 1e9;
   for (const std::size_t swaps : {0u, 10u, 100u, 5000u}) {
-    const capture_plan found = gonio::swap_at_random(small_points(), distance_from_places, 3, swaps, 7);
+    const capture_plan found = gonio::design::swap_at_random(small_points(), distance_from_places, 3, swaps, 7);
     CHECK(found.value <= before);
     CHECK(found.value == distance_from_places(found.candidates));
     before = found.value;
   }
   CHECK(before <= 3.0);
-  CHECK(gonio::swap_at_random(small_points(), distance_from_places, small_cells().size(), 10, 1).value == 0.0);
-  CHECK_THROWS_AS(static_cast<void>(gonio::swap_at_random(small_points(), distance_from_places, 0, 1)), gonio::error);
+  CHECK(gonio::design::swap_at_random(small_points(), distance_from_places, small_cells().size(), 10, 1).value == 0.0);
+  CHECK_THROWS_AS(static_cast<void>(gonio::design::swap_at_random(small_points(), distance_from_places, 0, 1)),
+                  gonio::error);
 }
 
 TEST_CASE("no search chooses what the constraint excludes") {
-  gonio::capture_constraint constraint;
+  gonio::design::capture_constraint constraint;
   constraint.viewer.largest = gonio::radians(50);
-  const gonio::point_geometry points(small_cells(), constraint);
+  const gonio::design::point_geometry points(small_cells(), constraint);
   const auto all_allowed = [&](const capture_plan& plan) {
     return std::ranges::all_of(plan.candidates, [&](std::size_t cell) { return points.allows(cell); });
   };
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    CHECK(all_allowed(gonio::grow_and_descend(points, distance_from_places, 3, 20, seed)));
-    CHECK(all_allowed(gonio::swap_at_random(points, distance_from_places, 3, 100, seed)));
+    CHECK(all_allowed(gonio::design::grow_and_descend(points, distance_from_places, 3, 20, seed)));
+    CHECK(all_allowed(gonio::design::swap_at_random(points, distance_from_places, 3, 100, seed)));
   }
 }

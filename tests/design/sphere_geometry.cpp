@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 TEST_CASE("the slices of theta_d hold all valid cells, each once") {
-  const gonio::sphere_geometry spheres(small_cells());
+  const gonio::design::sphere_geometry spheres(small_cells());
   CHECK(spheres.size() == 7);
   std::vector<int> seen(small_cells().size(), 0);
   for (std::size_t slice = 0; slice < spheres.size(); ++slice) {
@@ -22,7 +22,7 @@ TEST_CASE("the slices of theta_d hold all valid cells, each once") {
 }
 
 TEST_CASE("steps go along theta_d and end at its ends") {
-  const gonio::sphere_geometry spheres(small_cells());
+  const gonio::design::sphere_geometry spheres(small_cells());
   CHECK(spheres.stepped(2, {0, 3, 0}) == std::size_t{5});
   CHECK(spheres.stepped(5, {0, -3, 0}) == std::size_t{2});
   CHECK_FALSE(spheres.stepped(5, {0, 2, 0}).has_value());

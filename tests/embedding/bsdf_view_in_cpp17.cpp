@@ -4,9 +4,9 @@
 #error "this test is about C++17 and the standard library alone"
 #endif
 
-float brightness(const gonio::bsdf_view& material, const gonio::bsdf_view::vector& wo);
+float brightness(const gonio::render::bsdf_view& material, const gonio::render::bsdf_view::vector& wo);
 
-float brightness(const gonio::bsdf_view& material, const gonio::bsdf_view::vector& wo) {
-  const gonio::bsdf_view::sampled drawn = material.sample(wo, 0.5f, 0.5f);
+float brightness(const gonio::render::bsdf_view& material, const gonio::render::bsdf_view::vector& wo) {
+  const gonio::render::bsdf_view::sampled drawn = material.sample(wo, 0.5f, 0.5f);
   return drawn.pdf > 0.0f ? material.eval(drawn.wi, wo)[1] * material.eval_pdf(drawn.wi, wo) : 0.0f;
 }

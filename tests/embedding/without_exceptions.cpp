@@ -40,8 +40,8 @@ namespace {
 template <class Real, class Brdf>
 void check_material(const Brdf& table) {
   using vector = Eigen::Matrix<Real, 3, 1>;
-  const gonio::half_vector_sampler<gonio::brdf_view<Brdf>, Real> material{gonio::brdf_view(table)};
-  const gonio::bsdf_view view(material);
+  const gonio::render::half_vector_sampler<gonio::brdf_view<Brdf>, Real> material{gonio::brdf_view(table)};
+  const gonio::render::bsdf_view view(material);
   const vector wo(Real(0.6), 0, Real(0.8)), below(Real(0.6), 0, Real(-0.8));
   const long before = allocations;
   Real albedo = 0;
@@ -69,8 +69,9 @@ int main(int count, char**) {
   for (std::size_t i = 0; i < planes.size(); ++i) planes[i] = 0.5 * std::numbers::inv_pi * scales[i / cells.size()];
   if (count > 1) planes.pop_back();
 
-  const auto table = gonio::lookup_table<Eigen::half>::from_merl(planes, cells);
-  const auto nearest = gonio::lookup_table<float, gonio::interpolation::nearest>::from_merl(planes, cells);
+  const auto table = gonio::render::lookup_table<Eigen::half>::from_merl(planes, cells);
+  const auto nearest =
+      gonio::render::lookup_table<float, gonio::render::interpolation::nearest>::from_merl(planes, cells);
   check_material<double>(table);
   check_material<float>(table);
   check_material<double>(nearest);

@@ -7,12 +7,12 @@
 
 using gonio::appearance_judge;
 using gonio::brdf_table;
-using gonio::ggx;
-using gonio::lambertian;
 using gonio::rgb;
-using gonio::sum_of_lobes;
 using gonio::tabulate;
 using gonio::valid_cells;
+using gonio::model::ggx;
+using gonio::model::lambertian;
+using gonio::model::sum_of_lobes;
 
 namespace {
 
@@ -40,8 +40,8 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
   CHECK(judge.lights().points().size() == 1020);
 
   std::map<std::string, gonio::appearance> seen;
-  for (const std::string& name : gonio::formula_material_names())
-    seen[name] = judge.look(tabulate(gonio::formula_material(name), cells));
+  for (const std::string& name : gonio::model::formula_material_names())
+    seen[name] = judge.look(tabulate(gonio::model::formula_material(name), cells));
   const lambertian red{{0.42, 0.028, 0.022}};
   seen["rougher"] = judge.look(tabulate(sum_of_lobes{red, ggx{.alpha = 0.2, .f0 = rgb::Constant(0.04)}}, cells));
   seen["mirror"] = judge.look(tabulate(ggx{.alpha = 0.02, .f0 = {0.9, 0.6, 0.3}}, cells));
@@ -72,7 +72,7 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
 }
 
 TEST_CASE("a table does not differ from itself, and differences are symmetric") {
-  const brdf_table paint = tabulate(gonio::formula_material("red-paint"), sphere_cells());
+  const brdf_table paint = tabulate(gonio::model::formula_material("red-paint"), sphere_cells());
   CHECK(small_judge().difference(paint, paint).lights == 0.0);
   CHECK(small_judge().difference(paint, paint).environment == 0.0);
   const auto there = small_judge().difference(paint, grey(0.2)), back = small_judge().difference(grey(0.2), paint);
@@ -83,9 +83,9 @@ TEST_CASE("a table does not differ from itself, and differences are symmetric") 
 }
 
 TEST_CASE("the difference is the mean over the pixels of the pictures' differences") {
-  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("gold-metal"), sphere_cells());
+  const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("gold-metal"), sphere_cells());
   const auto& op = small_judge().environment();
-  const gonio::sphere_colours p = op.apply(a), q = op.apply(b);
+  const gonio::render::sphere_colours p = op.apply(a), q = op.apply(b);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < p.rows(); ++i) sum += gonio::delta_e(p.row(i).transpose(), q.row(i).transpose());
   CHECK(small_judge().difference(a, b).environment ==
@@ -112,7 +112,7 @@ TEST_CASE("negative reflectance counts as zero, cell by cell") {
 }
 
 TEST_CASE("the number of threads does not change a byte of a difference, and other cells are refused") {
-  const brdf_table a = grey(0.1), b = tabulate(gonio::formula_material("blue-rubber"), sphere_cells());
+  const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("blue-rubber"), sphere_cells());
   const appearance_judge one(sphere_cells(), 12, {1});
   CHECK(one.difference(a, b, {1}).environment == small_judge().difference(a, b, {4}).environment);
   const brdf_table other(valid_cells(gonio::grid({20, 15, 31})));

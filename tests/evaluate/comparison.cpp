@@ -8,11 +8,11 @@
 using gonio::appearance_judge;
 using gonio::brdf_table;
 using gonio::comparison;
-using gonio::lambertian;
 using gonio::log_relative;
 using gonio::rgb;
 using gonio::tabulate;
 using gonio::valid_cells;
+using gonio::model::lambertian;
 
 namespace {
 
@@ -34,7 +34,7 @@ const appearance_judge& judge() {
   return result;
 }
 
-brdf_table paint() { return tabulate(gonio::formula_material("red-paint"), cells()); }
+brdf_table paint() { return tabulate(gonio::model::formula_material("red-paint"), cells()); }
 
 /// A table from a function of the cell and its true value.
 template <class Change>
@@ -166,7 +166,7 @@ TEST_CASE("the highlight's peak is the 99.9th percentile below 5 degrees: one wi
 
 TEST_CASE("the grazing rim does not decide the peak: a lost highlight shows") {
   const valid_cells merl;
-  const brdf_table truth = tabulate(gonio::formula_material("red-paint"), merl);
+  const brdf_table truth = tabulate(gonio::model::formula_material("red-paint"), merl);
   const auto scaled_where = [&](bool grazing, double factor) {
     return changed(truth, [&](std::size_t cell, const rgb& value) {
       return (merl.angles(cell).theta_d > gonio::radians(70.0)) == grazing ? rgb(factor * value) : value;
@@ -203,7 +203,8 @@ TEST_CASE("a grid without cells below 5 degrees has its peak at its smallest the
 
 TEST_CASE("an estimate over another grid is read at the truth's cells") {
   const brdf_table truth = paint();
-  const brdf_table coarse = tabulate(gonio::formula_material("red-paint"), valid_cells(gonio::grid({16, 10, 12})));
+  const brdf_table coarse =
+      tabulate(gonio::model::formula_material("red-paint"), valid_cells(gonio::grid({16, 10, 12})));
   const log_relative metric = constant_reference(cells(), 0.1f);
   const comparison direct = gonio::compare(coarse, truth, metric, judge());
   CHECK(same(direct, gonio::compare(gonio::resample(coarse, cells()), truth, metric, judge())));
@@ -235,7 +236,7 @@ TEST_CASE("negative values of an estimate count in the errors as the metric says
 }
 
 TEST_CASE("the number of threads does not change a byte of a comparison, and a judge of other cells is refused") {
-  const brdf_table truth = paint(), estimate = tabulate(gonio::formula_material("blue-rubber"), cells());
+  const brdf_table truth = paint(), estimate = tabulate(gonio::model::formula_material("blue-rubber"), cells());
   const log_relative metric = constant_reference(cells(), 0.1f);
   CHECK(same(gonio::compare(estimate, truth, metric, judge(), {1}),
              gonio::compare(estimate, truth, metric, judge(), {5})));

@@ -12,10 +12,10 @@ const gonio::log_relative_pca& few_materials() {
   return prior;
 }
 
-gonio::sphere_operator lit_sphere(int size) { return {small_cells(), gonio::two_lights(), size}; }
+gonio::render::sphere_operator lit_sphere(int size) { return {small_cells(), gonio::render::two_lights(), size}; }
 
 /// Lightness of a sphere's points of a grey material with these weights.
-Eigen::ArrayXd lightness(const gonio::sphere_operator& sphere, const Eigen::VectorXf& weights) {
+Eigen::ArrayXd lightness(const gonio::render::sphere_operator& sphere, const Eigen::VectorXf& weights) {
   const gonio::log_relative_pca& prior = few_materials();
   gonio::brdf_table table(small_cells());
   for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
@@ -24,7 +24,7 @@ Eigen::ArrayXd lightness(const gonio::sphere_operator& sphere, const Eigen::Vect
     const auto rho = static_cast<float>(prior.metric().inverse(mapped, cell));
     for (std::size_t channel = 0; channel < 3; ++channel) table.values()[3 * cell + channel] = rho;
   }
-  const gonio::sphere_colours colours = sphere.apply(table);
+  const gonio::render::sphere_colours colours = sphere.apply(table);
   Eigen::ArrayXd lightness(colours.rows());
   for (Eigen::Index point = 0; point < colours.rows(); ++point)
     lightness[point] = gonio::to_lab(colours.row(point).transpose())[0];
@@ -34,7 +34,7 @@ Eigen::ArrayXd lightness(const gonio::sphere_operator& sphere, const Eigen::Vect
 }  // namespace
 
 TEST_CASE("the norm is the mean square change of lightness over points and materials") {
-  const gonio::sphere_operator sphere = lit_sphere(9);
+  const gonio::render::sphere_operator sphere = lit_sphere(9);
   const gonio::log_relative_pca& prior = few_materials();
   const Eigen::MatrixXd norm = gonio::perceived_norm(prior, sphere);
   std::mt19937 generator(3);
@@ -65,11 +65,12 @@ TEST_CASE("what is beyond white does not count; else the slope is that of CIELAB
 }
 
 TEST_CASE("the same bytes for any number of threads, and only over the same cells") {
-  const gonio::sphere_operator sphere = lit_sphere(12);
+  const gonio::render::sphere_operator sphere = lit_sphere(12);
   const Eigen::MatrixXd norm = gonio::perceived_norm(few_materials(), sphere, {1});
   CHECK(norm == gonio::perceived_norm(few_materials(), sphere, {3}));
   CHECK(norm == norm.transpose());
-  const gonio::sphere_operator other(gonio::valid_cells(gonio::grid({8, 7, 9})), gonio::two_lights(), 4);
+  const gonio::render::sphere_operator other(gonio::valid_cells(gonio::grid({8, 7, 9})), gonio::render::two_lights(),
+                                             4);
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::perceived_norm(few_materials(), other)),
                        doctest::Contains("other cells"), gonio::error);
 }

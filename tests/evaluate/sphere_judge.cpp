@@ -7,9 +7,9 @@
 #include <cmath>
 
 using gonio::brdf_table;
-using gonio::environment_map;
 using gonio::rgb;
 using gonio::sphere_judge;
+using gonio::render::environment_map;
 
 namespace {
 
@@ -18,31 +18,31 @@ const gonio::valid_cells& judged_cells() {
   return cells;
 }
 
-environment_map room() { return environment_map::of(gonio::formula_environment{}, 32); }
+environment_map room() { return environment_map::of(gonio::render::formula_environment{}, 32); }
 
 /// Under the closed-form environment, tabulated.
 const sphere_judge& room_judge() {
-  static const sphere_judge judge(judged_cells(), gonio::important_lights(room(), 200, 1), 12);
+  static const sphere_judge judge(judged_cells(), gonio::render::important_lights(room(), 200, 1), 12);
   return judge;
 }
 
-brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::lambertian{albedo}, judged_cells()); }
+brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::model::lambertian{albedo}, judged_cells()); }
 
-brdf_table formula(const char* name) { return gonio::tabulate(gonio::formula_material(name), judged_cells()); }
+brdf_table formula(const char* name) { return gonio::tabulate(gonio::model::formula_material(name), judged_cells()); }
 
-double mean_luminance(const gonio::sphere_colours& colours) {
+double mean_luminance(const gonio::render::sphere_colours& colours) {
   double sum = 0.0;
   for (Eigen::Index point = 0; point < colours.rows(); ++point) sum += gonio::luminance(colours.row(point).transpose());
   return sum / static_cast<double>(colours.rows());
 }
 
-gonio::directional_lighting headlight() { return gonio::directional_lighting({{{0.0, 0.0, 1.0}}}); }
+gonio::render::directional_lighting headlight() { return gonio::render::directional_lighting({{{0.0, 0.0, 1.0}}}); }
 
 /// The same irradiance at every point: a matte sphere has the same colour everywhere.
 struct flat_light {
   template <class Visit>
   void for_each_incident(const gonio::direction& normal, Visit&& visit) const {
-    const gonio::direction wo = gonio::surface_frame(normal).to_local(gonio::direction::UnitZ());
+    const gonio::direction wo = gonio::render::surface_frame(normal).to_local(gonio::direction::UnitZ());
     if (wo.z() > 0.0) visit(wo, wo, rgb(rgb::Ones()));
   }
 };
@@ -52,7 +52,7 @@ struct flat_light {
 TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at the truth's exposure") {
   const brdf_table truth = formula("gold-metal");
   const auto seen = room_judge().expose(truth);
-  const gonio::sphere_colours colours = room_judge().sphere().apply(truth);
+  const gonio::render::sphere_colours colours = room_judge().sphere().apply(truth);
   CHECK(mean_luminance(seen.exposure * colours) == doctest::Approx(0.18).epsilon(1e-12));
   for (Eigen::Index point = 0; point < colours.rows(); ++point) {
     const rgb expected = gonio::to_lab(seen.exposure * colours.row(point).transpose());
@@ -100,7 +100,7 @@ TEST_CASE("a kept truth gives the same difference, the mean of those at the poin
 TEST_CASE("the brightness of the light and of both materials does not matter") {
   gonio::image picture = room().picture();
   for (float& value : picture) value *= 7.3f;
-  const sphere_judge brighter(judged_cells(), gonio::important_lights(environment_map(picture), 200, 1), 12);
+  const sphere_judge brighter(judged_cells(), gonio::render::important_lights(environment_map(picture), 200, 1), 12);
   const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
   const double difference = room_judge().difference(estimate, truth);
   CHECK(brighter.difference(estimate, truth) == doctest::Approx(difference).epsilon(1e-5));
@@ -112,8 +112,8 @@ TEST_CASE("the brightness of the light and of both materials does not matter") {
 }
 
 TEST_CASE("a few important lights judge as all of them do") {
-  const sphere_judge all(judged_cells(), gonio::all_lights(room()), 12);
-  const sphere_judge few(judged_cells(), gonio::important_lights(room(), 1000, 1), 12);
+  const sphere_judge all(judged_cells(), gonio::render::all_lights(room()), 12);
+  const sphere_judge few(judged_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
   for (const char* name : {"blue-rubber", "gold-metal"}) {
     const brdf_table estimate = formula(name), truth = formula("red-paint");
     CHECK(few.difference(estimate, truth) == doctest::Approx(all.difference(estimate, truth)).epsilon(0.01));
@@ -150,7 +150,7 @@ TEST_CASE("the picture of differences has the false colour of each point's diffe
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const double difference = (estimate.lab.row(at) - truth.lab.row(at)).matrix().norm();
-    const rgb expected = gonio::false_colour(difference, {.red = 40.0});
+    const rgb expected = gonio::render::false_colour(difference, {.red = 40.0});
     CHECK((gonio::pixel(picture, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);
   }
   // No difference is blue.
@@ -161,7 +161,7 @@ TEST_CASE("the picture of differences has the false colour of each point's diffe
 
 TEST_CASE("the number of threads does not change a byte of what a sphere judge says") {
   const brdf_table a = formula("gold-metal"), b = formula("blue-rubber");
-  const auto lights = gonio::important_lights(room(), 200, 1);
+  const auto lights = gonio::render::important_lights(room(), 200, 1);
   const sphere_judge one(judged_cells(), lights, 12, sphere_judge::middle_grey, {1});
   CHECK(one.difference(a, b, {1}) == room_judge().difference(a, b, {4}));
 }

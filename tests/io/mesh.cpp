@@ -11,9 +11,9 @@
 #include <iostream>  // rapidcheck.h does not include what it uses
 #include <limits>
 
-using gonio::triangle_mesh;
 using gonio::io::read_mesh;
 using gonio::io::write_mesh;
+using gonio::shape::triangle_mesh;
 using scratch::check_refused;
 
 namespace {
@@ -56,7 +56,7 @@ double any_finite() {
 
 triangle_mesh any_mesh() {
   const int vertices = *rc::gen::inRange(1, 30), triangles = *rc::gen::inRange(1, 40);
-  triangle_mesh mesh{gonio::point_columns(3, vertices), gonio::triangle_columns(3, triangles)};
+  triangle_mesh mesh{gonio::shape::point_columns(3, vertices), gonio::shape::triangle_columns(3, triangles)};
   for (double& coordinate : mesh.vertices.reshaped()) coordinate = any_finite();
   for (int& corner : mesh.triangles.reshaped()) corner = *rc::gen::inRange(0, vertices);
   return mesh;
@@ -69,7 +69,7 @@ bool same_bits(const triangle_mesh& a, const triangle_mesh& b) {
 }
 
 triangle_mesh single_triangle() {
-  triangle_mesh mesh{gonio::point_columns(3, 3), gonio::triangle_columns(3, 1)};
+  triangle_mesh mesh{gonio::shape::point_columns(3, 3), gonio::shape::triangle_columns(3, 1)};
   mesh.vertices << 0.1, 1.0, 0.0, 0.0, -2.5, 1e-7, 0.0, 0.0, 1e300;
   mesh.triangles << 2, 0, 1;
   return mesh;

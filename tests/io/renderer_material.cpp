@@ -8,16 +8,18 @@
 
 namespace {
 
-using gonio::analytic_brdf;
-using gonio::lobe_kind;
 using gonio::rgb;
+using gonio::model::analytic_brdf;
+using gonio::model::lobe_kind;
 
 analytic_brdf paint(const char* rough) {
-  return analytic_brdf({{lobe_kind::of<gonio::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
-                        {gonio::lobe_kind_named(rough), {1.0, 0.75, 0.5}, {0.25, 0.25}}});
+  return analytic_brdf({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
+                        {gonio::model::lobe_kind_named(rough), {1.0, 0.75, 0.5}, {0.25, 0.25}}});
 }
 
-analytic_brdf metal() { return analytic_brdf({{lobe_kind::of<gonio::ggx_shape>(), {1.0, 0.5, 0.25}, {0.25, 0.5}}}); }
+analytic_brdf metal() {
+  return analytic_brdf({{lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.5, 0.25}, {0.25, 0.5}}});
+}
 
 }  // namespace
 
@@ -60,7 +62,7 @@ TEST_CASE("models that renderers do not have are refused") {
   const analytic_brdf two({metal().lobes()[0], metal().lobes()[0]}), none;
   CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(two), doctest::Contains("one rough lobe, not 2"), gonio::error);
   CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(none), doctest::Contains("one rough lobe, not 0"), gonio::error);
-  const analytic_brdf phong({{lobe_kind::of<gonio::phong_shape>(), rgb::Ones(), {30.0}}});
+  const analytic_brdf phong({{lobe_kind::of<gonio::model::phong_shape>(), rgb::Ones(), {30.0}}});
   CHECK_THROWS_WITH_AS(gonio::io::mitsuba_material(phong), doctest::Contains("not phong"), gonio::error);
 }
 

@@ -8,7 +8,7 @@
 
 using doctest::Contains;
 using gonio::direction_pair;
-using gonio::reading;
+using gonio::capture::reading;
 using gonio::io::scan_journal;
 namespace io = gonio::io;
 
@@ -30,7 +30,7 @@ reading random_reading(std::size_t frames, Eigen::Index pixels, unsigned seed) {
   reading taken;
   for (std::size_t i = 0; i < frames; ++i) {
     taken.times.push_back(0.0125 * std::pow(2.0, static_cast<double>(i)) / 3.0);
-    taken.frames.push_back(gonio::camera_frame::NullaryExpr(
+    taken.frames.push_back(gonio::capture::camera_frame::NullaryExpr(
         pixels, 3, [&](Eigen::Index, Eigen::Index) { return static_cast<std::uint16_t>(count(generator)); }));
   }
   return taken;

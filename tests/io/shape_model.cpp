@@ -16,28 +16,28 @@ namespace io = gonio::io;
 namespace {
 
 /// Triangles round vertex 0.
-gonio::triangle_columns fan_of(int vertices) {
-  gonio::triangle_columns triangles(3, vertices - 2);
+gonio::shape::triangle_columns fan_of(int vertices) {
+  gonio::shape::triangle_columns triangles(3, vertices - 2);
   for (int t = 0; t < vertices - 2; ++t) triangles.col(t) << 0, t + 1, t + 2;
   return triangles;
 }
 
 constexpr int fan_vertices = 5, fan_shapes = 4;
 
-gonio::shape_model learned_fan() {
-  return gonio::learn_shape_model(made_up_shapes(fan_vertices, fan_shapes, 2, 7), made_up_names(fan_shapes),
-                                  fan_of(fan_vertices));
+gonio::shape::shape_model learned_fan() {
+  return gonio::shape::learn_shape_model(made_up_shapes(fan_vertices, fan_shapes, 2, 7), made_up_names(fan_shapes),
+                                         fan_of(fan_vertices));
 }
 
 /// With a source and fewer components than shapes.
-gonio::shape_model fan_model() {
+gonio::shape::shape_model fan_model() {
   return {learned_fan().basis().truncated(2).with_source("four made-up fans"), fan_of(fan_vertices)};
 }
 
-void check_equal(const gonio::shape_model& back, const gonio::shape_model& model) {
+void check_equal(const gonio::shape::shape_model& back, const gonio::shape::shape_model& model) {
   CHECK(back.triangles() == model.triangles());
   CHECK(back.shapes() == model.shapes());
-  const gonio::shape_basis &one = back.basis(), &other = model.basis();
+  const gonio::shape::shape_basis &one = back.basis(), &other = model.basis();
   CHECK(one.cells() == other.cells());
   CHECK(one.names() == other.names());
   CHECK(one.source() == other.source());
@@ -60,7 +60,8 @@ struct fan_header {
 };
 
 /// A file with a right checksum, as a buggy writer might make it. Counts of more than a few numbers are not kept.
-std::vector<std::byte> fan_file(const fan_header& header, const gonio::triangle_columns& triangles, float number = 1) {
+std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::triangle_columns& triangles,
+                                float number = 1) {
   io::byte_writer payload;
   for (const std::uint32_t count : {header.vertices, header.triangles, header.components, header.shapes})
     payload.put(count);
@@ -78,7 +79,7 @@ std::vector<std::byte> fan_file(const fan_header& header, const gonio::triangle_
 }  // namespace
 
 TEST_CASE("shape model: what is written comes back exactly") {
-  const gonio::shape_model all = learned_fan(), few = fan_model();
+  const gonio::shape::shape_model all = learned_fan(), few = fan_model();
   check_equal(io::decode_shape_model(io::encode_shape_model(all), "x"), all);
   check_equal(io::decode_shape_model(io::encode_shape_model(few), "x"), few);
   CHECK(few.basis().size() == 2);
@@ -114,7 +115,7 @@ TEST_CASE("shape model: a flipped bit is refused, but for those that deflate doe
     damaged[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
     CAPTURE(bit);
     try {
-      const gonio::shape_model back = io::decode_shape_model(damaged, "fan.shapes");
+      const gonio::shape::shape_model back = io::decode_shape_model(damaged, "fan.shapes");
       CHECK(io::encode_shape_model(back) == whole);
       CHECK(bit / 8 >= header);
       ++unused;
@@ -135,7 +136,7 @@ TEST_CASE("shape model: other kinds of file and other versions are named") {
 }
 
 TEST_CASE("shape model: impossible counts are refused, with a right checksum too") {
-  const gonio::triangle_columns fan = fan_of(fan_vertices);
+  const gonio::shape::triangle_columns fan = fan_of(fan_vertices);
   // Without a lie it is read.
   CHECK(io::decode_shape_model(fan_file({}, fan), "x").vertices() == fan_vertices);
   const auto refused = [&](const fan_header& header, const std::string& words) {
@@ -159,7 +160,7 @@ TEST_CASE("shape model: impossible counts are refused, with a right checksum too
 }
 
 TEST_CASE("shape model: values that are not finite are refused") {
-  const gonio::triangle_columns fan = fan_of(fan_vertices);
+  const gonio::shape::triangle_columns fan = fan_of(fan_vertices);
   constexpr float infinity = std::numeric_limits<float>::infinity();
   check_fan_refused(fan_file({}, fan, infinity), "not finite");
   check_fan_refused(fan_file({}, fan, std::numeric_limits<float>::quiet_NaN()), "not finite");
@@ -168,7 +169,7 @@ TEST_CASE("shape model: values that are not finite are refused") {
 
 TEST_CASE("shape model: triangles that are no surface are refused") {
   const auto refused = [](int triangle, const Eigen::Vector3i& corners, const std::string& words) {
-    gonio::triangle_columns triangles = fan_of(fan_vertices);
+    gonio::shape::triangle_columns triangles = fan_of(fan_vertices);
     triangles.col(triangle) = corners;
     check_fan_refused(fan_file({}, triangles), words);
   };
@@ -182,7 +183,7 @@ TEST_CASE("shape model: triangles that are no surface are refused") {
 
 TEST_CASE("shape model: files are written whole, read back, and refused where they are no file") {
   const scratch::folder here;
-  const gonio::shape_model model = fan_model();
+  const gonio::shape::shape_model model = fan_model();
   io::write_shape_model(here / "fan.shapes", model);
   CHECK(here.entries() == 1);
   CHECK(io::is_of_kind(io::detail::shape_model_kind, here / "fan.shapes"));

@@ -31,7 +31,7 @@ const lab::ear_canal_template& ear_template() {
 }
 
 /// The smallest angle of each triangle in degrees, ascending.
-std::vector<double> smallest_angles(const gonio::triangle_mesh& mesh) {
+std::vector<double> smallest_angles(const gonio::shape::triangle_mesh& mesh) {
   std::vector<double> angles;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Matrix3d corners = mesh.corners(t);
@@ -48,23 +48,23 @@ std::vector<double> smallest_angles(const gonio::triangle_mesh& mesh) {
 }
 
 /// V - E + F.
-Eigen::Index euler_number(const gonio::triangle_mesh& mesh) {
+Eigen::Index euler_number(const gonio::shape::triangle_mesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& corners : mesh.triangles.colwise())
     for (int side = 0; side < 3; ++side) ++edges[std::minmax({corners[side], corners[(side + 1) % 3]})];
   return mesh.vertices.cols() - static_cast<Eigen::Index>(edges.size()) + mesh.triangles.cols();
 }
 
-bool uses_all_vertices(const gonio::triangle_mesh& mesh) {
+bool uses_all_vertices(const gonio::shape::triangle_mesh& mesh) {
   std::vector<bool> used(static_cast<std::size_t>(mesh.vertices.cols()), false);
   for (const int vertex : mesh.triangles.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
   return std::ranges::find(used, false) == used.end();
 }
 
 /// The share of triangles whose normals agree with those of the surface.
-double share_outwards(const lab::ear_canal& individual, const gonio::triangle_mesh& mesh,
+double share_outwards(const lab::ear_canal& individual, const gonio::shape::triangle_mesh& mesh,
                       const lab::parameter_columns& places) {
-  const gonio::point_columns normals = gonio::area_normals(mesh);
+  const gonio::shape::point_columns normals = gonio::shape::area_normals(mesh);
   double outwards = 0.0;
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
     const Eigen::Vector2d place = places.col(mesh.triangles(0, t));
@@ -74,7 +74,7 @@ double share_outwards(const lab::ear_canal& individual, const gonio::triangle_me
 }
 
 /// Does a side of a triangle pierce another triangle that has no vertex in common with it?
-bool intersects_itself(const gonio::triangle_mesh& mesh) {
+bool intersects_itself(const gonio::shape::triangle_mesh& mesh) {
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     const Eigen::Matrix3d of = mesh.corners(t);
     const Eigen::Vector3d low = of.rowwise().minCoeff(), high = of.rowwise().maxCoeff();
@@ -128,7 +128,8 @@ double root_mean_square(const std::vector<double>& numbers) {
 }
 
 /// What turns and moves points onto others best, in the sense of least squares.
-gonio::point_columns turned_onto(const gonio::point_columns& points, const gonio::point_columns& onto) {
+gonio::shape::point_columns turned_onto(const gonio::shape::point_columns& points,
+                                        const gonio::shape::point_columns& onto) {
   const Eigen::Matrix3d spread = onto * points.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> parts(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return parts.matrixU() * parts.matrixV().transpose() * points;
@@ -137,9 +138,9 @@ gonio::point_columns turned_onto(const gonio::point_columns& points, const gonio
 }  // namespace
 
 TEST_CASE("the template of ear canals has 3096 vertices and near-equilateral triangles") {
-  const gonio::triangle_mesh& mesh = ear_template().mesh();
+  const gonio::shape::triangle_mesh& mesh = ear_template().mesh();
   CHECK(mesh.vertices.cols() == 3096);
-  CHECK_NOTHROW(gonio::mesh_topology{mesh});
+  CHECK_NOTHROW(gonio::shape::mesh_topology{mesh});
   CHECK(euler_number(mesh) == 1);  // a disc: open outside, closed at the tip
   CHECK(uses_all_vertices(mesh));
   CHECK(share_outwards(lab::ear_canal_family::mean(), mesh, ear_template().places()) == 1.0);
@@ -155,19 +156,19 @@ TEST_CASE("the template of ear canals has 3096 vertices and near-equilateral tri
 TEST_CASE("ear canals differ by one or two millimetres once they are aligned") {
   const lab::ear_canal_template coarse(300);
   constexpr int count = 100;
-  std::vector<gonio::point_columns> shapes;
-  gonio::point_columns mean = gonio::point_columns::Zero(3, 300);
+  std::vector<gonio::shape::point_columns> shapes;
+  gonio::shape::point_columns mean = gonio::shape::point_columns::Zero(3, 300);
   int odd = 0;
   for (int seed = 0; seed < count; ++seed) {
     const lab::ear_canal individual = lab::ear_canal_family().draw(static_cast<std::uint64_t>(seed));
     odd += individual.oddity() ? 1 : 0;
-    gonio::point_columns points = coarse.corresponded(individual);
+    gonio::shape::point_columns points = coarse.corresponded(individual);
     points.colwise() -= points.rowwise().mean().eval();
     shapes.push_back(shapes.empty() ? points : turned_onto(points, shapes.front()));
     mean += shapes.back() / count;
   }
   Eigen::VectorXd variances = Eigen::VectorXd::Zero(300);
-  for (const gonio::point_columns& one : shapes)
+  for (const gonio::shape::point_columns& one : shapes)
     variances += (one - mean).colwise().squaredNorm().transpose() / (count - 1);
   CHECK(std::sqrt(variances.mean()) > 1.0);
   CHECK(std::sqrt(variances.mean()) < 2.0);
@@ -187,7 +188,7 @@ TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itse
   const lab::ear_canal_template coarse(500);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const lab::ear_canal individual = lab::ear_canal_family(1.0, 0.5).draw(seed);
-    gonio::triangle_mesh mesh = coarse.mesh();
+    gonio::shape::triangle_mesh mesh = coarse.mesh();
     mesh.vertices = coarse.corresponded(individual);
     CHECK(individual.regularity() > 0.15);
     CHECK_FALSE(intersects_itself(mesh));
@@ -201,7 +202,7 @@ TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itse
     CHECK(std::ranges::all_of(individual.latents(), [](double z) { return std::abs(z) <= 3.0; }));
   }
   // The test for intersections finds one.
-  gonio::triangle_mesh crossed{gonio::point_columns(3, 6), gonio::triangle_columns(3, 2)};
+  gonio::shape::triangle_mesh crossed{gonio::shape::point_columns(3, 6), gonio::shape::triangle_columns(3, 2)};
   crossed.vertices << 0.0, 4.0, 0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 4.0, 1.0, 1.0, 2.0, 0.0, 0.0, 0.0, -1.0, 1.0, 1.0;
   crossed.triangles << 0, 3, 1, 4, 2, 5;
   CHECK(intersects_itself(crossed));
@@ -243,9 +244,9 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
     options.noise = 0.0;
     const lab::ear_scan whole = lab::scan_of(individual, ear_template(), seed, options);
     CHECK(whole.mesh.vertices.cols() == 1500);
-    CHECK_NOTHROW(gonio::mesh_topology{whole.mesh});
+    CHECK_NOTHROW(gonio::shape::mesh_topology{whole.mesh});
     CHECK(euler_number(whole.mesh) == 1);
-    gonio::triangle_mesh unplaced = whole.mesh;
+    gonio::shape::triangle_mesh unplaced = whole.mesh;
     unplaced.vertices = whole.placement.inverse() * unplaced.vertices;
     CHECK(share_outwards(individual, unplaced, whole.places) > 0.999);
 
@@ -255,7 +256,7 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
       options.hole->ragged = 0.45;
       options.hole->flaps = large ? 0.3 : 0.0;
       const lab::ear_scan holed = lab::scan_of(individual, ear_template(), seed, options);
-      CHECK_NOTHROW(gonio::mesh_topology{holed.mesh});
+      CHECK_NOTHROW(gonio::shape::mesh_topology{holed.mesh});
       CHECK(euler_number(holed.mesh) == 0);  // a disc with a hole
       CHECK(uses_all_vertices(holed.mesh));
       CHECK(holed.mesh.vertices.cols() == holed.places.cols());
@@ -285,7 +286,7 @@ TEST_CASE("the truth of a scan lies on the complete surface") {
   for (const auto defect : {lab::scan_defect::none, lab::scan_defect::mirrored}) {
     options.defect = defect;
     const lab::ear_scan scan = lab::scan_of(lab::ear_canal_family().draw(2), ear_template(), 7, options);
-    const gonio::surface_index complete(scan.complete), scanned(scan.mesh);
+    const gonio::shape::surface_index complete(scan.complete), scanned(scan.mesh);
     double farthest = 0.0, to_scan = 0.0;
     for (Eigen::Index i = 0; i < scan.truth.cols(); i += 7) {
       const Eigen::Vector3d point = scan.truth.col(i);
@@ -344,7 +345,7 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   const auto lost = [](const lab::ear_scan& scan) { return std::ranges::count(scan.covered, false); };
   CHECK(lost(holed) > lost(whole) + 150);
   CHECK(lost(holed) < lost(whole) + 600);
-  const gonio::surface_index scanned(holed.mesh);
+  const gonio::shape::surface_index scanned(holed.mesh);
   const Eigen::Vector3d inside = holed.placed(0.5, 1.0), across = holed.placed(0.5, 1.0 + std::numbers::pi);
   CHECK(scanned.closest(inside).distance > 2.0);
   CHECK(scanned.closest(across).distance < 0.1);
@@ -369,23 +370,23 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   options.hole->flaps = 0.5;
   const lab::ear_scan flapped = lab::scan_of(individual, ear_template(), 9, options);
   CHECK(flapped.mesh.triangles.cols() > holed.mesh.triangles.cols() + 10);
-  CHECK_NOTHROW(gonio::mesh_topology{flapped.mesh});
+  CHECK_NOTHROW(gonio::shape::mesh_topology{flapped.mesh});
 }
 
 TEST_CASE("parts that touch in a point or are cut off are removed from a scan") {
   // Two triangles that share vertex 2 only, and a larger strip apart from them.
   lab::sampled_surface sampled;
-  sampled.mesh.vertices = gonio::point_columns::Random(3, 10);
+  sampled.mesh.vertices = gonio::shape::point_columns::Random(3, 10);
   sampled.mesh.triangles.resize(3, 5);
   sampled.mesh.triangles << 0, 2, 5, 7, 8, 1, 3, 6, 6, 6, 2, 4, 7, 8, 9;
   sampled.places = lab::parameter_columns::Random(2, 10);
   sampled.normals = sampled.mesh.vertices;
-  const gonio::point_columns before = sampled.mesh.vertices;
+  const gonio::shape::point_columns before = sampled.mesh.vertices;
   const std::vector<Eigen::Index> left = sampled.keep_where([](Eigen::Index) { return true; });
   CHECK(left == std::vector<Eigen::Index>{5, 6, 7, 8, 9});
   CHECK(sampled.mesh.triangles.cols() == 3);
   CHECK(sampled.mesh.vertices.col(4) == before.col(9));
-  CHECK_NOTHROW(gonio::mesh_topology{sampled.mesh});
+  CHECK_NOTHROW(gonio::shape::mesh_topology{sampled.mesh});
   CHECK_THROWS_AS((void)sampled.keep_where([](Eigen::Index) { return false; }), gonio::error);
 }
 
@@ -398,14 +399,14 @@ TEST_CASE("defective scans have their defect") {
     options.defect = defect;
     lab::ear_scan scan = lab::scan_of(individual, ear_template(), 4, options);
     CHECK(scan.defect == defect);
-    CHECK_NOTHROW(gonio::mesh_topology{scan.mesh});
+    CHECK_NOTHROW(gonio::shape::mesh_topology{scan.mesh});
     return scan;
   };
 
   // No rotation brings a mirrored ear near the other, a reflection does; triangles still face outwards.
   const lab::ear_scan mirrored = with(lab::scan_defect::mirrored);
   CHECK(mirrored.placement.linear().determinant() == doctest::Approx(-1.0));
-  const gonio::point_columns normals = gonio::area_normals(mirrored.mesh);
+  const gonio::shape::point_columns normals = gonio::shape::area_normals(mirrored.mesh);
   double outwards = 0.0;
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
     const Eigen::Vector2d place = mirrored.places.col(mirrored.mesh.triangles(0, t));
@@ -433,7 +434,7 @@ TEST_CASE("defective scans have their defect") {
   CHECK(other.truth.cols() == 0);
   CHECK(other.covered.empty());
   CHECK(euler_number(other.mesh) == 1);
-  CHECK_NOTHROW(gonio::mesh_topology{other.complete});
+  CHECK_NOTHROW(gonio::shape::mesh_topology{other.complete});
   double volume = 0.0;  // positive if triangles face outwards
   const Eigen::Vector3d middle = other.mesh.vertices.rowwise().mean();
   for (Eigen::Index t = 0; t < other.mesh.triangles.cols(); ++t)
@@ -454,7 +455,7 @@ TEST_CASE("populations are functions of a seed, whatever their size") {
   std::map<lab::scan_defect, int> kinds;
   for (const lab::ear_scan& scan : all) {
     ++kinds[scan.defect];
-    CHECK_NOTHROW(gonio::mesh_topology{scan.mesh});
+    CHECK_NOTHROW(gonio::shape::mesh_topology{scan.mesh});
   }
   CHECK(kinds.size() == 6);
   CHECK(kinds[lab::scan_defect::none] > 26);
@@ -478,7 +479,7 @@ TEST_CASE("scans of any size and hole are surfaces") {
     static const lab::ear_canal_template coarse(50);
     const lab::ear_scan scan = lab::scan_of(lab::ear_canal_family().draw(seed), coarse, seed, options);
     RC_ASSERT(uses_all_vertices(scan.mesh));
-    (void)gonio::mesh_topology{scan.mesh};
+    (void)gonio::shape::mesh_topology{scan.mesh};
   });
 }
 

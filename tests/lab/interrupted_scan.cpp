@@ -19,9 +19,9 @@ class slow_gantry : public lab::gantry {
   slow_gantry(lab::dark_room& room, const std::filesystem::path& log)
       : lab::gantry(room), log_(::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {}
 
-  [[nodiscard]] gonio::reading measure(const gonio::direction_pair& pair) {
+  [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     const std::string line = std::to_string(pair.wo.x()) + '\n';
-    if (::write(log_.get(), line.data(), line.size()) < 0) throw gonio::device_failure("no log");
+    if (::write(log_.get(), line.data(), line.size()) < 0) throw gonio::capture::device_failure("no log");
     ::usleep(1000);
     return lab::gantry::measure(pair);
   }
@@ -38,7 +38,7 @@ void scan_into(const std::filesystem::path& journal_path, const std::filesystem:
   slow_gantry machine(room, log);
   gonio::io::scan_journal journal(journal_path, {.sample = "glossy", .setup = "gantry"}, poses,
                                   machine.largest_count());
-  gonio::scan(machine, poses, journal);
+  gonio::capture::scan(machine, poses, journal);
 }
 
 /// Scans in a process of its own, which is killed after some microseconds unless it has ended by then.
@@ -121,21 +121,21 @@ TEST_CASE("lab: a camera that fails in the middle of a scan leaves the lamp off,
     lab::dark_room* room;
     int* measured;
     failing_gantry(lab::dark_room& where, int& count) : lab::gantry(where), room(&where), measured(&count) {}
-    gonio::reading measure(const gonio::direction_pair& pair) {
-      const gonio::reading taken = lab::gantry::measure(pair);
-      if (++*measured % 5 < 2) throw gonio::device_failure("a frame is missing");
+    gonio::capture::reading measure(const gonio::direction_pair& pair) {
+      const gonio::capture::reading taken = lab::gantry::measure(pair);
+      if (++*measured % 5 < 2) throw gonio::capture::device_failure("a frame is missing");
       return taken;
     }
   };
   lab::dark_room room(glossy, {}, {});
   int measured = 0;
   failing_gantry machine(room, measured);
-  const auto poses = gonio::plan_scan(machine, scattered_pairs(40, 4)).poses;
+  const auto poses = gonio::capture::plan_scan(machine, scattered_pairs(40, 4)).poses;
   lab::scan_in_memory record;
   std::size_t scans = 0;
   while (record.readings.size() < poses.size() && ++scans < 20) {
     const std::size_t before = record.readings.size();
-    const auto outcome = gonio::scan(machine, poses, record);
+    const auto outcome = gonio::capture::scan(machine, poses, record);
     CHECK(outcome.kept_before == before);
     CHECK(record.readings.size() == before + outcome.measured);
     CHECK(room.expose(0.1).maxCoeff() == 0);

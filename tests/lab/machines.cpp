@@ -7,21 +7,22 @@
 
 namespace {
 
-const std::array linear_cameras{gonio::camera_response::power_law(65535), gonio::camera_response::power_law(65535),
-                                gonio::camera_response::power_law(65535)};
+const std::array linear_cameras{gonio::capture::camera_response::power_law(65535),
+                                gonio::capture::camera_response::power_law(65535),
+                                gonio::capture::camera_response::power_law(65535)};
 
 /// Scans of the white reference and of the material in the same room, at the poses that the machine makes of pairs.
-template <gonio::goniometer Machine>
+template <gonio::capture::goniometer Machine>
 struct two_scans {
   std::vector<gonio::direction_pair> poses;
-  std::vector<gonio::reading> white, material;
+  std::vector<gonio::capture::reading> white, material;
 
   two_scans(const std::vector<gonio::direction_pair>& pairs, const lab::surface& surface, const lab::sensor& chip,
             const lab::defects& wrong, const lab::defects& wrong_with_reference) {
     lab::dark_room with_reference(lab::white(), chip, wrong_with_reference, 1, 2);
     lab::dark_room with_material(surface, chip, wrong, 1, 3);
     Machine of_reference(with_reference), of_material(with_material);
-    poses = gonio::plan_scan(of_material, pairs).poses;
+    poses = gonio::capture::plan_scan(of_material, pairs).poses;
     white = lab::measure_all(of_reference, poses);
     material = lab::measure_all(of_material, poses);
   }
@@ -32,9 +33,9 @@ void check_exact(const std::vector<gonio::direction_pair>& pairs, std::size_t at
   const two_scans<Machine> scans(pairs, glossy, {}, {}, {});
   REQUIRE(scans.poses.size() >= at_least);
   REQUIRE(scans.material.size() == scans.poses.size());
-  const gonio::calibration known{linear_cameras, {.read = 0.0, .relative = 0.0}};
+  const gonio::capture::calibration known{linear_cameras, {.read = 0.0, .relative = 0.0}};
   for (std::size_t i = 0; i < scans.poses.size(); ++i) {
-    const auto found = gonio::measure_reflectance(scans.material[i], scans.white[i], scans.poses[i], known);
+    const auto found = gonio::capture::measure_reflectance(scans.material[i], scans.white[i], scans.poses[i], known);
     REQUIRE(found.is_usable());
     const gonio::rgb truth = glossy(scans.poses[i].wi, scans.poses[i].wo);
     CHECK(((found.value - truth).abs() < 1e-3 * truth).all());
@@ -53,7 +54,8 @@ TEST_CASE("lab: with noise the 95 % intervals hold 90 to 99 %") {
     const lab::sensor chip = lab::sensor::usual(curve);
     const lab::defects noise{.vignetting = 0.1, .flicker = 0.01};
     const two_scans<lab::gantry> scans(scattered_pairs(400, 5), glossy, chip, noise, noise);
-    const gonio::sensor_noise known{.read = 8.0 * 4095.0 / 20'000.0, .shot = 4095.0 / 20'000.0, .relative = 0.01};
+    const gonio::capture::sensor_noise known{
+        .read = 8.0 * 4095.0 / 20'000.0, .shot = 4095.0 / 20'000.0, .relative = 0.01};
     std::array<double, 3> within{};
     double count = 0.0, worst = 0.0;
     for (const auto& found : lab::calibrate(scans.material, scans.white, scans.poses, chip, known)) {

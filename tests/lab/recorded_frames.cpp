@@ -14,7 +14,7 @@ using doctest::Contains;
 namespace {
 
 /// Writes counts of 8 bits as a PNG of some pixels a side.
-void write_counts(const std::filesystem::path& path, const gonio::camera_frame& counts, int side) {
+void write_counts(const std::filesystem::path& path, const gonio::capture::camera_frame& counts, int side) {
   std::vector<unsigned char> codes;
   for (Eigen::Index pixel = 0; pixel < counts.rows(); ++pixel)
     for (Eigen::Index channel = 0; channel < 3; ++channel)
@@ -30,7 +30,7 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
   const scratch::folder folder;
   lab::dark_room room(glossy, {.largest_count = 255, .side = 4}, {});
   lab::gantry machine(room);
-  const auto poses = gonio::plan_scan(machine, scattered_pairs(6, 2)).poses;
+  const auto poses = gonio::capture::plan_scan(machine, scattered_pairs(6, 2)).poses;
   const auto taken = lab::measure_all(machine, poses);
   nlohmann::json manifest{{"largest_count", 255}, {"frames", nlohmann::json::array()}};
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -52,7 +52,7 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
   CHECK(recorded.largest_count() == 255);
   REQUIRE(recorded.poses().size() == poses.size());
   lab::scan_in_memory record;
-  CHECK(gonio::scan(recorded, poses, record).is_complete());
+  CHECK(gonio::capture::scan(recorded, poses, record).is_complete());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     CHECK(record.readings[i].times == taken[i].times);
     for (std::size_t j = 0; j < taken[i].times.size(); ++j)
@@ -72,7 +72,7 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
     write_text(folder.path() / "4-0.png", "no picture");
     lab::scan_in_memory fresh;
     lab::recorded_frames incomplete(manifest_path);
-    const auto outcome = gonio::scan(incomplete, poses, fresh);
+    const auto outcome = gonio::capture::scan(incomplete, poses, fresh);
     CHECK(outcome.measured == poses.size() - 2);
     REQUIRE(outcome.missing.size() == 2u);
     CHECK(outcome.missing[0].number == 2u);
@@ -83,11 +83,11 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
     manifest["window"]["row"] = 3;
     write_text(manifest_path, manifest.dump());
     CHECK_THROWS_WITH_AS((void)lab::recorded_frames(manifest_path).measure(poses[0]), Contains("ends outside"),
-                         gonio::device_failure);
+                         gonio::capture::device_failure);
   }
   SUBCASE("a pose that was not recorded has an obstacle") {
     CHECK(!recorded.place({poses[0].wo, poses[0].wi}).is_reachable());
-    CHECK_THROWS_AS((void)recorded.measure({poses[0].wo, poses[0].wi}), gonio::device_failure);
+    CHECK_THROWS_AS((void)recorded.measure({poses[0].wo, poses[0].wi}), gonio::capture::device_failure);
   }
 }
 

@@ -6,10 +6,10 @@
 namespace {
 
 /// Parameters somewhere within their bounds.
-gonio::lobe_kind::values any_parameters(const gonio::lobe_kind& kind) {
-  gonio::lobe_kind::values values{};
+gonio::model::lobe_kind::values any_parameters(const gonio::model::lobe_kind& kind) {
+  gonio::model::lobe_kind::values values{};
   for (std::size_t i = 0; i < kind.parameters().size(); ++i) {
-    const gonio::shape_parameter& about = kind.parameters()[i];
+    const gonio::model::shape_parameter& about = kind.parameters()[i];
     const double share = 0.02 + 0.9 * any_fraction();
     // Not where a highlight is so narrow that differences say nothing.
     const double low = about.logarithmic ? about.lowest + 0.05 : about.lowest,
@@ -22,14 +22,14 @@ gonio::lobe_kind::values any_parameters(const gonio::lobe_kind& kind) {
 }  // namespace
 
 TEST_CASE("slopes are exact: those of central differences, for every kind") {
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds()) {
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds()) {
     CAPTURE(kind->name());
     CHECK(rc::check([&] {
       const auto parameters = any_parameters(*kind);
       const gonio::direction wi = any_direction(), wo = any_direction();
       RC_PRE(wi.z() > 0.05 && wo.z() > 0.05);
-      const gonio::lobe_geometry at(wi, wo);
-      gonio::lobe_kind::values slopes{};
+      const gonio::model::lobe_geometry at(wi, wo);
+      gonio::model::lobe_kind::values slopes{};
       const double value = kind->value_and_slopes(at, parameters, slopes);
       RC_ASSERT(std::abs(value - kind->value(at, parameters)) <= 1e-12 * value);
       for (std::size_t i = 0; i < kind->parameters().size(); ++i) {
@@ -51,9 +51,9 @@ TEST_CASE("slopes are exact: those of central differences, for every kind") {
 }
 
 TEST_CASE("every kind keeps what a BRDF must keep, at its typical parameters") {
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds()) {
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds()) {
     CAPTURE(kind->name());
-    const gonio::analytic_brdf f({gonio::analytic_lobe(*kind, {0.1, 0.2, 0.9}, kind->typical())});
+    const gonio::model::analytic_brdf f({gonio::model::analytic_lobe(*kind, {0.1, 0.2, 0.9}, kind->typical())});
     check_finite_at_special_pairs_and_zero_below_the_horizon(f);
     check_reciprocal_isotropic_and_not_negative(f);
   }
@@ -61,38 +61,38 @@ TEST_CASE("every kind keeps what a BRDF must keep, at its typical parameters") {
 
 TEST_CASE("kinds have names of their own, by which they are found, and parameters that are described") {
   std::set<std::string_view> names;
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds()) {
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds()) {
     CHECK(names.insert(kind->name()).second);
-    CHECK(gonio::lobe_kind_named(kind->name()) == *kind);
-    for (const gonio::shape_parameter& about : kind->parameters()) {
+    CHECK(gonio::model::lobe_kind_named(kind->name()) == *kind);
+    for (const gonio::model::shape_parameter& about : kind->parameters()) {
       CAPTURE(about.name);
       CHECK(about.lowest < about.typical);
       CHECK(about.typical < about.highest);
       CHECK((!about.logarithmic || about.lowest > 0.0));
     }
   }
-  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::lobe_kind_named("plastic")),
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::model::lobe_kind_named("plastic")),
                        doctest::Contains("no lobe named 'plastic'; the names are lambert, phong"), gonio::error);
 }
 
 TEST_CASE("a lobe chosen at run time is the model of that name") {
-  const auto& kind = gonio::lobe_kind::of<gonio::phong_blinn_shape>();
-  const gonio::analytic_lobe lobe(kind, {0.1, 0.2, 0.3}, {25.0, 0.4});
-  const auto model = lobe.as<gonio::phong_blinn_shape>();
+  const auto& kind = gonio::model::lobe_kind::of<gonio::model::phong_blinn_shape>();
+  const gonio::model::analytic_lobe lobe(kind, {0.1, 0.2, 0.3}, {25.0, 0.4});
+  const auto model = lobe.as<gonio::model::phong_blinn_shape>();
   CHECK(model.shape().shininess == 25.0);
   CHECK(model.shape().alpha == 0.4);
   const auto wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.5, 3.0);
-  CHECK((gonio::analytic_brdf({lobe})(wi, wo) == model(wi, wo)).all());
-  CHECK((gonio::analytic_brdf({lobe, lobe})(wi, wo) == 2.0 * model(wi, wo)).all());
-  CHECK((gonio::analytic_brdf()(wi, wo) == 0.0).all());
-  CHECK_THROWS_WITH_AS(static_cast<void>(lobe.as<gonio::lambert_shape>()), "a lobe is phong-blinn, not lambert",
+  CHECK((gonio::model::analytic_brdf({lobe})(wi, wo) == model(wi, wo)).all());
+  CHECK((gonio::model::analytic_brdf({lobe, lobe})(wi, wo) == 2.0 * model(wi, wo)).all());
+  CHECK((gonio::model::analytic_brdf()(wi, wo) == 0.0).all());
+  CHECK_THROWS_WITH_AS(static_cast<void>(lobe.as<gonio::model::lambert_shape>()), "a lobe is phong-blinn, not lambert",
                        gonio::error);
 }
 
 TEST_CASE("parameters that are out of bounds are refused by name") {
-  const auto& kind = gonio::lobe_kind::of<gonio::ggx_shape>();
-  const auto build = [&](const gonio::rgb& colour, const gonio::lobe_kind::values& values) {
-    return gonio::analytic_lobe(kind, colour, values);
+  const auto& kind = gonio::model::lobe_kind::of<gonio::model::ggx_shape>();
+  const auto build = [&](const gonio::rgb& colour, const gonio::model::lobe_kind::values& values) {
+    return gonio::model::analytic_lobe(kind, colour, values);
   };
   CHECK_THROWS_WITH_AS(static_cast<void>(build(gonio::rgb::Ones(), {2.0, 0.1})),
                        "ggx: alpha must be from 0.002000 to 1.000000, not 2.000000", gonio::error);

@@ -1,15 +1,15 @@
 #include "physical.hpp"
 #include <gonio/model/formula_materials.hpp>
 
-using gonio::formula_material;
-using gonio::formula_material_names;
 using gonio::rgb;
+using gonio::model::formula_material;
+using gonio::model::formula_material_names;
 
 TEST_CASE("every material by formula keeps what a BRDF must keep, and its albedo is below 1") {
   REQUIRE(formula_material_names().size() >= 4);
   for (const std::string& name : formula_material_names()) {
     CAPTURE(name);
-    const gonio::formula_brdf f = formula_material(name);
+    const gonio::model::formula_brdf f = formula_material(name);
     check_reciprocal_isotropic_and_not_negative(f);
     check_finite_at_special_pairs_and_zero_below_the_horizon(f);
     for (const double degrees : {0.0, 30.0, 60.0, 75.0, 85.0, 88.0}) {
@@ -38,8 +38,8 @@ TEST_CASE("the names describe the materials") {
 }
 
 TEST_CASE("the paint of the demonstration has the published parameters") {
-  using paint = gonio::sum_of_lobes<gonio::lambertian, gonio::ggx>;
-  const gonio::formula_brdf f = formula_material("red-paint");
+  using paint = gonio::model::sum_of_lobes<gonio::model::lambertian, gonio::model::ggx>;
+  const gonio::model::formula_brdf f = formula_material("red-paint");
   const paint* parameters = std::get_if<paint>(&f.formula());
   REQUIRE(parameters != nullptr);
   CHECK(std::get<1>(parameters->lobes()).alpha == 0.15);

@@ -2,8 +2,8 @@
 #include <gonio/model/ggx.hpp>
 
 using gonio::direction;
-using gonio::ggx;
 using gonio::rgb;
+using gonio::model::ggx;
 
 namespace {
 

@@ -1,8 +1,8 @@
 #include "physical.hpp"
 #include <gonio/model/lambert.hpp>
 
-using gonio::lambertian;
 using gonio::rgb;
+using gonio::model::lambertian;
 
 TEST_CASE("a Lambertian surface keeps what a BRDF must keep") {
   const lambertian f{.albedo = {0.2, 0.5, 0.9}};

@@ -7,22 +7,22 @@
 template <class Real>
 struct cosine_shape {
   static constexpr std::string_view name = "cosine";
-  static constexpr std::array parameters{gonio::shape_parameter{"power", "", 0.5, 2.0, 1.0}};
+  static constexpr std::array parameters{gonio::model::shape_parameter{"power", "", 0.5, 2.0, 1.0}};
   static auto members(auto& self) { return std::tie(self.power); }
 
   Real power = Real(1.0);
 
-  Real operator()(const gonio::lobe_geometry& at) const { return power * at.cosine_i * at.cosine_o; }
+  Real operator()(const gonio::model::lobe_geometry& at) const { return power * at.cosine_i * at.cosine_o; }
 };
 
-using cosine_lobe = gonio::lobe<cosine_shape>;
+using cosine_lobe = gonio::model::lobe<cosine_shape>;
 static_assert(gonio::brdf<cosine_lobe>);
 
 TEST_CASE("the geometry of a lobe: cosines, half vector, mirror direction") {
   CHECK(rc::check([] {
     const gonio::direction wi = any_direction(), wo = any_direction();
     RC_PRE(wi.z() > 1e-6 && wo.z() > 1e-6);
-    const gonio::lobe_geometry at(wi, wo);
+    const gonio::model::lobe_geometry at(wi, wo);
     const gonio::direction mirrored(-wi.x(), -wi.y(), wi.z());
     RC_ASSERT(std::abs(at.mirrored_cosine() - mirrored.dot(wo)) < 1e-14);
     RC_ASSERT(std::abs(at.h.norm() - 1.0) < 1e-14);
@@ -42,10 +42,10 @@ TEST_CASE("a lobe is its colour times its shape, and zero below the horizon") {
 }
 
 TEST_CASE("parameters as an array and back") {
-  const auto values = gonio::values_of<cosine_shape, double>({.power = 1.25});
+  const auto values = gonio::model::values_of<cosine_shape, double>({.power = 1.25});
   CHECK(values.size() == 1);
   CHECK(values[0] == 1.25);
-  CHECK(gonio::shape_from<cosine_shape, double>(values).power == 1.25);
+  CHECK(gonio::model::shape_from<cosine_shape, double>(values).power == 1.25);
 }
 
 TEST_CASE("what is out of bounds is refused by name") {

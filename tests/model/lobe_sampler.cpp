@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-using gonio::analytic_brdf;
-using gonio::analytic_lobe;
-using gonio::analytic_sampler;
 using gonio::direction;
-using gonio::lobe_kind;
-using gonio::lobe_sampler;
 using gonio::rgb;
+using gonio::model::analytic_brdf;
+using gonio::model::analytic_lobe;
+using gonio::model::analytic_sampler;
+using gonio::model::lobe_kind;
+using gonio::model::lobe_sampler;
 
 namespace {
 
@@ -24,7 +24,7 @@ analytic_lobe white(const lobe_kind& kind, const lobe_kind::values& parameters) 
   return {kind, rgb::Ones(), parameters};
 }
 analytic_lobe white(std::string_view name, const lobe_kind::values& parameters) {
-  return white(gonio::lobe_kind_named(name), parameters);
+  return white(gonio::model::lobe_kind_named(name), parameters);
 }
 
 template <template <class> class Shape>
@@ -32,9 +32,9 @@ analytic_lobe brushed(double along_x, double along_y) {
   return white(lobe_kind::of<Shape>(), {along_x, along_y});
 }
 
-using gonio::detail::ward_normalisation;
+using gonio::model::detail::ward_normalisation;
 template <ward_normalisation Normalisation>
-constexpr auto brushed_ward = brushed<gonio::detail::anisotropic_ward<Normalisation>::template shape>;
+constexpr auto brushed_ward = brushed<gonio::model::detail::anisotropic_ward<Normalisation>::template shape>;
 
 /// Every kind, rough and sharp.
 const std::vector<analytic_lobe>& single_lobes() {
@@ -70,9 +70,9 @@ const std::vector<analytic_lobe>& single_lobes() {
 std::vector<analytic_brdf> models() {
   std::vector<analytic_brdf> all;
   for (const analytic_lobe& lobe : single_lobes()) all.push_back(analytic_brdf({lobe}));
-  all.push_back(analytic_brdf({{gonio::lobe_kind_named("lambert"), {0.5, 0.2, 0.1}, {}},
-                               {gonio::lobe_kind_named("ward"), rgb::Constant(0.2), {0.05}},
-                               {gonio::lobe_kind_named("ggx"), {0.2, 0.3, 0.4}, {0.3, 0.2}}}));
+  all.push_back(analytic_brdf({{gonio::model::lobe_kind_named("lambert"), {0.5, 0.2, 0.1}, {}},
+                               {gonio::model::lobe_kind_named("ward"), rgb::Constant(0.2), {0.05}},
+                               {gonio::model::lobe_kind_named("ggx"), {0.2, 0.3, 0.4}, {0.3, 0.2}}}));
   all.emplace_back();
   return all;
 }
@@ -111,15 +111,15 @@ namespace someone {
 template <class Real>
 struct narrow_shape {
   static constexpr std::string_view name = "narrow";
-  static constexpr std::array<gonio::shape_parameter, 0> parameters{};
+  static constexpr std::array<gonio::model::shape_parameter, 0> parameters{};
   static auto members(auto& /*self*/) { return std::tie(); }
-  Real operator()(const gonio::lobe_geometry& at) const {
-    return gonio::detail::cosine_power(at.mirrored_cosine(), 80.0);
+  Real operator()(const gonio::model::lobe_geometry& at) const {
+    return gonio::model::detail::cosine_power(at.mirrored_cosine(), 80.0);
   }
 };
 
-gonio::sampling_techniques techniques_of(const narrow_shape<double>& /*shape*/) {
-  return {{gonio::power_cosine_directions{.exponent = 80.0}, 1.0}};
+gonio::model::sampling_techniques techniques_of(const narrow_shape<double>& /*shape*/) {
+  return {{gonio::model::power_cosine_directions{.exponent = 80.0}, 1.0}};
 }
 
 }  // namespace someone
@@ -218,8 +218,8 @@ TEST_CASE("lobe sampler: weights of sharp lobes vary much less than those of cos
 }
 
 TEST_CASE("lobe sampler: a sum draws each lobe as often as its albedo is of the sum's") {
-  const gonio::ward sharp(rgb::Constant(0.3), {.roughness = 0.02});
-  const lobe_sampler both{gonio::sum_of_lobes{gonio::lambertian{rgb::Constant(0.1)}, sharp}};
+  const gonio::model::ward sharp(rgb::Constant(0.3), {.roughness = 0.02});
+  const lobe_sampler both{gonio::model::sum_of_lobes{gonio::model::lambertian{rgb::Constant(0.1)}, sharp}};
   const lobe_sampler alone{sharp};
   const direction wo = seen_from(20.0), mirror(-wo.x(), -wo.y(), wo.z());
   // Near the mirror direction the diffuse lobe's own density is negligible.
@@ -243,23 +243,25 @@ TEST_CASE("lobe sampler: a model of known type is drawn as the same chosen at ru
       CHECK(a.weight.mean() == doctest::Approx(b.weight.mean()).epsilon(1e-9));
     }
   };
-  check_same(gonio::lambertian{}, {white("lambert", {})});
-  check_same(gonio::phong(rgb::Ones(), {20.0}), {white("phong", {20.0})});
-  check_same(gonio::blinn_phong_fresnel(rgb::Ones(), {{30.0}, 1.4}), {white("blinn-phong-fresnel", {30.0, 1.4})});
-  check_same(gonio::ward_duer(rgb::Ones(), {0.1}), {white("ward-duer", {0.1})});
-  check_same(gonio::anisotropic_ward(rgb::Ones(), {0.1, 0.4}),
+  check_same(gonio::model::lambertian{}, {white("lambert", {})});
+  check_same(gonio::model::phong(rgb::Ones(), {20.0}), {white("phong", {20.0})});
+  check_same(gonio::model::blinn_phong_fresnel(rgb::Ones(), {{30.0}, 1.4}),
+             {white("blinn-phong-fresnel", {30.0, 1.4})});
+  check_same(gonio::model::ward_duer(rgb::Ones(), {0.1}), {white("ward-duer", {0.1})});
+  check_same(gonio::model::anisotropic_ward(rgb::Ones(), {0.1, 0.4}),
              {brushed_ward<ward_normalisation::geometric_mean>(0.1, 0.4)});
-  check_same(gonio::ggx_lobe(rgb::Ones(), {0.3, 0.2}), {white("ggx", {0.3, 0.2})});
-  check_same(gonio::ggx{0.3, rgb::Constant(0.2)}, {white("ggx", {0.3, 0.2})});
-  check_same(gonio::sum_of_lobes{gonio::sum_of_lobes{gonio::lambertian{}}, gonio::ggx{0.3, rgb::Constant(0.2)}},
+  check_same(gonio::model::ggx_lobe(rgb::Ones(), {0.3, 0.2}), {white("ggx", {0.3, 0.2})});
+  check_same(gonio::model::ggx{0.3, rgb::Constant(0.2)}, {white("ggx", {0.3, 0.2})});
+  check_same(gonio::model::sum_of_lobes{gonio::model::sum_of_lobes{gonio::model::lambertian{}},
+                                        gonio::model::ggx{0.3, rgb::Constant(0.2)}},
              {white("lambert", {}), white("ggx", {0.3, 0.2})});
-  check_same(gonio::formula_material("blue-rubber"),
-             {{gonio::lobe_kind_named("lambert"), {0.03, 0.07, 0.28}, {}}, white("ggx", {0.5, 0.03})});
-  check_same(gonio::sum_of_lobes<>{}, {});
+  check_same(gonio::model::formula_material("blue-rubber"),
+             {{gonio::model::lobe_kind_named("lambert"), {0.03, 0.07, 0.28}, {}}, white("ggx", {0.5, 0.03})});
+  check_same(gonio::model::sum_of_lobes<>{}, {});
 }
 
 TEST_CASE("lobe sampler: a shape of one's own is drawn by its techniques; a kind that only has a name, by cosines") {
-  const gonio::lobe<someone::narrow_shape> f;
+  const gonio::model::lobe<someone::narrow_shape> f;
   const lobe_sampler own{f};
   const analytic_sampler named(analytic_brdf({white(lobe_kind::of<someone::narrow_shape>(), {})}));
   for (const double theta : {0.0, 60.0}) {
@@ -298,7 +300,7 @@ TEST_CASE("lobe sampler: below the horizon, and of what is no direction, nothing
 }
 
 TEST_CASE("sampler checks: p values of a correct sampler are uniform, and slightly wrong ones are noticed") {
-  const auto ward_of = [](double roughness) { return lobe_sampler{gonio::ward(rgb::Ones(), {roughness})}; };
+  const auto ward_of = [](double roughness) { return lobe_sampler{gonio::model::ward(rgb::Ones(), {roughness})}; };
   using sampler = decltype(ward_of(0.1));
   for (const double theta : {0.0, 60.0, 89.0}) {
     CAPTURE(theta);

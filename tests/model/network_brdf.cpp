@@ -11,8 +11,8 @@
 #include <random>
 
 using gonio::direction;
-using gonio::network_brdf;
 using gonio::rgb;
+using gonio::model::network_brdf;
 
 namespace {
 
@@ -97,8 +97,9 @@ TEST_CASE("the fast path agrees with the networks and does not depend on threads
   const auto networks = random_networks(7);
   gonio::cell_matrix one, many;
   std::vector<double> fractions;
-  gonio::tabulate_networks(networks, cells, one, {1}, [&](std::string_view, double f) { fractions.push_back(f); });
-  gonio::tabulate_networks(networks, cells, many, {5});
+  gonio::model::tabulate_networks(networks, cells, one, {1},
+                                  [&](std::string_view, double f) { fractions.push_back(f); });
+  gonio::model::tabulate_networks(networks, cells, many, {5});
   REQUIRE(one.rows() == static_cast<Eigen::Index>(cells.size()));
   REQUIRE(one.cols() == 21);
   REQUIRE(many.size() == one.size());
@@ -118,7 +119,7 @@ TEST_CASE("the fast path agrees with the networks and does not depend on threads
 
 TEST_CASE("no networks make an empty matrix") {
   gonio::cell_matrix values;
-  gonio::tabulate_networks({}, gonio::valid_cells(gonio::grid({2, 2, 2})), values);
+  gonio::model::tabulate_networks({}, gonio::valid_cells(gonio::grid({2, 2, 2})), values);
   CHECK(values.cols() == 0);
 }
 
@@ -128,19 +129,19 @@ TEST_CASE("decoded materials have the reference's values") {
     MESSAGE("skipped: " << path.string() << " is not here");
     return;
   }
-  const gonio::named_networks all = gonio::io::read_networks(path);
+  const gonio::model::named_networks all = gonio::io::read_networks(path);
   const auto spots = golden_json("decode_spots.json");
   REQUIRE(spots.size() > 10);
   const gonio::valid_cells cells;
   // The fast path, for a few of the materials.
-  gonio::named_networks few;
+  gonio::model::named_networks few;
   for (std::size_t spot = 0; spot < 3; ++spot) {
     const std::string name = spots[spot]["material"];
     few.names.push_back(name);
     few.networks.push_back(
         all.networks[static_cast<std::size_t>(std::ranges::find(all.names, name) - all.names.begin())]);
   }
-  const gonio::material_set tables = gonio::tabulate_networks(few, cells);
+  const gonio::material_set tables = gonio::model::tabulate_networks(few, cells);
   CHECK(tables.names == few.names);
 
   for (const auto& spot : spots) {

@@ -69,5 +69,5 @@ void check_finite_at_special_pairs_and_zero_below_the_horizon(const Brdf& f) {
 /// The fraction of light from angle theta that is reflected.
 template <gonio::brdf Brdf>
 gonio::rgb albedo(const Brdf& f, double theta, int bins = 400) {
-  return gonio::directional_albedo(f, theta, bins);
+  return gonio::model::directional_albedo(f, theta, bins);
 }

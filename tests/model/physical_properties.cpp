@@ -19,33 +19,34 @@ struct unphysical {
 }  // namespace
 
 TEST_CASE("models that keep the rules are found to") {
-  const gonio::ggx metal{.alpha = 0.2, .f0 = {0.9, 0.7, 0.4}};
-  CHECK(gonio::worst_asymmetry(metal).amount < 1e-12);
-  CHECK(gonio::worst_negative(metal).amount == 0.0);
-  CHECK(gonio::worst_anisotropy(metal).amount < 1e-9);
-  CHECK(gonio::find_largest_albedo(metal, 200).value < 1.0);
+  const gonio::model::ggx metal{.alpha = 0.2, .f0 = {0.9, 0.7, 0.4}};
+  CHECK(gonio::model::worst_asymmetry(metal).amount < 1e-12);
+  CHECK(gonio::model::worst_negative(metal).amount == 0.0);
+  CHECK(gonio::model::worst_anisotropy(metal).amount < 1e-9);
+  CHECK(gonio::model::find_largest_albedo(metal, 200).value < 1.0);
 }
 
 TEST_CASE("what breaks them is found, and where") {
   const unphysical f;
-  const auto asymmetry = gonio::worst_asymmetry(f);
+  const auto asymmetry = gonio::model::worst_asymmetry(f);
   CHECK(asymmetry.amount > 0.9);
   const auto [wi, wo] = asymmetry.at;
-  CHECK(gonio::detail::relative_difference(f(wi, wo), f(wo, wi)) == doctest::Approx(asymmetry.amount));
-  const auto negative = gonio::worst_negative(f);
+  CHECK(gonio::model::detail::relative_difference(f(wi, wo), f(wo, wi)) == doctest::Approx(asymmetry.amount));
+  const auto negative = gonio::model::worst_negative(f);
   CHECK(negative.amount > 0.45);
   CHECK(negative.at.wi.z() > 0.95);
-  CHECK(gonio::worst_anisotropy(gonio::anisotropic_ward(rgb::Ones(), {.roughness_x = 0.1, .roughness_y = 0.4})).amount >
-        0.9);
+  CHECK(gonio::model::worst_anisotropy(
+            gonio::model::anisotropic_ward(rgb::Ones(), {.roughness_x = 0.1, .roughness_y = 0.4}))
+            .amount > 0.9);
 }
 
 TEST_CASE("albedo: exact for Lambert, too much for Duer's lobe at grazing angles, and of tables, too") {
-  const gonio::lambertian grey{.albedo = {0.2, 0.5, 0.9}};
+  const gonio::model::lambertian grey{.albedo = {0.2, 0.5, 0.9}};
   for (const double theta : {0.0, 0.6, 1.2})
-    CHECK(((gonio::directional_albedo(grey, theta) - grey.albedo).abs() < 2e-3).all());
-  const auto largest = gonio::find_largest_albedo(gonio::ward_duer(rgb::Ones(), {.roughness = 0.2}), 200);
+    CHECK(((gonio::model::directional_albedo(grey, theta) - grey.albedo).abs() < 2e-3).all());
+  const auto largest = gonio::model::find_largest_albedo(gonio::model::ward_duer(rgb::Ones(), {.roughness = 0.2}), 200);
   CHECK(largest.value > 1.2);
   CHECK(gonio::degrees(largest.theta) == doctest::Approx(88.0));
   const auto table = gonio::tabulate(grey, gonio::valid_cells(gonio::grid({30, 20, 20})));
-  CHECK(gonio::directional_albedo(table, 0.5, 100)[2] == doctest::Approx(0.9).epsilon(0.02));
+  CHECK(gonio::model::directional_albedo(table, 0.5, 100)[2] == doctest::Approx(0.9).epsilon(0.02));
 }

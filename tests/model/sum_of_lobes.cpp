@@ -4,10 +4,10 @@
 #include <gonio/model/sum_of_lobes.hpp>
 
 using gonio::direction;
-using gonio::ggx;
-using gonio::lambertian;
 using gonio::rgb;
-using gonio::sum_of_lobes;
+using gonio::model::ggx;
+using gonio::model::lambertian;
+using gonio::model::sum_of_lobes;
 
 namespace {
 

@@ -21,7 +21,7 @@ double as_printed(double m, double f0, const direction& wi, const direction& wo)
 TEST_CASE("Torrance and Sparrow's model keeps what a BRDF must keep") {
   for (const double slope : {0.05, 0.3, 1.5}) {
     CAPTURE(slope);
-    const gonio::torrance_sparrow f({0.1, 0.4, 1.0}, {.slope = slope, .f0 = 0.3});
+    const gonio::model::torrance_sparrow f({0.1, 0.4, 1.0}, {.slope = slope, .f0 = 0.3});
     check_finite_at_special_pairs_and_zero_below_the_horizon(f);
     check_reciprocal_isotropic_and_not_negative(f);
   }
@@ -33,7 +33,7 @@ TEST_CASE("Torrance and Sparrow's model is the thesis's formula") {
     const direction wi = any_direction(), wo = any_direction();
     RC_PRE(wi.z() > 1e-3 && wo.z() > 1e-3);
     const double expected = as_printed(m, f0, wi, wo);
-    RC_ASSERT(std::abs(gonio::torrance_sparrow(rgb::Ones(), {.slope = m, .f0 = f0})(wi, wo)[0] - expected) <=
+    RC_ASSERT(std::abs(gonio::model::torrance_sparrow(rgb::Ones(), {.slope = m, .f0 = f0})(wi, wo)[0] - expected) <=
               1e-7 * expected + 1e-200);
   }));
 }
@@ -41,7 +41,7 @@ TEST_CASE("Torrance and Sparrow's model is the thesis's formula") {
 TEST_CASE("Beckmann's distribution with the cosine integrates to 1") {
   for (const double m : {0.1, 0.4, 1.0}) {
     CAPTURE(m);
-    const gonio::torrance_sparrow_shape<double> shape{.slope = m};
+    const gonio::model::torrance_sparrow_shape<double> shape{.slope = m};
     const int bins = 20000;
     double sum = 0.0;
     for (int i = 0; i < bins; ++i) {
@@ -58,6 +58,6 @@ TEST_CASE("it never reflects more than it receives") {
     for (const double theta : {0.0, 0.7, 1.2, 1.5}) {
       CAPTURE(m);
       CAPTURE(theta);
-      CHECK(albedo(gonio::torrance_sparrow(rgb::Ones(), {.slope = m, .f0 = 1.0}), theta)[0] <= 1.0 + 2e-3);
+      CHECK(albedo(gonio::model::torrance_sparrow(rgb::Ones(), {.slope = m, .f0 = 1.0}), theta)[0] <= 1.0 + 2e-3);
     }
 }

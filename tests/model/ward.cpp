@@ -26,11 +26,11 @@ TEST_CASE("Ward's lobes keep what a BRDF must keep") {
       check_finite_at_special_pairs_and_zero_below_the_horizon(f);
       check_reciprocal_isotropic_and_not_negative(f);
     };
-    check(gonio::ward(colour, {.roughness = roughness}));
-    check(gonio::ward_bounded(colour, {.roughness = roughness}));
-    check_finite_at_special_pairs_and_zero_below_the_horizon(gonio::ward_duer(colour, {.roughness = roughness}));
+    check(gonio::model::ward(colour, {.roughness = roughness}));
+    check(gonio::model::ward_bounded(colour, {.roughness = roughness}));
+    check_finite_at_special_pairs_and_zero_below_the_horizon(gonio::model::ward_duer(colour, {.roughness = roughness}));
     check_finite_at_special_pairs_and_zero_below_the_horizon(
-        gonio::anisotropic_ward_duer(colour, {.roughness_x = roughness, .roughness_y = 0.1}));
+        gonio::model::anisotropic_ward_duer(colour, {.roughness_x = roughness, .roughness_y = 0.1}));
   }
 }
 
@@ -45,29 +45,29 @@ TEST_CASE("Ward's lobes are their papers' formulas, which differ by the cosines 
       return std::abs(value - expected) <= 1e-8 * expected + 1e-200;
     };
     const rgb white = rgb::Ones();
-    RC_ASSERT(near(gonio::anisotropic_ward(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
+    RC_ASSERT(near(gonio::model::anisotropic_ward(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
                    gaussian / std::sqrt(cosines)));
-    RC_ASSERT(near(gonio::anisotropic_ward_duer(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
+    RC_ASSERT(near(gonio::model::anisotropic_ward_duer(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
                    gaussian / cosines));
-    RC_ASSERT(near(gonio::anisotropic_ward_bounded(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
+    RC_ASSERT(near(gonio::model::anisotropic_ward_bounded(white, {.roughness_x = ax, .roughness_y = ay})(wi, wo)[0],
                    gaussian * 4.0 * u.squaredNorm() / std::pow(u.z(), 4.0)));
     const auto same = [&](const auto& isotropic, const auto& anisotropic) {
       return near(isotropic(wi, wo)[0], anisotropic(wi, wo)[0]);
     };
-    RC_ASSERT(same(gonio::ward(white, {.roughness = ax}),
-                   gonio::anisotropic_ward(white, {.roughness_x = ax, .roughness_y = ax})));
-    RC_ASSERT(same(gonio::ward_duer(white, {.roughness = ax}),
-                   gonio::anisotropic_ward_duer(white, {.roughness_x = ax, .roughness_y = ax})));
-    RC_ASSERT(same(gonio::ward_bounded(white, {.roughness = ax}),
-                   gonio::anisotropic_ward_bounded(white, {.roughness_x = ax, .roughness_y = ax})));
+    RC_ASSERT(same(gonio::model::ward(white, {.roughness = ax}),
+                   gonio::model::anisotropic_ward(white, {.roughness_x = ax, .roughness_y = ax})));
+    RC_ASSERT(same(gonio::model::ward_duer(white, {.roughness = ax}),
+                   gonio::model::anisotropic_ward_duer(white, {.roughness_x = ax, .roughness_y = ax})));
+    RC_ASSERT(same(gonio::model::ward_bounded(white, {.roughness = ax}),
+                   gonio::model::anisotropic_ward_bounded(white, {.roughness_x = ax, .roughness_y = ax})));
   }));
 }
 
 TEST_CASE("from above all three are the same, and reflect their colour if they are smooth") {
   const rgb colour(0.2, 0.4, 0.8);
-  const gonio::ward classic(colour, {.roughness = 0.1});
-  const gonio::ward_duer product(colour, {.roughness = 0.1});
-  const gonio::ward_bounded bounded(colour, {.roughness = 0.1});
+  const gonio::model::ward classic(colour, {.roughness = 0.1});
+  const gonio::model::ward_duer product(colour, {.roughness = 0.1});
+  const gonio::model::ward_bounded bounded(colour, {.roughness = 0.1});
   CHECK(classic(normal, normal)[1] == doctest::Approx(0.4 / (4.0 * pi * 0.01)));
   CHECK(product(normal, normal)[1] == doctest::Approx(classic(normal, normal)[1]));
   CHECK(bounded(normal, normal)[1] == doctest::Approx(classic(normal, normal)[1]));
@@ -77,10 +77,10 @@ TEST_CASE("from above all three are the same, and reflect their colour if they a
 TEST_CASE("at grazing angles Ward's albedo falls, Duer's grows beyond 1, the bounded one does neither") {
   const rgb white = rgb::Ones();
   const double grazing = gonio::radians(88.0);
-  CHECK(albedo(gonio::ward(white, {.roughness = 0.2}), grazing)[0] < 0.7);
-  CHECK(albedo(gonio::ward_duer(white, {.roughness = 0.2}), grazing)[0] > 1.2);
+  CHECK(albedo(gonio::model::ward(white, {.roughness = 0.2}), grazing)[0] < 0.7);
+  CHECK(albedo(gonio::model::ward_duer(white, {.roughness = 0.2}), grazing)[0] > 1.2);
   for (const double theta : {0.0, 0.5, 1.0, 1.3, grazing}) {
     CAPTURE(theta);
-    CHECK(albedo(gonio::ward_bounded(white, {.roughness = 0.2}), theta)[0] <= 1.0 + 2e-3);
+    CHECK(albedo(gonio::model::ward_bounded(white, {.roughness = 0.2}), theta)[0] <= 1.0 + 2e-3);
   }
 }

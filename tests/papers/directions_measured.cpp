@@ -23,7 +23,7 @@ class made_up_measurements {
     std::filesystem::create_directories(folder_ / "tables");
     const auto networks = gonio::io::read_networks(folder_ / "n.npy");
     gonio::io::write_merl(folder_ / "tables" / "g.binary",
-                          gonio::tabulate_networks(networks, gonio::valid_cells()).table(6));
+                          gonio::model::tabulate_networks(networks, gonio::valid_cells()).table(6));
     std::string text = "3\n450 550 650\n";
     for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 0.6 2 .1 .2 .3\n";
     scratch::put(folder_ / "paint.brdf", text);

@@ -19,8 +19,8 @@ struct gold_and_sky {
   std::string table = (folder / "gold.binary").string(), sky = (folder / "sky.hdr").string();
 
   gold_and_sky() {
-    gonio::io::write_merl(table, gonio::tabulate(gonio::formula_material("gold-metal"), gonio::valid_cells()));
-    gonio::io::write_hdr(sky, gonio::environment_map::of(gonio::formula_environment{}, 16).picture());
+    gonio::io::write_merl(table, gonio::tabulate(gonio::model::formula_material("gold-metal"), gonio::valid_cells()));
+    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).picture());
   }
 };
 

@@ -7,11 +7,11 @@
 
 #include <limits>
 
-using gonio::bsdf_view;
+using gonio::render::bsdf_view;
 
 namespace {
 
-using gold_sampler = gonio::lobe_sampler<gonio::formula_brdf>;
+using gold_sampler = gonio::model::lobe_sampler<gonio::model::formula_brdf>;
 static_assert(std::is_constructible_v<bsdf_view, const gold_sampler&>);
 static_assert(!std::is_constructible_v<bsdf_view, gold_sampler>);  // a view of what is gone
 
@@ -19,7 +19,7 @@ template <class Real>
 struct gold_in {
   Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
                                       const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
-    static const auto gold = gonio::formula_material("gold-metal");
+    static const auto gold = gonio::model::formula_material("gold-metal");
     return gold(wi.template cast<double>(), wo.template cast<double>()).template cast<Real>();
   }
 };
@@ -37,15 +37,16 @@ TEST_CASE("bsdf view: it says what the material behind it says, in float or doub
     for (std::size_t c = 0; c < 3; ++c)
       CHECK(drawn.weight[c] * drawn.pdf == doctest::Approx(value[c] * drawn.wi[2]).epsilon(1e-3));
     const gonio::direction wi(drawn.wi[0], drawn.wi[1], drawn.wi[2]);
-    CHECK(value[0] == doctest::Approx(gonio::formula_material("gold-metal")(wi, {0.6, 0.0, 0.8})[0]).epsilon(1e-4));
+    CHECK(value[0] ==
+          doctest::Approx(gonio::model::formula_material("gold-metal")(wi, {0.6, 0.0, 0.8})[0]).epsilon(1e-4));
   };
-  check(gonio::half_vector_sampler<gold_in<double>, double>({}));
-  check(gonio::half_vector_sampler<gold_in<float>, float>({}));
-  check(gonio::lobe_sampler(gonio::formula_material("gold-metal")));
+  check(gonio::render::half_vector_sampler<gold_in<double>, double>({}));
+  check(gonio::render::half_vector_sampler<gold_in<float>, float>({}));
+  check(gonio::model::lobe_sampler(gonio::model::formula_material("gold-metal")));
 }
 
 TEST_CASE("bsdf view: below the horizon and without a number it is black") {
-  const gonio::half_vector_sampler<gold_in<double>, double> material({});
+  const gonio::render::half_vector_sampler<gold_in<double>, double> material({});
   const bsdf_view view(material);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   for (const bsdf_view::vector& bad : {bsdf_view::vector{0.6f, 0.0f, -0.8f}, {0.0f, 0.0f, nan}}) {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <random>
 
-using gonio::cell_finder;
 using gonio::direction;
+using gonio::render::cell_finder;
 using scattered::outside;
 using scattered::scattered_pair;
 

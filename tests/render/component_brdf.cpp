@@ -8,11 +8,11 @@
 
 #include <limits>
 
-using gonio::component_brdf;
 using gonio::direction;
-using gonio::interpolation;
 using gonio::rgb;
-using gonio::shared_components;
+using gonio::render::component_brdf;
+using gonio::render::interpolation;
+using gonio::render::shared_components;
 
 namespace {
 
@@ -75,7 +75,7 @@ TEST_CASE("component brdf: fewer components are the fit by fewer") {
 
 TEST_CASE("component brdf: it is sampled like any other") {
   const shared_components<float> components(some_components());
-  const gonio::half_vector_sampler sampler{component_brdf(components, some_components().weights_of(0))};
+  const gonio::render::half_vector_sampler sampler{component_brdf(components, some_components().weights_of(0))};
   const direction wo = gonio::spherical_direction(0.7, 0.2);
   CHECK(sampler_checks::chi_square_p_value(sampler, wo, 50'000, 1) > 0.01);
   CHECK(sampler_checks::integral_of_pdf(sampler, wo) == doctest::Approx(1.0).epsilon(0.005));

@@ -10,11 +10,11 @@
 #include <set>
 
 using gonio::direction;
-using gonio::directional_light;
-using gonio::directional_lighting;
-using gonio::environment_map;
 using gonio::image;
 using gonio::rgb;
+using gonio::render::directional_light;
+using gonio::render::directional_lighting;
+using gonio::render::environment_map;
 
 namespace {
 
@@ -47,15 +47,15 @@ image black(std::size_t rows) { return gonio::uniform_image(rows, 2 * rows); }
 
 /// The closed-form environment, small.
 const environment_map& windows() {
-  static const environment_map map = environment_map::of(gonio::formula_environment{}, 64);
+  static const environment_map map = environment_map::of(gonio::render::formula_environment{}, 64);
   return map;
 }
 
 /// A glossy sphere under lights. Pictures are normalised; this one is in proportion to the light.
 std::vector<rgb> glossy_sphere(const directional_lighting& lighting) {
-  const gonio::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
+  const gonio::model::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
   std::vector<rgb> colours;
-  for (const auto& point : gonio::sphere_points(6)) {
+  for (const auto& point : gonio::render::sphere_points(6)) {
     rgb sum = rgb::Zero();
     lighting.for_each_incident(point.normal, [&](const direction& wi, const direction& wo, const rgb& weight) {
       sum += gloss(wi, wo) * weight;
@@ -115,11 +115,11 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
 TEST_CASE("a spot in the picture's upper right shines from behind the camera, above on its right") {
   image picture = black(64);
   gonio::set_pixel(picture, 19, 111, {9.0, 9.0, 9.0});  // near direction (1, 1, 1)
-  const gonio::ggx gloss{.alpha = 0.1, .f0 = {0.9, 0.9, 0.9}};
+  const gonio::model::ggx gloss{.alpha = 0.1, .f0 = {0.9, 0.9, 0.9}};
   const int size = 40;
-  const image sphere =
-      gonio::render_sphere(gloss, gonio::important_lights(environment_map(picture), 10, 1), {.size = size});
-  const auto points = gonio::sphere_points(size);
+  const image sphere = gonio::render::render_sphere(
+      gloss, gonio::render::important_lights(environment_map(picture), 10, 1), {.size = size});
+  const auto points = gonio::render::sphere_points(size);
   const auto brightest =
       std::ranges::max_element(points, {}, [&](const auto& p) { return gonio::pixel(sphere, p.row, p.column).y(); });
   // The highlight is where the normal halves the angle between light and camera.
@@ -140,7 +140,7 @@ TEST_CASE("solid angles are exact: they add up to the sphere, and at the pole to
 
 TEST_CASE("all lights together are the integral of the radiance") {
   const environment_map map = environment_map::of(affine_radiance{}, 64);
-  const directional_lighting lights = gonio::all_lights(map);
+  const directional_lighting lights = gonio::render::all_lights(map);
   CHECK(lights.lights().size() == 64 * 128);
   const rgb sum = sum_of_irradiance(lights);
   // The integrals of x, y and z vanish by symmetry.
@@ -155,7 +155,7 @@ TEST_CASE("all lights together are the integral of the radiance") {
 
 TEST_CASE("white furnace: in a white environment every point of a white sphere is white") {
   const environment_map map = environment_map::of(white_everywhere{}, 48);
-  for (const auto& lights : {gonio::all_lights(map), gonio::important_lights(map, 2000, 1)})
+  for (const auto& lights : {gonio::render::all_lights(map), gonio::render::important_lights(map, 2000, 1)})
     for (const direction& normal : {direction(0.0, 0.0, 1.0), direction(0.0, 1.0, 0.0), direction(-0.6, 0.0, 0.8)}) {
       CAPTURE(normal);
       CHECK((irradiance(lights, normal) / pi - 1.0).abs().maxCoeff() < 0.01);
@@ -166,8 +166,8 @@ TEST_CASE("a single bright pixel is one light, however many are asked for") {
   image picture = black(16);
   gonio::set_pixel(picture, 3, 5, {400.0, 0.0, 20.0});
   const environment_map map(picture);
-  for (const auto& lighting :
-       {gonio::all_lights(map), gonio::important_lights(map, 1, 7), gonio::important_lights(map, 1000, 8)}) {
+  for (const auto& lighting : {gonio::render::all_lights(map), gonio::render::important_lights(map, 1, 7),
+                               gonio::render::important_lights(map, 1000, 8)}) {
     REQUIRE(lighting.lights().size() == 1);
     const directional_light& light = lighting.lights().front();
     CHECK((light.towards - map.towards(3, 5)).norm() < 1e-15);
@@ -181,7 +181,7 @@ TEST_CASE("the curve visits every pixel once, neighbours after one another") {
   for (const auto& [rows, columns] : {std::pair<std::size_t, std::size_t>{8, 16}, {5, 10}, {1, 2}, {16, 16}}) {
     std::set<std::pair<std::size_t, std::size_t>> seen;
     std::size_t jumps = 0, before_row = 0, before_column = 0;
-    gonio::detail::for_each_along_hilbert_curve(rows, columns, [&](std::size_t row, std::size_t column) {
+    gonio::render::detail::for_each_along_hilbert_curve(rows, columns, [&](std::size_t row, std::size_t column) {
       CHECK(seen.insert({row, column}).second);
       const auto apart = [](std::size_t a, std::size_t b) { return a > b ? a - b : b - a; };
       if (seen.size() > 1 && apart(row, before_row) + apart(column, before_column) != 1) ++jumps;
@@ -195,8 +195,8 @@ TEST_CASE("the curve visits every pixel once, neighbours after one another") {
 
 TEST_CASE("important lights share the luminance equally") {
   const std::size_t count = 300;
-  const auto lighting = gonio::important_lights(windows(), count, 3);
-  const double all = gonio::luminance(sum_of_irradiance(gonio::all_lights(windows())));
+  const auto lighting = gonio::render::important_lights(windows(), count, 3);
+  const double all = gonio::luminance(sum_of_irradiance(gonio::render::all_lights(windows())));
   CHECK(lighting.lights().size() <= count);
   CHECK(lighting.lights().size() > count / 2);
   CHECK(gonio::luminance(sum_of_irradiance(lighting)) == doctest::Approx(all).epsilon(1e-12));
@@ -208,13 +208,14 @@ TEST_CASE("important lights share the luminance equally") {
 }
 
 TEST_CASE("important lights converge to all lights faster than independent ones would") {
-  const std::vector<rgb> truth = glossy_sphere(gonio::all_lights(windows()));
+  const std::vector<rgb> truth = glossy_sphere(gonio::render::all_lights(windows()));
   std::vector<double> errors;
   for (const std::size_t count : {64u, 256u, 1024u, 4096u}) {
     double squares = 0.0;
     constexpr int seeds = 6;
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-      const double error = relative_difference(glossy_sphere(gonio::important_lights(windows(), count, seed)), truth);
+      const double error =
+          relative_difference(glossy_sphere(gonio::render::important_lights(windows(), count, seed)), truth);
       squares += error * error / seeds;
     }
     errors.push_back(std::sqrt(squares));
@@ -226,12 +227,12 @@ TEST_CASE("important lights converge to all lights faster than independent ones 
 }
 
 TEST_CASE("important lights are unbiased") {
-  const std::vector<rgb> truth = glossy_sphere(gonio::all_lights(windows()));
+  const std::vector<rgb> truth = glossy_sphere(gonio::render::all_lights(windows()));
   constexpr int seeds = 400;
   std::vector<rgb> mean(truth.size(), rgb::Zero());
   double squares = 0.0;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
-    const std::vector<rgb> one = glossy_sphere(gonio::important_lights(windows(), 32, seed));
+    const std::vector<rgb> one = glossy_sphere(gonio::render::important_lights(windows(), 32, seed));
     const double error = relative_difference(one, truth);
     squares += error * error / seeds;
     for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += one[i] / seeds;
@@ -247,16 +248,17 @@ TEST_CASE("the same seed gives the same lights, another others") {
       return p.towards == q.towards && (p.irradiance == q.irradiance).all();
     });
   };
-  CHECK(same(gonio::important_lights(windows(), 100, 5), gonio::important_lights(windows(), 100, 5)));
-  CHECK(!same(gonio::important_lights(windows(), 100, 5), gonio::important_lights(windows(), 100, 6)));
+  CHECK(same(gonio::render::important_lights(windows(), 100, 5), gonio::render::important_lights(windows(), 100, 5)));
+  CHECK(!same(gonio::render::important_lights(windows(), 100, 5), gonio::render::important_lights(windows(), 100, 6)));
 }
 
 TEST_CASE("a map is an environment for the half-vector quadrature as well") {
-  const gonio::environment_lighting by_map(30, 24, environment_map::of(gonio::formula_environment{}, 256));
-  const gonio::environment_lighting by_formula(30, 24);
-  const gonio::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
-  const image a = gonio::render_sphere(gloss, by_map, {.size = 12});
-  const image b = gonio::render_sphere(gloss, by_formula, {.size = 12});
+  const gonio::render::environment_lighting by_map(30, 24,
+                                                   environment_map::of(gonio::render::formula_environment{}, 256));
+  const gonio::render::environment_lighting by_formula(30, 24);
+  const gonio::model::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
+  const image a = gonio::render::render_sphere(gloss, by_map, {.size = 12});
+  const image b = gonio::render::render_sphere(gloss, by_formula, {.size = 12});
   double squares = 0.0, scale = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     squares += std::pow(a.data()[i] - b.data()[i], 2.0);
@@ -285,7 +287,8 @@ TEST_CASE("what is no environment is refused") {
   const auto darkness = [](const direction&) { return rgb(rgb::Zero()); };
   CHECK_THROWS_AS((void)environment_map::of(darkness), gonio::error);
   CHECK_THROWS_AS((void)environment_map::of(white_everywhere{}, 0), gonio::error);
-  CHECK_THROWS_WITH_AS((void)gonio::important_lights(windows(), 0, 1), doctest::Contains("0 lights"), gonio::error);
+  CHECK_THROWS_WITH_AS((void)gonio::render::important_lights(windows(), 0, 1), doctest::Contains("0 lights"),
+                       gonio::error);
 }
 
 TEST_CASE("Grace Cathedral: bright at the windows, and a few lights stand for it") {
@@ -295,10 +298,10 @@ TEST_CASE("Grace Cathedral: bright at the windows, and a few lights stand for it
     return;
   }
   const environment_map grace(gonio::io::read_hdr(path));
-  const rgb all = sum_of_irradiance(gonio::all_lights(grace));
-  const auto lights = gonio::important_lights(grace, 1024, 1);
+  const rgb all = sum_of_irradiance(gonio::render::all_lights(grace));
+  const auto lights = gonio::render::important_lights(grace, 1024, 1);
   CHECK((sum_of_irradiance(lights) / all - 1.0).abs().maxCoeff() < 0.05);
-  const rgb up = irradiance(gonio::all_lights(grace), direction::UnitY());
-  const rgb down = irradiance(gonio::all_lights(grace), -direction::UnitY());
+  const rgb up = irradiance(gonio::render::all_lights(grace), direction::UnitY());
+  const rgb down = irradiance(gonio::render::all_lights(grace), -direction::UnitY());
   CHECK(gonio::luminance(up) > 2.0 * gonio::luminance(down));
 }

@@ -4,13 +4,13 @@
 #include <doctest/doctest.h>
 
 using gonio::direction;
-using gonio::environment_map;
-using gonio::environment_sampler;
+using gonio::render::environment_map;
+using gonio::render::environment_sampler;
 
 namespace {
 
 const environment_sampler& lit_windows() {
-  static const environment_sampler sampler(environment_map::of(gonio::formula_environment{}, 32));
+  static const environment_sampler sampler(environment_map::of(gonio::render::formula_environment{}, 32));
   return sampler;
 }
 

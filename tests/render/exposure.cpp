@@ -14,7 +14,7 @@ namespace {
 image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 100) {
   const auto side = static_cast<std::size_t>(size);
   image picture = gonio::uniform_image(side, side, rgb::Constant(1000.0));
-  const auto points = gonio::sphere_points(size);
+  const auto points = gonio::render::sphere_points(size);
   for (std::size_t i = 0; i < points.size(); ++i)
     gonio::set_pixel(picture, points[i].row, points[i].column,
                      static_cast<double>(i) < share * static_cast<double>(points.size()) ? bright : dark);
@@ -25,19 +25,19 @@ image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 1
 
 TEST_CASE("a sphere is as bright as the brightest channel at its 99th percentile") {
   const rgb bright(2.0, 8.0, 1.0), dark(0.1, 0.2, 0.5);
-  CHECK(gonio::brightness_of_sphere(sphere_with(0.009, bright, dark)) == doctest::Approx(0.5));
-  CHECK(gonio::brightness_of_sphere(sphere_with(0.011, bright, dark)) == doctest::Approx(8.0));
-  CHECK(gonio::brightness_of_sphere(sphere_with(0.4, bright, dark), 0.5) == doctest::Approx(0.5));
-  CHECK_THROWS_AS((void)gonio::brightness_of_sphere(gonio::uniform_image(3, 4)), gonio::error);
+  CHECK(gonio::render::brightness_of_sphere(sphere_with(0.009, bright, dark)) == doctest::Approx(0.5));
+  CHECK(gonio::render::brightness_of_sphere(sphere_with(0.011, bright, dark)) == doctest::Approx(8.0));
+  CHECK(gonio::render::brightness_of_sphere(sphere_with(0.4, bright, dark), 0.5) == doctest::Approx(0.5));
+  CHECK_THROWS_AS((void)gonio::render::brightness_of_sphere(gonio::uniform_image(3, 4)), gonio::error);
 }
 
 TEST_CASE("spheres that are shown together are exposed alike, by the brightest") {
   std::array spheres{sphere_with(0.0, rgb::Zero(), rgb::Constant(0.25)), sphere_with(0.0, rgb::Zero(), rgb(0.5, 4, 1))};
-  const double exposure = gonio::exposure_of_spheres(spheres);
+  const double exposure = gonio::render::exposure_of_spheres(spheres);
   CHECK(exposure == doctest::Approx(0.25));
-  for (image& sphere : spheres) gonio::expose(sphere, exposure);
+  for (image& sphere : spheres) gonio::render::expose(sphere, exposure);
   CHECK(gonio::pixel(spheres[0], 50, 50).x() == doctest::Approx(0.0625));
   CHECK(gonio::pixel(spheres[1], 50, 50).y() == doctest::Approx(1.0));
   const std::array black{sphere_with(0.0, rgb::Zero(), rgb::Zero())};
-  CHECK(gonio::exposure_of_spheres(black) == 1.0);
+  CHECK(gonio::render::exposure_of_spheres(black) == 1.0);
 }

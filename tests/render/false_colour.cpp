@@ -4,8 +4,8 @@
 
 #include <limits>
 
-using gonio::false_colour;
 using gonio::rgb;
+using gonio::render::false_colour;
 
 namespace {
 
@@ -25,7 +25,7 @@ TEST_CASE("the paper's colours: 0 is blue, 10 green, 20 and more red") {
 }
 
 TEST_CASE("a colour gives its value back, on any range") {
-  constexpr gonio::false_colour_range range{-2.0, 3.0};
+  constexpr gonio::render::false_colour_range range{-2.0, 3.0};
   for (int i = 0; i <= 50; ++i) {
     const double value = -2.0 + 0.1 * i;
     CAPTURE(value);

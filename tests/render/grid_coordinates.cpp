@@ -15,15 +15,15 @@ using scattered::scattered_pair;
 namespace {
 
 template <class Real>
-gonio::grid_coordinates<Real> coordinates_of(const direction& wi, const direction& wo) {
+gonio::render::grid_coordinates<Real> coordinates_of(const direction& wi, const direction& wo) {
   const auto number = [](double value) { return static_cast<Real>(value); };
-  return gonio::to_grid_coordinates(number(wi.x()), number(wi.y()), number(wi.z()), number(wo.x()), number(wo.y()),
-                                    number(wo.z()));
+  return gonio::render::to_grid_coordinates(number(wi.x()), number(wi.y()), number(wi.z()), number(wo.x()),
+                                            number(wo.y()), number(wo.z()));
 }
 
 /// The cell that coordinates are in.
 template <class Real>
-gonio::cell_index cell_of(const gonio::grid& cells, const gonio::grid_coordinates<Real>& at) {
+gonio::cell_index cell_of(const gonio::grid& cells, const gonio::render::grid_coordinates<Real>& at) {
   const auto [h, d, p] = cells.extents();
   const auto whole = [](Real coordinate, int extent) {
     return static_cast<int>(coordinate * static_cast<Real>(extent));
@@ -112,7 +112,7 @@ TEST_CASE("grid coordinates: light and viewer may be exchanged, and made longer"
     std::mt19937_64 generator(*rc::gen::arbitrary<unsigned>());
     const auto [wi, wo] = scattered_pair(generator, *rc::gen::inRange(0, 4));
     const auto at = coordinates_of<double>(wi, wo);
-    const auto same = [&](const gonio::grid_coordinates<double>& other) {
+    const auto same = [&](const gonio::render::grid_coordinates<double>& other) {
       const double phi = std::abs(at.phi_d - other.phi_d);
       return std::abs(at.theta_h - other.theta_h) < 1e-12 && std::abs(at.theta_d - other.theta_d) < 1e-12 &&
              std::min(phi, 1.0 - phi) < 1e-12;
@@ -124,7 +124,7 @@ TEST_CASE("grid coordinates: light and viewer may be exchanged, and made longer"
 
 TEST_CASE("grid coordinates: below the horizon, and what is no direction") {
   const auto is_above = [](const Eigen::Vector3f& wi, const Eigen::Vector3f& wo) {
-    return gonio::is_above_horizon(wi.x(), wi.y(), wi.z(), wo.x(), wo.y(), wo.z());
+    return gonio::render::is_above_horizon(wi.x(), wi.y(), wi.z(), wo.x(), wo.y(), wo.z());
   };
   const Eigen::Vector3f up(0.0f, 0.0f, 1.0f), down(0.0f, 0.6f, -0.8f), flat(1.0f, 0.0f, 0.0f);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();

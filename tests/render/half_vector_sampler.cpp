@@ -11,8 +11,8 @@
 #include <filesystem>
 
 using gonio::direction;
-using gonio::half_vector_sampler;
 using gonio::rgb;
+using gonio::render::half_vector_sampler;
 
 namespace {
 
@@ -37,7 +37,7 @@ direction viewer(double theta) { return gonio::spherical_direction(gonio::radian
 
 struct named_table {
   std::string name;
-  gonio::lookup_table<> table;
+  gonio::render::lookup_table<> table;
 };
 
 /// The ten test materials of Nielsen et al. 2015, or if their networks are not at hand, ten by formula; on a coarser
@@ -51,13 +51,15 @@ const std::vector<named_table>& ten_materials() {
       const auto networks = gonio::io::read_networks(file);
       for (std::size_t i = 0; i < networks.names.size(); ++i)
         if (std::ranges::count(gonio::nielsen_test_materials(), networks.names[i]) != 0)
-          made.push_back({networks.names[i], gonio::lookup_table<>::of(tabulate(networks.networks[i], cells))});
+          made.push_back({networks.names[i], gonio::render::lookup_table<>::of(tabulate(networks.networks[i], cells))});
       return made;
     }
     for (int i = 0; i < 10; ++i) {
-      const gonio::sum_of_lobes material{gonio::lambertian{rgb::Constant(0.08 * i)},
-                                         gonio::ggx{.alpha = 0.6 * std::exp(-0.4 * i), .f0 = rgb::Constant(0.05)}};
-      made.push_back({"formula " + std::to_string(i), gonio::lookup_table<>::tabulated(material, cells.grid())});
+      const gonio::model::sum_of_lobes material{
+          gonio::model::lambertian{rgb::Constant(0.08 * i)},
+          gonio::model::ggx{.alpha = 0.6 * std::exp(-0.4 * i), .f0 = rgb::Constant(0.05)}};
+      made.push_back(
+          {"formula " + std::to_string(i), gonio::render::lookup_table<>::tabulated(material, cells.grid())});
     }
     return made;
   }();

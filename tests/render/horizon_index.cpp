@@ -8,7 +8,7 @@ TEST_CASE("horizon index: numbers and representatives are those of the valid cel
        {gonio::grid(), gonio::grid({45, 30, 60}), gonio::grid({13, 7, 31}), gonio::grid({4, 4, 4}),
         gonio::grid({45, 30, 60}, gonio::cell_anchor::lower_corner)}) {
     const gonio::valid_cells expected(cells);
-    const gonio::horizon_index index(cells);
+    const gonio::render::horizon_index index(cells);
     CHECK(index.size() == expected.size());
     std::size_t other = 0;
     for (std::size_t linear = 0; linear < cells.size(); ++linear) {
@@ -19,5 +19,5 @@ TEST_CASE("horizon index: numbers and representatives are those of the valid cel
     }
     CHECK(other == 0u);
   }
-  CHECK(gonio::horizon_index().memory() < 100'000u);
+  CHECK(gonio::render::horizon_index().memory() < 100'000u);
 }

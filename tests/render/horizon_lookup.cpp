@@ -8,8 +8,8 @@
 
 using gonio::brdf_table;
 using gonio::direction;
-using gonio::horizon_lookup;
 using gonio::rgb;
+using gonio::render::horizon_lookup;
 
 namespace {
 
@@ -32,11 +32,11 @@ brdf_table bright_at_the_horizon(double factor) {
 TEST_CASE("cells that are nearly on the horizon draw no line along the terminator") {
   const brdf_table clean = bright_at_the_horizon(1.0), wild = bright_at_the_horizon(10.0);
   const auto largest_difference = [&](const auto& a, const auto& b) {
-    const gonio::sphere_view view{.size = 128, .supersampling = 3};
-    const gonio::image x = gonio::render_sphere(a, gonio::two_lights(), view);
-    const gonio::image y = gonio::render_sphere(b, gonio::two_lights(), view);
+    const gonio::render::sphere_view view{.size = 128, .supersampling = 3};
+    const gonio::image x = gonio::render::render_sphere(a, gonio::render::two_lights(), view);
+    const gonio::image y = gonio::render::render_sphere(b, gonio::render::two_lights(), view);
     double largest = 0.0;
-    for (const auto& point : gonio::sphere_points(view.size)) {
+    for (const auto& point : gonio::render::sphere_points(view.size)) {
       // The light from behind, which only the rim shows, is another matter: there all is near the horizon.
       if (point.normal.dot(direction(-1.0, -1.0, -3.0)) > 0.0) continue;
       const rgb off = gonio::pixel(x, point.row, point.column) - gonio::pixel(y, point.row, point.column);
@@ -52,7 +52,7 @@ TEST_CASE("cells that are nearly on the horizon draw no line along the terminato
 }
 
 TEST_CASE("a table is read within the range of its cells, constants exactly, zero below the horizon") {
-  const brdf_table constant = gonio::tabulate(gonio::lambertian{{0.3, 0.2, 0.1}}, gonio::valid_cells());
+  const brdf_table constant = gonio::tabulate(gonio::model::lambertian{{0.3, 0.2, 0.1}}, gonio::valid_cells());
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   const auto draw = [&] {
@@ -68,7 +68,7 @@ TEST_CASE("a table is read within the range of its cells, constants exactly, zer
 }
 
 TEST_CASE("far from the horizon a table is read as by interpolation, but for hundredths") {
-  const brdf_table paint = gonio::tabulate(gonio::formula_material("red-paint"), gonio::valid_cells());
+  const brdf_table paint = gonio::tabulate(gonio::model::formula_material("red-paint"), gonio::valid_cells());
   std::mt19937 random(6);
   std::uniform_real_distribution<double> polar(0.0, 1.2), azimuth(0.0, 6.28);
   double sum = 0.0, off = 0.0;

@@ -20,7 +20,7 @@ bool is(const image& picture, std::size_t row, std::size_t column, const rgb& co
 
 TEST_CASE("pictures side by side have one margin between them and one around") {
   const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
-  const image row = gonio::side_by_side(pictures, 2, grey);
+  const image row = gonio::render::side_by_side(pictures, 2, grey);
   REQUIRE(row.shape(0) == 2 + 4 + 2);
   REQUIRE(row.shape(1) == 2 + 3 + 2 + 1 + 2);
   for (std::size_t r = 0; r < row.shape(0); ++r)
@@ -34,7 +34,7 @@ TEST_CASE("pictures side by side have one margin between them and one around") {
 
 TEST_CASE("stacked pictures are the same from top to bottom") {
   const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
-  const image column = gonio::stacked(pictures, 1, grey);
+  const image column = gonio::render::stacked(pictures, 1, grey);
   REQUIRE(column.shape(0) == 1 + 2 + 1 + 4 + 1);
   REQUIRE(column.shape(1) == 1 + 3 + 1);
   for (std::size_t r = 0; r < column.shape(0); ++r)
@@ -47,8 +47,8 @@ TEST_CASE("stacked pictures are the same from top to bottom") {
 }
 
 TEST_CASE("no pictures make an empty one, and no margin none") {
-  CHECK(gonio::side_by_side({}).size() == 0);
+  CHECK(gonio::render::side_by_side({}).size() == 0);
   const std::vector one{gonio::uniform_image(2, 2, red)};
-  CHECK(gonio::side_by_side(one) == one.front());
-  CHECK(gonio::stacked(one) == one.front());
+  CHECK(gonio::render::side_by_side(one) == one.front());
+  CHECK(gonio::render::stacked(one) == one.front());
 }

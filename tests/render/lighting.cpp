@@ -24,12 +24,12 @@ direction any_normal() {
 struct headlight {
   template <class Visit>
   void for_each_incident(const direction& normal, Visit&& visit) const {
-    const direction wo = gonio::surface_frame(normal).to_local({0.0, 0.0, 1.0});
+    const direction wo = gonio::render::surface_frame(normal).to_local({0.0, 0.0, 1.0});
     if (wo.z() > 0.0) visit(wo, wo, rgb(rgb::Constant(wo.z())));
   }
 };
-static_assert(gonio::sphere_lighting<headlight>);
-static_assert(!gonio::sphere_lighting<direction>);
+static_assert(gonio::render::sphere_lighting<headlight>);
+static_assert(!gonio::render::sphere_lighting<direction>);
 
 struct white_everywhere {
   rgb operator()(const direction&) const noexcept { return rgb::Ones(); }
@@ -40,7 +40,7 @@ struct incident {
   rgb weight;
 };
 
-template <gonio::sphere_lighting Lighting>
+template <gonio::render::sphere_lighting Lighting>
 std::vector<incident> all_incident(const Lighting& lighting, const direction& normal) {
   std::vector<incident> result;
   lighting.for_each_incident(normal, [&](const direction& wi, const direction& wo, const rgb& weight) {
@@ -49,18 +49,18 @@ std::vector<incident> all_incident(const Lighting& lighting, const direction& no
   return result;
 }
 
-template <gonio::sphere_lighting Lighting>
+template <gonio::render::sphere_lighting Lighting>
 rgb irradiance(const Lighting& lighting, const direction& normal) {
   rgb sum = rgb::Zero();
   for (const incident& light : all_incident(lighting, normal)) sum += light.weight;
   return sum;
 }
 
-template <gonio::sphere_lighting Lighting>
+template <gonio::render::sphere_lighting Lighting>
 void check_contract(const Lighting& lighting) {
   CHECK(rc::check([&] {
     const direction normal = any_normal();
-    const gonio::surface_frame frame(normal);
+    const gonio::render::surface_frame frame(normal);
     for (const auto& [wi, wo, weight] : all_incident(lighting, normal)) {
       RC_ASSERT(std::abs(wi.norm() - 1.0) < 1e-14);
       RC_ASSERT(wi.z() > 0.0);
@@ -75,7 +75,7 @@ void check_contract(const Lighting& lighting) {
 TEST_CASE("a surface frame is orthonormal, right-handed, and has the normal as its z axis") {
   CHECK(rc::check([] {
     const direction normal = gonio::spherical_direction(any_fraction() * pi, any_fraction() * 2.0 * pi);
-    const gonio::surface_frame frame(normal);
+    const gonio::render::surface_frame frame(normal);
     Eigen::Matrix3d axes;
     axes << frame.tangent, frame.bitangent, frame.normal;
     RC_ASSERT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm() < 1e-14);
@@ -88,8 +88,8 @@ TEST_CASE("a surface frame is orthonormal, right-handed, and has the normal as i
 
 TEST_CASE("every lighting keeps the contract of the concept") {
   check_contract(headlight());
-  check_contract(gonio::two_lights());
-  check_contract(gonio::environment_lighting(12, 10));
+  check_contract(gonio::render::two_lights());
+  check_contract(gonio::render::environment_lighting(12, 10));
 }
 
 TEST_CASE("the environment agrees with the reference") {
@@ -97,7 +97,7 @@ TEST_CASE("the environment agrees with the reference") {
   REQUIRE(golden.at("x").size() == 100);
   for (std::size_t i = 0; i < golden.at("x").size(); ++i) {
     CAPTURE(i);
-    const rgb radiance = gonio::environment_radiance({golden.at("x")[i], golden.at("y")[i], golden.at("z")[i]});
+    const rgb radiance = gonio::render::environment_radiance({golden.at("x")[i], golden.at("y")[i], golden.at("z")[i]});
     CHECK(radiance.x() == doctest::Approx(golden.at("r")[i]).epsilon(1e-13));
     CHECK(radiance.y() == doctest::Approx(golden.at("g")[i]).epsilon(1e-13));
     CHECK(radiance.z() == doctest::Approx(golden.at("b")[i]).epsilon(1e-13));
@@ -107,15 +107,15 @@ TEST_CASE("the environment agrees with the reference") {
 TEST_CASE("the environment's windows shine at their centres, and their cut-off edges are not seen") {
   // The brightest window, of intensity 60 and 7 degrees, on a sky that is below 0.6.
   const direction window = direction(-0.85, 0.2, -0.48).normalized();
-  CHECK(gonio::environment_radiance(window).x() > 60.0);
-  CHECK(gonio::environment_radiance(window).x() < 60.6);
+  CHECK(gonio::render::environment_radiance(window).x() > 60.0);
+  CHECK(gonio::render::environment_radiance(window).x() < 60.6);
   const direction aside = window.cross(direction::UnitY()).normalized();
   const auto window_alone = [](double degrees) { return 60.0 * std::exp(-std::pow(degrees / 7.0, 4.0)); };
-  double before = gonio::environment_radiance(window).x();
+  double before = gonio::render::environment_radiance(window).x();
   for (int step = 1; step <= 300; ++step) {
     CAPTURE(step);
     const double angle = gonio::radians(0.1 * step);
-    const double after = gonio::environment_radiance(std::cos(angle) * window + std::sin(angle) * aside).x();
+    const double after = gonio::render::environment_radiance(std::cos(angle) * window + std::sin(angle) * aside).x();
     // What the window does not explain is the sky, which changes by less than 0.01 a step.
     const double sky = (after - before) - (window_alone(0.1 * step) - window_alone(0.1 * (step - 1)));
     CHECK(std::abs(sky) < 0.01);
@@ -124,7 +124,7 @@ TEST_CASE("the environment's windows shine at their centres, and their cut-off e
 }
 
 TEST_CASE("directional lights give their irradiance times the cosine, above the horizon only") {
-  const gonio::directional_lighting lights({{{0.0, 0.0, 2.0}, {1.0, 2.0, 3.0}}, {{3.0, 0.0, 0.0}}});
+  const gonio::render::directional_lighting lights({{{0.0, 0.0, 2.0}, {1.0, 2.0, 3.0}}, {{3.0, 0.0, 0.0}}});
   CHECK(rc::check([&] {
     const direction normal = any_normal();
     const rgb expected = rgb(1.0, 2.0, 3.0) * normal.z() + std::max(normal.x(), 0.0);
@@ -137,7 +137,7 @@ TEST_CASE("directional lights give their irradiance times the cosine, above the 
 }
 
 TEST_CASE("the thesis's lights: one in front, one behind that reaches the lower left rim only") {
-  const gonio::directional_lighting lights = gonio::two_lights();
+  const gonio::render::directional_lighting lights = gonio::render::two_lights();
   const auto normal_at = [](double x, double y) { return direction(x, y, std::sqrt(1.0 - x * x - y * y)); };
   const direction front = direction(1.0, 1.0, 1.0).normalized();
   CHECK(irradiance(lights, front).x() == doctest::Approx(1.0));
@@ -153,7 +153,7 @@ TEST_CASE("the thesis's lights: one in front, one behind that reaches the lower 
 }
 
 TEST_CASE("incident directions of an environment mirror the camera at half vectors that cover the hemisphere") {
-  const gonio::environment_lighting lighting(9, 7);
+  const gonio::render::environment_lighting lighting(9, 7);
   // Seen along the normal, wi is above the horizon where h is within 45 degrees of it: 6 of 9 rings in sqrt(theta_h).
   const auto seen = all_incident(lighting, direction(0.0, 0.0, 1.0));
   CHECK(seen.size() == 6 * 7);
@@ -165,7 +165,7 @@ TEST_CASE("incident directions of an environment mirror the camera at half vecto
 }
 
 TEST_CASE("under uniform light a point that faces the camera receives pi, and finer bins come nearer for all") {
-  const gonio::environment_lighting usual(90, 72, white_everywhere()), fine(360, 288, white_everywhere());
+  const gonio::render::environment_lighting usual(90, 72, white_everywhere()), fine(360, 288, white_everywhere());
   const auto error = [](const auto& lighting, double theta) {
     return std::abs(irradiance(lighting, gonio::spherical_direction(theta, 0.4)).x() / pi - 1.0);
   };

@@ -9,9 +9,9 @@
 #include <random>
 
 using gonio::direction;
-using gonio::interpolation;
-using gonio::lookup_table;
 using gonio::rgb;
+using gonio::render::interpolation;
+using gonio::render::lookup_table;
 
 namespace {
 
@@ -19,7 +19,7 @@ const gonio::grid coarse({45, 30, 60});
 
 const gonio::brdf_table& paint() {
   static const gonio::brdf_table table =
-      gonio::tabulate(gonio::formula_material("red-paint"), gonio::valid_cells(coarse));
+      gonio::tabulate(gonio::model::formula_material("red-paint"), gonio::valid_cells(coarse));
   return table;
 }
 
@@ -47,8 +47,8 @@ double relative_difference(const rgb& a, const rgb& b) { return ((a - b).abs() /
 
 TEST_CASE("lookup table: trilinear look-up is the table's own") {
   for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
-    const auto table =
-        gonio::tabulate(gonio::formula_material("red-paint"), gonio::valid_cells(gonio::grid({45, 30, 60}, anchor)));
+    const auto table = gonio::tabulate(gonio::model::formula_material("red-paint"),
+                                       gonio::valid_cells(gonio::grid({45, 30, 60}, anchor)));
     const auto fast = lookup_table<double>::of(table);
     const auto in_float = lookup_table<float>::of(table);
     double worst = 0.0, worst_in_float = 0.0;
@@ -66,8 +66,8 @@ TEST_CASE("lookup table: trilinear look-up is the table's own") {
 
 TEST_CASE("lookup table: nearest look-up is the table's own but at the horizon, which it continues") {
   for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
-    const auto table =
-        gonio::tabulate(gonio::formula_material("red-paint"), gonio::valid_cells(gonio::grid({45, 30, 60}, anchor)));
+    const auto table = gonio::tabulate(gonio::model::formula_material("red-paint"),
+                                       gonio::valid_cells(gonio::grid({45, 30, 60}, anchor)));
     const auto fast = lookup_table<float, interpolation::nearest>::of(table);
     const gonio::nearest_lookup expected(table);
     std::size_t other = 0, continued = 0;
@@ -133,7 +133,7 @@ TEST_CASE("lookup table: half numbers are good to three digits, whatever the tab
 }
 
 TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
-  const auto material = gonio::formula_material("gold-metal");
+  const auto material = gonio::model::formula_material("gold-metal");
   const auto table = gonio::tabulate(material, gonio::valid_cells(coarse));
   const auto from_formula = lookup_table<float>::tabulated(material, coarse);
   std::vector<double> planes(3 * coarse.size(), -1.0);

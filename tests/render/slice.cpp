@@ -7,7 +7,7 @@ using gonio::direction;
 using gonio::image;
 using gonio::pixel;
 using gonio::rgb;
-using gonio::slice_axis;
+using gonio::render::slice_axis;
 
 namespace {
 
@@ -30,8 +30,9 @@ struct white_lambertian {
 }  // namespace
 
 TEST_CASE("theta_h runs to the right and theta_d upwards, at pixel centres, at phi_d = 90 degrees") {
-  const image root = gonio::render_slice(angles_as_colour(), {.rows = 6, .columns = 9});
-  const image linear = gonio::render_slice(angles_as_colour(), {.rows = 6, .columns = 9, .axis = slice_axis::linear});
+  const image root = gonio::render::render_slice(angles_as_colour(), {.rows = 6, .columns = 9});
+  const image linear =
+      gonio::render::render_slice(angles_as_colour(), {.rows = 6, .columns = 9, .axis = slice_axis::linear});
   REQUIRE(root.shape(0) == 6);
   REQUIRE(root.shape(1) == 9);
   for (std::size_t row = 0; row < 6; ++row)
@@ -45,7 +46,7 @@ TEST_CASE("theta_h runs to the right and theta_d upwards, at pixel centres, at p
 
 TEST_CASE("the slice of a white Lambertian surface is white everywhere: all of it is above the horizon") {
   for (const auto axis : {slice_axis::square_root, slice_axis::linear})
-    for (const float value : gonio::render_slice(white_lambertian(), {.axis = axis}))
+    for (const float value : gonio::render::render_slice(white_lambertian(), {.axis = axis}))
       CHECK(value == doctest::Approx(1.0).epsilon(1e-6));
 }
 
@@ -57,7 +58,7 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
     // The two cells on either side of 90 degrees show themselves in blue: 89 is at 89.5 degrees, 90 at 90.5.
     table.set(cell, rgb(index.theta_h, index.theta_d, index.phi_d == 89 || index.phi_d == 90 ? 1.0 : 0.0));
   }
-  const image picture = gonio::render_slice(gonio::nearest_lookup(table));
+  const image picture = gonio::render::render_slice(gonio::nearest_lookup(table));
   REQUIRE(picture.shape(0) == 90);
   REQUIRE(picture.shape(1) == 90);
   for (std::size_t row = 0; row < 90; ++row)
@@ -74,5 +75,6 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
 }
 
 TEST_CASE("the number of threads does not change a byte of a slice") {
-  CHECK(gonio::render_slice(angles_as_colour(), {}, {1}) == gonio::render_slice(angles_as_colour(), {}, {5}));
+  CHECK(gonio::render::render_slice(angles_as_colour(), {}, {1}) ==
+        gonio::render::render_slice(angles_as_colour(), {}, {5}));
 }

@@ -10,9 +10,9 @@ using gonio::direction;
 using gonio::image;
 using gonio::pixel;
 using gonio::rgb;
-using gonio::sphere_colours;
-using gonio::sphere_operator;
 using gonio::valid_cells;
+using gonio::render::sphere_colours;
+using gonio::render::sphere_operator;
 
 namespace {
 
@@ -38,7 +38,7 @@ struct glossy {
 struct headlight {
   template <class Visit>
   void for_each_incident(const direction& normal, Visit&& visit) const {
-    const direction wo = gonio::surface_frame(normal).to_local({0.0, 0.0, 1.0});
+    const direction wo = gonio::render::surface_frame(normal).to_local({0.0, 0.0, 1.0});
     if (wo.z() > 0.0) visit(wo, wo, rgb(rgb::Constant(wo.z())));
   }
 };
@@ -48,14 +48,16 @@ struct no_light {
   void for_each_incident(const direction&, Visit&&) const {}
 };
 
-gonio::environment_lighting<> coarse_environment() { return gonio::environment_lighting(20, 16); }
+gonio::render::environment_lighting<> coarse_environment() { return gonio::render::environment_lighting(20, 16); }
 
-gonio::directional_lighting light_from(const direction& towards) { return gonio::directional_lighting({{towards}}); }
+gonio::render::directional_lighting light_from(const direction& towards) {
+  return gonio::render::directional_lighting({{towards}});
+}
 
 /// Mean luminance over the pixels of the sphere.
 double mean_luminance(const image& picture, int size) {
   double sum = 0.0;
-  const auto points = gonio::sphere_points(size);
+  const auto points = gonio::render::sphere_points(size);
   for (const auto& point : points) sum += gonio::luminance(pixel(picture, point.row, point.column));
   return sum / static_cast<double>(points.size());
 }
@@ -78,7 +80,7 @@ void check_equal(const sphere_colours& a, const sphere_colours& b) {
 }  // namespace
 
 TEST_CASE("the points of a sphere are those of the reference's grid") {
-  const auto points = gonio::sphere_points(36);
+  const auto points = gonio::render::sphere_points(36);
   // As render.py of the reference computes it; near pi 18^2 = 1018. (Its README speaks of 996 pixels.)
   REQUIRE(points.size() == 1020);
   for (const auto& point : points) {
@@ -88,20 +90,21 @@ TEST_CASE("the points of a sphere are those of the reference's grid") {
     CHECK(point.normal.y() == doctest::Approx(1.0 - (point.row + 0.5) / 18.0));
   }
   CHECK(std::ranges::is_sorted(points, {}, [](const auto& p) { return 36 * p.row + p.column; }));
-  CHECK(gonio::sphere_points(1).size() == 1);
-  CHECK(gonio::sphere_points(2).size() == 4);
+  CHECK(gonio::render::sphere_points(1).size() == 1);
+  CHECK(gonio::render::sphere_points(2).size() == 4);
 }
 
 TEST_CASE("a white Lambertian sphere has mean luminance 1, whatever the light") {
   const auto mean = [](const auto& lighting, int size) {
-    return mean_luminance(gonio::render_sphere(white_lambertian(), lighting, {.size = size}), size);
+    return mean_luminance(gonio::render::render_sphere(white_lambertian(), lighting, {.size = size}), size);
   };
   // Pixels are floats.
-  CHECK(mean(gonio::two_lights(), 36) == doctest::Approx(1.0).epsilon(1e-6));
-  CHECK(mean(gonio::two_lights(), 77) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(mean(gonio::render::two_lights(), 36) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(mean(gonio::render::two_lights(), 77) == doctest::Approx(1.0).epsilon(1e-6));
   CHECK(mean(coarse_environment(), 20) == doctest::Approx(1.0).epsilon(1e-6));
   CHECK(mean(headlight(), 20) == doctest::Approx(1.0).epsilon(1e-6));
-  CHECK(mean(gonio::directional_lighting({{{1, 2, 3}, {40.0, 2.0, 0.5}}}), 20) == doctest::Approx(1.0).epsilon(1e-6));
+  CHECK(mean(gonio::render::directional_lighting({{{1, 2, 3}, {40.0, 2.0, 0.5}}}), 20) ==
+        doctest::Approx(1.0).epsilon(1e-6));
 }
 
 TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
@@ -111,9 +114,9 @@ TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
     CAPTURE(g);
     const direction light = gonio::spherical_direction(g, 1.1);
     const int size = 200;
-    const image picture = gonio::render_sphere(white_lambertian(), light_from(light), {.size = size});
+    const image picture = gonio::render::render_sphere(white_lambertian(), light_from(light), {.size = size});
     const double mean = 2.0 * (std::sin(g) + (pi - g) * std::cos(g)) / (3.0 * pi);
-    for (const auto& point : gonio::sphere_points(size)) {
+    for (const auto& point : gonio::render::sphere_points(size)) {
       const double expected = std::max(point.normal.dot(light), 0.0) / mean;
       // The exposure is a sum over 31,000 pixels instead of an integral over the disc.
       REQUIRE(pixel(picture, point.row, point.column).y() == doctest::Approx(expected).epsilon(2e-3).scale(1));
@@ -124,9 +127,9 @@ TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
 TEST_CASE("turning the light about the view direction turns the picture") {
   const std::size_t size = 24;
   const direction light(0.3, 0.8, -0.2), turned(-0.8, 0.3, -0.2);  // by 90 degrees, from x towards y
-  const gonio::sphere_view view{.size = static_cast<int>(size), .background = {0.1, 0.2, 0.3}};
-  const image before = gonio::render_sphere(glossy(), light_from(light), view);
-  const image after = gonio::render_sphere(glossy(), light_from(turned), view);
+  const gonio::render::sphere_view view{.size = static_cast<int>(size), .background = {0.1, 0.2, 0.3}};
+  const image before = gonio::render::render_sphere(glossy(), light_from(light), view);
+  const image after = gonio::render::render_sphere(glossy(), light_from(turned), view);
   double brightest = 0.0;
   for (std::size_t row = 0; row < size; ++row)
     for (std::size_t column = 0; column < size; ++column) {
@@ -141,10 +144,10 @@ TEST_CASE("turning the light about the view direction turns the picture") {
 TEST_CASE("light from behind shows at the lower left rim, more so on a glossy surface") {
   const int size = 64;
   const auto behind = light_from({-1.0, -1.0, -3.0});
-  const image picture = gonio::render_sphere(glossy(), behind, {.size = size});
-  const image matte = gonio::render_sphere(white_lambertian(), behind, {.size = size});
+  const image picture = gonio::render::render_sphere(glossy(), behind, {.size = size});
+  const image matte = gonio::render::render_sphere(white_lambertian(), behind, {.size = size});
   std::size_t lit = 0;
-  for (const auto& point : gonio::sphere_points(size)) {
+  for (const auto& point : gonio::render::sphere_points(size)) {
     const double x = point.normal.x(), y = point.normal.y();
     const bool sees_the_light = -x - y > 3.0 * point.normal.z();
     CHECK((pixel(picture, point.row, point.column) > 0.0).all() == sees_the_light);
@@ -157,21 +160,22 @@ TEST_CASE("light from behind shows at the lower left rim, more so on a glossy su
   CHECK(contrast(picture) != doctest::Approx(contrast(matte)).epsilon(0.1));
 
   // Under both lights, on one exposure, the rim of the glossy sphere outshines its front.
-  const image both = gonio::render_sphere(glossy(), gonio::two_lights(), {.size = size});
+  const image both = gonio::render::render_sphere(glossy(), gonio::render::two_lights(), {.size = size});
   CHECK(pixel(both, 54, 9).x() > pixel(both, 40, 24).x());
 }
 
 TEST_CASE("the background surrounds the sphere and is blended into pixels that it covers in part") {
   const rgb background(0.25, 0.5, 4.0);
-  const image sharp = gonio::render_sphere(white_lambertian(), headlight(), {.size = 20, .background = background});
+  const image sharp =
+      gonio::render::render_sphere(white_lambertian(), headlight(), {.size = 20, .background = background});
   CHECK((pixel(sharp, 0, 0) == background).all());
   CHECK((pixel(sharp, 19, 19) == background).all());
 
-  const gonio::sphere_view view{.size = 20, .supersampling = 4, .background = background};
-  const image smooth = gonio::render_sphere(white_lambertian(), no_light(), view);
+  const gonio::render::sphere_view view{.size = 20, .supersampling = 4, .background = background};
+  const image smooth = gonio::render::render_sphere(white_lambertian(), no_light(), view);
   std::size_t partly = 0;
   std::vector<int> covered(400);
-  for (const auto& point : gonio::sphere_points(80)) ++covered[point.row / 4 * 20 + point.column / 4];
+  for (const auto& point : gonio::render::sphere_points(80)) ++covered[point.row / 4 * 20 + point.column / 4];
   for (std::size_t i = 0; i < 400; ++i) {
     const rgb expected = background * (1.0 - covered[i] / 16.0);
     CHECK((pixel(smooth, i / 20, i % 20) - expected).abs().maxCoeff() < 1e-6);
@@ -181,8 +185,9 @@ TEST_CASE("the background surrounds the sphere and is blended into pixels that i
 }
 
 TEST_CASE("supersampling averages, and keeps the exposure") {
-  const image fine = gonio::render_sphere(glossy(), gonio::two_lights(), {.size = 40});
-  const image smooth = gonio::render_sphere(glossy(), gonio::two_lights(), {.size = 10, .supersampling = 4});
+  const image fine = gonio::render::render_sphere(glossy(), gonio::render::two_lights(), {.size = 40});
+  const image smooth =
+      gonio::render::render_sphere(glossy(), gonio::render::two_lights(), {.size = 10, .supersampling = 4});
   for (std::size_t row = 0; row < 10; ++row)
     for (std::size_t column = 0; column < 10; ++column) {
       rgb mean = rgb::Zero();
@@ -192,17 +197,19 @@ TEST_CASE("supersampling averages, and keeps the exposure") {
 }
 
 TEST_CASE("brighter lights change nothing, a brighter BRDF everything in proportion") {
-  const gonio::directional_lighting dim({{{1, 1, 1}}, {{-1, -1, -3}}});
-  const gonio::directional_lighting bright({{{1, 1, 1}, rgb::Constant(8.0)}, {{-1, -1, -3}, rgb::Constant(8.0)}});
-  CHECK(gonio::render_sphere(glossy(), dim, {.size = 16}) == gonio::render_sphere(glossy(), bright, {.size = 16}));
+  const gonio::render::directional_lighting dim({{{1, 1, 1}}, {{-1, -1, -3}}});
+  const gonio::render::directional_lighting bright(
+      {{{1, 1, 1}, rgb::Constant(8.0)}, {{-1, -1, -3}, rgb::Constant(8.0)}});
+  CHECK(gonio::render::render_sphere(glossy(), dim, {.size = 16}) ==
+        gonio::render::render_sphere(glossy(), bright, {.size = 16}));
   const auto twice = [](const direction& wi, const direction& wo) noexcept { return rgb(2.0 * glossy()(wi, wo)); };
-  const image one = gonio::render_sphere(glossy(), dim, {.size = 16});
-  const image two = gonio::render_sphere(twice, dim, {.size = 16});
+  const image one = gonio::render::render_sphere(glossy(), dim, {.size = 16});
+  const image two = gonio::render::render_sphere(twice, dim, {.size = 16});
   for (std::size_t i = 0; i < one.size(); ++i) CHECK(two.data()[i] == 2.0f * one.data()[i]);
 }
 
 TEST_CASE("without light everything is black and finite") {
-  const image picture = gonio::render_sphere(glossy(), no_light(), {.size = 8});
+  const image picture = gonio::render::render_sphere(glossy(), no_light(), {.size = 8});
   for (const float value : picture) CHECK(value == 0.0f);
 }
 
@@ -213,11 +220,11 @@ TEST_CASE("the sphere operator is the picture of the table at its nearest cells"
     const brdf_table table = gonio::tabulate(glossy(), cells);
     const auto check = [&](const auto& lighting) {
       const sphere_operator op(cells, lighting, 24);
-      const image picture = gonio::render_sphere(gonio::nearest_lookup(table), lighting, {.size = 24});
+      const image picture = gonio::render::render_sphere(gonio::nearest_lookup(table), lighting, {.size = 24});
       check_equal(op.apply(table), at_points(picture, op));
       check_equal(at_points(op.to_image(op.apply(table)), op), at_points(picture, op));
     };
-    check(gonio::two_lights());
+    check(gonio::render::two_lights());
     check(coarse_environment());
     check(headlight());
   }
@@ -243,8 +250,9 @@ TEST_CASE("the number of threads does not change a byte of a sphere") {
   const auto lighting = coarse_environment();
   const sphere_operator one(cells, lighting, 24, {1}), many(cells, lighting, 24, {5});
   CHECK((one.apply(table, {1}) == many.apply(table, {3})).all());
-  const gonio::sphere_view view{.size = 24};
-  CHECK(gonio::render_sphere(glossy(), lighting, view, {1}) == gonio::render_sphere(glossy(), lighting, view, {5}));
+  const gonio::render::sphere_view view{.size = 24};
+  CHECK(gonio::render::render_sphere(glossy(), lighting, view, {1}) ==
+        gonio::render::render_sphere(glossy(), lighting, view, {5}));
 }
 
 TEST_CASE("a table over other cells is refused") {

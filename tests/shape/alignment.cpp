@@ -12,10 +12,10 @@
 #include <limits>
 #include <random>
 
-using gonio::align;
-using gonio::alignment_kind;
-using gonio::point_columns;
-using gonio::similarity_transform;
+using gonio::shape::align;
+using gonio::shape::alignment_kind;
+using gonio::shape::point_columns;
+using gonio::shape::similarity_transform;
 
 namespace {
 
@@ -165,7 +165,7 @@ TEST_CASE("shapes that differ in pose alone meet at once, in the coordinates of 
     const point_columns shape = scattered_points(15, 3);
     std::vector<point_columns> posed{shape};
     for (std::uint64_t seed = 10; seed < 15; ++seed) posed.push_back(scattered_pose(seed, kind)(shape));
-    const auto [aligned, mean, iterations] = gonio::procrustes_mean(posed, {.kind = kind});
+    const auto [aligned, mean, iterations] = gonio::shape::procrustes_mean(posed, {.kind = kind});
     CHECK(iterations <= 3);
     for (const point_columns& one : aligned) CHECK((one - mean).norm() < 1e-9);
     const similarity_transform to_first = align(mean, shape, kind);
@@ -178,7 +178,7 @@ TEST_CASE("each aligned shape is one of the given ones, and best aligned with th
   const auto shapes = made_up_shapes(40, 12, 5, 3);
   std::vector<point_columns> posed;
   for (std::size_t i = 0; i < shapes.size(); ++i) posed.push_back(scattered_pose(i, alignment_kind::rigid)(shapes[i]));
-  const auto [aligned, mean, iterations] = gonio::procrustes_mean(posed);
+  const auto [aligned, mean, iterations] = gonio::shape::procrustes_mean(posed);
   CHECK(iterations > 1);
   point_columns sum = point_columns::Zero(3, 40);
   for (std::size_t i = 0; i < aligned.size(); ++i) {
@@ -191,29 +191,29 @@ TEST_CASE("each aligned shape is one of the given ones, and best aligned with th
   // The pose in which a shape was scanned does not matter, but for that of the first.
   std::vector<point_columns> others = posed;
   for (std::size_t i = 1; i < others.size(); ++i) others[i] = scattered_pose(100 + i, alignment_kind::rigid)(others[i]);
-  CHECK((gonio::procrustes_mean(others).mean - mean).norm() < 1e-6);
+  CHECK((gonio::shape::procrustes_mean(others).mean - mean).norm() < 1e-6);
 }
 
 TEST_CASE("the mean of similar shapes keeps their mean size") {
   const auto shapes = made_up_shapes(40, 12, 5, 4);
   double size = 0.0;
-  for (const point_columns& shape : shapes) size += gonio::detail::centroid_size(shape) / 12.0;
-  const auto [aligned, mean, iterations] = gonio::procrustes_mean(shapes, {.kind = alignment_kind::similarity});
-  CHECK(gonio::detail::centroid_size(mean) == doctest::Approx(size));
+  for (const point_columns& shape : shapes) size += gonio::shape::detail::centroid_size(shape) / 12.0;
+  const auto [aligned, mean, iterations] = gonio::shape::procrustes_mean(shapes, {.kind = alignment_kind::similarity});
+  CHECK(gonio::shape::detail::centroid_size(mean) == doctest::Approx(size));
   for (const point_columns& shape : aligned)
     CHECK(difference(align(shape, mean, alignment_kind::similarity), {}) < 1e-6);
 }
 
 TEST_CASE("what is no set of corresponded shapes is refused") {
   const auto shapes = made_up_shapes(10, 4, 2, 5);
-  const auto refused = [](const std::vector<point_columns>& set, const gonio::procrustes_options& options,
+  const auto refused = [](const std::vector<point_columns>& set, const gonio::shape::procrustes_options& options,
                           const char* why) {
-    CHECK_THROWS_WITH_AS((void)gonio::procrustes_mean(set, options), doctest::Contains(why), gonio::error);
+    CHECK_THROWS_WITH_AS((void)gonio::shape::procrustes_mean(set, options), doctest::Contains(why), gonio::error);
   };
   refused({}, {}, "at least one shape");
   refused({shapes[0], shapes[1].leftCols(9)}, {}, "shape 1 has 9 points where the first has 10");
   refused(shapes, {.tolerance = 0.0}, "positive tolerance");
   refused(shapes, {.most_iterations = 0}, "at least one iteration");
   refused(shapes, {.most_iterations = 1}, "still changes after 1 iterations");
-  CHECK(gonio::procrustes_mean({shapes[0]}).iterations == 1);
+  CHECK(gonio::shape::procrustes_mean({shapes[0]}).iterations == 1);
 }

@@ -11,7 +11,7 @@
 #include <random>
 #include <set>
 
-using gonio::optimal_assignment;
+using gonio::shape::optimal_assignment;
 
 namespace {
 

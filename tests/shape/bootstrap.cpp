@@ -5,7 +5,7 @@
 
 TEST_CASE("a model of twelve learns from scans of its kind, and from no others") {
   const small_ears ears(12);
-  std::vector<gonio::named_scan> scans;
+  std::vector<gonio::shape::named_scan> scans;
   std::vector<lab::ear_scan> truths;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     lab::scan_options how;
@@ -16,11 +16,11 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
     scans.push_back({"scan-" + std::to_string(seed), truths.back().mesh});
   }
   scans.push_back({"nothing", {}});
-  gonio::bootstrap_options options;
+  gonio::shape::bootstrap_options options;
   options.passes = 2;
   options.registration.fit.most_iterations = 30;
   const auto grown =
-      gonio::bootstrap_shape_model(ears.shapes, ears.names, ears.common.mesh().triangles, scans, options);
+      gonio::shape::bootstrap_shape_model(ears.shapes, ears.names, ears.common.mesh().triangles, scans, options);
   REQUIRE(grown.outcomes.size() == 7);
   CHECK(grown.model.shapes() == 12 + grown.accepted());
   CHECK(grown.accepted() >= 2);
@@ -30,8 +30,8 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
   }
   for (std::size_t i = 0; i < truths.size(); ++i) {
     if (!grown.outcomes[i].accepted()) continue;
-    const gonio::registration& found = *grown.outcomes[i].registered;
-    const gonio::point_columns truth = found.pose(truths[i].truth);
+    const gonio::shape::registration& found = *grown.outcomes[i].registered;
+    const gonio::shape::point_columns truth = found.pose(truths[i].truth);
     // Twelve shapes do not keep vertices from sliding; `gonio shape grow` calls more than this too far.
     CHECK((found.vertices - truth).colwise().norm().mean() < 2.0);
     CHECK(found.angle > 15.0);

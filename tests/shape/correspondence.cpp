@@ -5,14 +5,15 @@
 #include <doctest/doctest.h>
 
 TEST_CASE("a shape finds itself on its own scan, wherever that lies") {
-  const gonio::triangle_mesh sphere = sphere_mesh(2);
+  const gonio::shape::triangle_mesh sphere = sphere_mesh(2);
   const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d::UnitY());
-  const gonio::similarity_transform away{1.0, turn.toRotationMatrix(), {5.0, 2.0, -1.0}};
-  const gonio::posed_scan scan{gonio::surface_index({away.inverse()(sphere.vertices), sphere.triangles}), away};
-  const gonio::known_vertices found = gonio::closest_places(scan, sphere);
+  const gonio::shape::similarity_transform away{1.0, turn.toRotationMatrix(), {5.0, 2.0, -1.0}};
+  const gonio::shape::posed_scan scan{gonio::shape::surface_index({away.inverse()(sphere.vertices), sphere.triangles}),
+                                      away};
+  const gonio::shape::known_vertices found = gonio::shape::closest_places(scan, sphere);
   REQUIRE(static_cast<Eigen::Index>(found.vertices.size()) == sphere.vertices.cols());
   CHECK((found.positions - sphere.vertices).cwiseAbs().maxCoeff() < 1e-12);
-  CHECK((found.normals - gonio::vertex_normals(sphere)).cwiseAbs().maxCoeff() < 0.05);
+  CHECK((found.normals - gonio::shape::vertex_normals(sphere)).cwiseAbs().maxCoeff() < 0.05);
   const auto along = scan.along({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 2.5);
   REQUIRE(along);
   CHECK(along->position.z() == doctest::Approx(1.0).epsilon(0.05));
@@ -20,28 +21,28 @@ TEST_CASE("a shape finds itself on its own scan, wherever that lies") {
 }
 
 TEST_CASE("places too far, of another side, or where the scan ends are none") {
-  const gonio::triangle_mesh sphere = sphere_mesh(2);
-  gonio::correspondence_options near;
+  const gonio::shape::triangle_mesh sphere = sphere_mesh(2);
+  gonio::shape::correspondence_options near;
   near.reach = 0.2;
-  const gonio::similarity_transform shift{1.0, Eigen::Matrix3d::Identity(), {0.0, 0.0, 0.5}};
-  const gonio::surface_index surface(sphere);
-  const auto found = gonio::closest_places({surface, shift}, sphere, near);
+  const gonio::shape::similarity_transform shift{1.0, Eigen::Matrix3d::Identity(), {0.0, 0.0, 0.5}};
+  const gonio::shape::surface_index surface(sphere);
+  const auto found = gonio::shape::closest_places({surface, shift}, sphere, near);
   CHECK(!found.vertices.empty());
   CHECK(static_cast<Eigen::Index>(found.vertices.size()) < sphere.vertices.cols());
 
-  gonio::triangle_mesh inside_out = sphere;
+  gonio::shape::triangle_mesh inside_out = sphere;
   inside_out.triangles.row(0).swap(inside_out.triangles.row(1));
-  CHECK(gonio::closest_places({gonio::surface_index(inside_out), {}}, sphere).vertices.empty());
+  CHECK(gonio::shape::closest_places({gonio::shape::surface_index(inside_out), {}}, sphere).vertices.empty());
 
   // The upper half alone: what is below has its border as the nearest place.
-  gonio::triangle_mesh half = sphere;
+  gonio::shape::triangle_mesh half = sphere;
   Eigen::Index kept = 0;
   for (Eigen::Index t = 0; t < sphere.triangles.cols(); ++t)
     if (sphere.corners(t).row(2).minCoeff() > 0.1) half.triangles.col(kept++) = sphere.triangles.col(t);
   half.triangles.conservativeResize(3, kept);
-  gonio::correspondence_options wide;
+  gonio::shape::correspondence_options wide;
   wide.normal_agreement = -1.0;
-  const auto upper = gonio::closest_places({gonio::surface_index(half), {}}, sphere, wide);
+  const auto upper = gonio::shape::closest_places({gonio::shape::surface_index(half), {}}, sphere, wide);
   CHECK(!upper.vertices.empty());
   for (const Eigen::Index vertex : upper.vertices) CHECK(sphere.vertices(2, vertex) > 0.1);
 }

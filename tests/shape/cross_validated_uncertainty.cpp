@@ -6,28 +6,30 @@
 
 namespace {
 
-gonio::recovered_shape recovered(const small_ears& ears, const gonio::surface_index& scan,
-                                 const gonio::triangle_mesh& mesh) {
-  return gonio::recover(ears.model, scan, gonio::align_by_shape_context(mesh, ears.model.mean()).transform);
+gonio::shape::recovered_shape recovered(const small_ears& ears, const gonio::shape::surface_index& scan,
+                                        const gonio::shape::triangle_mesh& mesh) {
+  return gonio::shape::recover(ears.model, scan,
+                               gonio::shape::align_by_shape_context(mesh, ears.model.mean()).transform);
 }
 
 }  // namespace
 
 TEST_CASE("a measured uncertainty holds the true vertices of scans, along the surface, too") {
   const small_ears& ears = small_ears::of_sixty();
-  gonio::cross_validation_options options;
+  gonio::shape::cross_validation_options options;
   options.trials = 20;
   std::size_t inside = 0, inside_by_formula = 0, all = 0;
   double along = 0.0, across = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const lab::ear_scan scan = ears.scan(seed, small_ears::with_hole());
-    const gonio::surface_index index(scan.mesh);
-    const gonio::recovered_shape found = recovered(ears, index, scan.mesh);
-    const gonio::cross_validated_uncertainty measured(ears.model, index, found, options);
+    const gonio::shape::surface_index index(scan.mesh);
+    const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
+    const gonio::shape::cross_validated_uncertainty measured(ears.model, index, found, options);
     CHECK(measured.trials() >= 15);
     CHECK(measured.squared_radius(0.5) < measured.squared_radius(0.95));
-    const gonio::shape_uncertainty formula = found.fit.uncertainty();
-    const gonio::point_columns truth = found.pose(scan.truth), normals = gonio::vertex_normals(found.surface);
+    const gonio::shape::shape_uncertainty formula = found.fit.uncertainty();
+    const gonio::shape::point_columns truth = found.pose(scan.truth),
+                                      normals = gonio::shape::vertex_normals(found.surface);
     for (std::size_t v = 0; v < scan.covered.size(); ++v) {
       const auto vertex = static_cast<Eigen::Index>(v);
       if (scan.covered[v] || ears.common.places()(0, vertex) <= 0.1) continue;
@@ -49,15 +51,15 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
 TEST_CASE("it is the same for any number of threads, and another for another seed") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(2, small_ears::with_hole());
-  const gonio::surface_index index(scan.mesh);
-  const gonio::recovered_shape found = recovered(ears, index, scan.mesh);
-  gonio::cross_validation_options options;
+  const gonio::shape::surface_index index(scan.mesh);
+  const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
+  gonio::shape::cross_validation_options options;
   options.trials = 10;
   options.parts = 2;
-  const gonio::cross_validated_uncertainty one(ears.model, index, found, options, gonio::thread_count{1});
-  const gonio::cross_validated_uncertainty two(ears.model, index, found, options, gonio::thread_count{2});
+  const gonio::shape::cross_validated_uncertainty one(ears.model, index, found, options, gonio::thread_count{1});
+  const gonio::shape::cross_validated_uncertainty two(ears.model, index, found, options, gonio::thread_count{2});
   options.seed = 2;
-  const gonio::cross_validated_uncertainty other(ears.model, index, found, options);
+  const gonio::shape::cross_validated_uncertainty other(ears.model, index, found, options);
   for (Eigen::Index vertex = 0; vertex < ears.model.vertices(); vertex += 50) {
     CHECK(one.covariance(vertex) == two.covariance(vertex));
     CHECK(one.covariance(vertex) != other.covariance(vertex));
@@ -74,14 +76,14 @@ TEST_CASE("it is the same for any number of threads, and another for another see
 TEST_CASE("trials that cannot be made are refused by a sentence") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(1);
-  const gonio::surface_index index(scan.mesh);
-  const gonio::recovered_shape found = recovered(ears, index, scan.mesh);
+  const gonio::shape::surface_index index(scan.mesh);
+  const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
   const auto refused = [&](std::size_t trials, std::size_t parts, const std::string& words) {
-    gonio::cross_validation_options options;
+    gonio::shape::cross_validation_options options;
     options.trials = trials;
     options.parts = parts;
-    CHECK_THROWS_WITH_AS((void)gonio::cross_validated_uncertainty(ears.model, index, found, options), words.c_str(),
-                         gonio::error);
+    CHECK_THROWS_WITH_AS((void)gonio::shape::cross_validated_uncertainty(ears.model, index, found, options),
+                         words.c_str(), gonio::error);
   };
   refused(9, 5, "from 10 to 60 shapes can be left out, not 9");
   refused(61, 5, "from 10 to 60 shapes can be left out, not 61");

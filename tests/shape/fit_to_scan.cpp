@@ -12,11 +12,11 @@
 namespace {
 
 /// The true pose, turned by some degrees and shifted by some millimetres.
-gonio::similarity_transform about_right(const lab::ear_scan& scan, const gonio::shape_model& model, double degrees,
-                                        double shift) {
+gonio::shape::similarity_transform about_right(const lab::ear_scan& scan, const gonio::shape::shape_model& model,
+                                               double degrees, double shift) {
   const Eigen::AngleAxisd turn(gonio::radians(degrees), Eigen::Vector3d(1, 2, 2) / 3.0);
-  const gonio::similarity_transform off{1.0, turn.toRotationMatrix(), Eigen::Vector3d(shift, -shift, 0.0)};
-  return off * gonio::align(scan.truth, model.mean().vertices);
+  const gonio::shape::similarity_transform off{1.0, turn.toRotationMatrix(), Eigen::Vector3d(shift, -shift, 0.0)};
+  return off * gonio::shape::align(scan.truth, model.mean().vertices);
 }
 
 }  // namespace
@@ -24,14 +24,14 @@ gonio::similarity_transform about_right(const lab::ear_scan& scan, const gonio::
 TEST_CASE("a model finds the shape and the pose of a whole scan from one that is about right") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(1);
-  const gonio::surface_index index(scan.mesh);
-  gonio::fit_to_scan_options options;
+  const gonio::shape::surface_index index(scan.mesh);
+  gonio::shape::fit_to_scan_options options;
   options.tolerance = 0.01;
-  const auto found = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0), options);
+  const auto found = gonio::shape::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0), options);
   CHECK(found.iterations > 1);
   CHECK(found.iterations < options.most_iterations);
-  const gonio::surface_index complete(scan.complete);
-  const auto off = gonio::distance_to(complete, found.pose.inverse()(found.shape()));
+  const gonio::shape::surface_index complete(scan.complete);
+  const auto off = gonio::shape::distance_to(complete, found.pose.inverse()(found.shape()));
   CHECK(off.absolute_mean < 0.12);  // a shape of the family is 1.15 mm from the mean
   CHECK(found.squared_distance() > 0.0);
   CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.explaining(0.99).basis().size()));
@@ -42,38 +42,38 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
 TEST_CASE("where a fit ends neither a motion nor other weights of the shape that was found bring it closer") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(1);
-  gonio::fit_to_scan_options options;
+  gonio::shape::fit_to_scan_options options;
   options.tolerance = 1e-4;
-  const auto found =
-      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 6.0, 1.0), options);
+  const auto found = gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
+                                               about_right(scan, ears.model, 6.0, 1.0), options);
   REQUIRE(found.iterations < options.most_iterations);
-  const gonio::shape_basis moving =
-      gonio::with_motion(ears.model.explaining(options.explained_variance).basis(), found.shape());
+  const gonio::shape::shape_basis moving =
+      gonio::shape::with_motion(ears.model.explaining(options.explained_variance).basis(), found.shape());
   const Eigen::VectorXd next = gonio::decomposition{moving, found.solver}.fit(found.places).weights();
-  const gonio::point_columns change = gonio::shape_of(moving, next) - found.shape();
+  const gonio::shape::point_columns change = gonio::shape::shape_of(moving, next) - found.shape();
   CHECK(std::sqrt(change.squaredNorm() / static_cast<double>(change.cols())) < 1e-3);
 }
 
 TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(3, small_ears::with_hole());
-  const gonio::surface_index index(scan.mesh);
-  gonio::fit_to_scan_options options;
+  const gonio::shape::surface_index index(scan.mesh);
+  gonio::shape::fit_to_scan_options options;
   options.misplacement = 0.05;
   options.tolerance = 1e-4;
   options.most_iterations = 1000;
-  const auto one = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 0.0, 0.0), options);
-  const auto other = gonio::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0), options);
-  const gonio::point_columns apart = one.pose.inverse()(one.shape()) - other.pose.inverse()(other.shape());
+  const auto one = gonio::shape::fit_to_scan(ears.model, index, about_right(scan, ears.model, 0.0, 0.0), options);
+  const auto other = gonio::shape::fit_to_scan(ears.model, index, about_right(scan, ears.model, 6.0, 1.0), options);
+  const gonio::shape::point_columns apart = one.pose.inverse()(one.shape()) - other.pose.inverse()(other.shape());
   CHECK(apart.colwise().norm().mean() < 1e-3);
 }
 
 TEST_CASE("what a hole hides is not among the places") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(2, small_ears::with_hole());
-  const auto found =
-      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 0.0, 0.0));
-  const auto marks = gonio::marks_of(found.places, ears.model.vertices());
+  const auto found = gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
+                                               about_right(scan, ears.model, 0.0, 0.0));
+  const auto marks = gonio::shape::marks_of(found.places, ears.model.vertices());
   std::size_t hidden = 0, shown_though_hidden = 0, shown = 0, uncovered = 0;
   for (std::size_t v = 0; v < marks.size(); ++v) {
     (scan.covered[v] ? shown : hidden) += 1;
@@ -86,11 +86,11 @@ TEST_CASE("what a hole hides is not among the places") {
 }
 
 TEST_CASE("spurious places are hardly trusted") {
-  gonio::point_columns shape = gonio::point_columns::Random(3, 100);
-  gonio::known_vertices places = gonio::known_vertices::marked(shape, std::vector<bool>(100, true));
+  gonio::shape::point_columns shape = gonio::shape::point_columns::Random(3, 100);
+  gonio::shape::known_vertices places = gonio::shape::known_vertices::marked(shape, std::vector<bool>(100, true));
   places.positions.row(0).array() += 0.05;
   places.positions.col(7).array() += 2.0;
-  const Eigen::VectorXd trust = gonio::detail::trust_in(places, shape, 0.05);
+  const Eigen::VectorXd trust = gonio::shape::detail::trust_in(places, shape, 0.05);
   CHECK(trust[7] < 1e-3);
   CHECK(trust[8] == doctest::Approx(0.81));  // (1 + 1/9)^-2
 }
@@ -98,7 +98,8 @@ TEST_CASE("spurious places are hardly trusted") {
 TEST_CASE("a pose that is wrong is refused") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(1);
-  CHECK_THROWS_WITH_AS(
-      gonio::fit_to_scan(ears.model, gonio::surface_index(scan.mesh), about_right(scan, ears.model, 0.0, 100.0)),
-      "the scan shows 0 of the model's 500 vertices, expected at least 10: is its pose right?", gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
+                                                 about_right(scan, ears.model, 0.0, 100.0)),
+                       "the scan shows 0 of the model's 500 vertices, expected at least 10: is its pose right?",
+                       gonio::error);
 }

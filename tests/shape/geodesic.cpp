@@ -13,16 +13,16 @@
 #include <utility>
 #include <vector>
 
-using gonio::geodesic_distances;
-using gonio::mesh_topology;
-using gonio::nearest_along_surface;
+using gonio::shape::geodesic_distances;
+using gonio::shape::mesh_topology;
+using gonio::shape::nearest_along_surface;
 
 namespace {
 
 const auto any_vertex = [](Eigen::Index) { return true; };
 
 /// Shortest paths by relaxing all edges until nothing changes (Bellman and Ford).
-Eigen::VectorXd relaxed_distances(const gonio::triangle_mesh& mesh, Eigen::Index source) {
+Eigen::VectorXd relaxed_distances(const gonio::shape::triangle_mesh& mesh, Eigen::Index source) {
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(mesh.vertices.cols(), std::numeric_limits<double>::infinity());
   distances[source] = 0.0;
   for (bool changed = true; changed;) {
@@ -42,7 +42,7 @@ Eigen::VectorXd relaxed_distances(const gonio::triangle_mesh& mesh, Eigen::Index
 }  // namespace
 
 TEST_CASE("distances on a grid of squares cut in two are those of steps and diagonals") {
-  const gonio::triangle_mesh mesh = flat_grid(8, 9);
+  const gonio::shape::triangle_mesh mesh = flat_grid(8, 9);
   const Eigen::Index source = 3 * 9 + 4;
   const Eigen::VectorXd distances = geodesic_distances(mesh, mesh_topology(mesh), source);
   for (int row = 0; row < 8; ++row)
@@ -56,7 +56,7 @@ TEST_CASE("distances on a grid of squares cut in two are those of steps and diag
 }
 
 TEST_CASE("paths on equilateral triangles are longer than straight lines by 10% in the mean and by 15.5% at most") {
-  const gonio::triangle_mesh mesh = flat_grid(121, 121, 1.0, std::sqrt(0.75), -0.5);
+  const gonio::shape::triangle_mesh mesh = flat_grid(121, 121, 1.0, std::sqrt(0.75), -0.5);
   const Eigen::Index source = 60 * 121 + 60;
   const Eigen::VectorXd distances = geodesic_distances(mesh, mesh_topology(mesh), source);
   double largest = 0.0, sum = 0.0;
@@ -76,7 +76,7 @@ TEST_CASE("paths on equilateral triangles are longer than straight lines by 10% 
 TEST_CASE("distances are the shortest of all paths along edges, and the same both ways") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
-    gonio::triangle_mesh mesh = tube_mesh(4, 5);
+    gonio::shape::triangle_mesh mesh = tube_mesh(4, 5);
     for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.7);
     const mesh_topology topology(mesh);
     const auto source = static_cast<Eigen::Index>(generator() % 20),
@@ -88,7 +88,7 @@ TEST_CASE("distances are the shortest of all paths along edges, and the same bot
 }
 
 TEST_CASE("what no path leads to is infinitely far, and is no neighbour") {
-  gonio::triangle_mesh mesh =
+  gonio::shape::triangle_mesh mesh =
       mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0.1}}, {{0, 1, 2}, {3, 4, 5}});
   const mesh_topology topology(mesh);
   const Eigen::VectorXd distances = geodesic_distances(mesh, topology, 1);
@@ -102,7 +102,7 @@ TEST_CASE("what no path leads to is infinitely far, and is no neighbour") {
 TEST_CASE("the nearest candidates are the first of all by distance and number") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
-    gonio::triangle_mesh mesh = flat_grid(6, 7);  // many at the same distance
+    gonio::shape::triangle_mesh mesh = flat_grid(6, 7);  // many at the same distance
     if (generator() % 2 == 0)
       for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.3);
     const mesh_topology topology(mesh);
@@ -124,7 +124,8 @@ TEST_CASE("the nearest candidates are the first of all by distance and number") 
 
 TEST_CASE("vertices at one place are taken by number") {
   // 3 is at the place of 0 and further by no length.
-  const gonio::triangle_mesh mesh = mesh_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}, {{2, 3, 1}, {1, 3, 0}});
+  const gonio::shape::triangle_mesh mesh =
+      mesh_of({{1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}}, {{2, 3, 1}, {1, 3, 0}});
   const mesh_topology topology(mesh);
   const auto some = [](Eigen::Index v) { return v == 0 || v == 3; };
   CHECK(nearest_along_surface(mesh, topology, 2, some, 1) == std::vector<Eigen::Index>{0});
@@ -132,7 +133,7 @@ TEST_CASE("vertices at one place are taken by number") {
 }
 
 TEST_CASE("the walk ends early") {
-  const gonio::triangle_mesh mesh = flat_grid(50, 50);
+  const gonio::shape::triangle_mesh mesh = flat_grid(50, 50);
   int asked = 0;
   const auto counted = [&](Eigen::Index) {
     ++asked;
@@ -146,14 +147,14 @@ TEST_CASE("the walk ends early") {
 }
 
 TEST_CASE("distances from no vertex or on another mesh are refused") {
-  const gonio::triangle_mesh mesh = tetrahedron();
+  const gonio::shape::triangle_mesh mesh = tetrahedron();
   const mesh_topology topology(mesh);
   for (const Eigen::Index none : {-1, 4})
     CHECK_THROWS_WITH_AS(static_cast<void>(geodesic_distances(mesh, topology, none)),
                          doctest::Contains("to walk from is none of a mesh of 4"), gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(nearest_along_surface(flat_grid(2, 3), topology, 0, any_vertex, 1)),
                        "a mesh of 6 vertices has a topology of 4", gonio::error);
-  gonio::triangle_mesh moved = mesh;
+  gonio::shape::triangle_mesh moved = mesh;
   moved.vertices(0, 1) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(static_cast<void>(geodesic_distances(moved, topology, 0)), doctest::Contains("not finite"),
                        gonio::error);

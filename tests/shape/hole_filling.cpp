@@ -13,35 +13,35 @@
 #include <limits>
 #include <vector>
 
-using gonio::fill_smoothly;
-using gonio::mesh_topology;
-using gonio::smoothness;
+using gonio::shape::fill_smoothly;
+using gonio::shape::mesh_topology;
+using gonio::shape::smoothness;
 
 namespace {
 
 /// All but those that `is_missing(position)` tells.
 template <class Missing>
-std::vector<bool> known_but(const gonio::point_columns& points, const Missing& is_missing) {
+std::vector<bool> known_but(const gonio::shape::point_columns& points, const Missing& is_missing) {
   std::vector<bool> known;
   for (const auto& point : points.colwise()) known.push_back(!is_missing(Eigen::Vector3d(point)));
   return known;
 }
 
 /// The mesh's positions filled in where they are not known and then unreadable.
-gonio::point_columns filled(const gonio::triangle_mesh& mesh, const std::vector<bool>& known,
-                            smoothness kind = smoothness::thin_plate) {
-  gonio::point_columns points = mesh.vertices;
+gonio::shape::point_columns filled(const gonio::shape::triangle_mesh& mesh, const std::vector<bool>& known,
+                                   smoothness kind = smoothness::thin_plate) {
+  gonio::shape::point_columns points = mesh.vertices;
   for (std::size_t v = 0; v < known.size(); ++v)
     if (!known[v]) points.col(static_cast<Eigen::Index>(v)).setConstant(std::numeric_limits<double>::quiet_NaN());
   return fill_smoothly(mesh_topology(mesh), points, known, kind);
 }
 
-double largest_change(const gonio::point_columns& one, const gonio::point_columns& other) {
+double largest_change(const gonio::shape::point_columns& one, const gonio::shape::point_columns& other) {
   return (one - other).colwise().norm().maxCoeff();
 }
 
 /// |L x|^2 with L as documented, of a mesh without border.
-double bending(const gonio::triangle_mesh& mesh, const gonio::point_columns& points) {
+double bending(const gonio::shape::triangle_mesh& mesh, const gonio::shape::point_columns& points) {
   const mesh_topology topology(mesh);
   double sum = 0.0;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v) {
@@ -55,7 +55,7 @@ double bending(const gonio::triangle_mesh& mesh, const gonio::point_columns& poi
 }  // namespace
 
 TEST_CASE("a hole in an even plane is filled with the plane") {
-  gonio::triangle_mesh mesh = flat_grid(15, 16, 1.0, std::sqrt(0.75), -0.5);
+  gonio::shape::triangle_mesh mesh = flat_grid(15, 16, 1.0, std::sqrt(0.75), -0.5);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   mesh.vertices = ((turn * mesh.vertices).colwise() + Eigen::Vector3d(5, -3, 2)).eval();
   const Eigen::Vector3d middle = mesh.vertices.rowwise().mean();
@@ -66,20 +66,20 @@ TEST_CASE("a hole in an even plane is filled with the plane") {
 }
 
 TEST_CASE("a plane is continued to a straight border") {
-  const gonio::triangle_mesh mesh = flat_grid(12, 12);
+  const gonio::shape::triangle_mesh mesh = flat_grid(12, 12);
   const auto known =
       known_but(mesh.vertices, [](const auto& point) { return point.y() > 7.5 && point.x() > 2.5 && point.x() < 8.5; });
   CHECK(largest_change(filled(mesh, known), mesh.vertices) < 1e-11);
 }
 
 TEST_CASE("a strip whose edges across join border to border is continued along its borders") {
-  const gonio::triangle_mesh mesh = flat_grid(2, 12);
+  const gonio::shape::triangle_mesh mesh = flat_grid(2, 12);
   const auto known = known_but(mesh.vertices, [](const auto& point) { return point.x() > 3.5 && point.x() < 7.5; });
   CHECK(largest_change(filled(mesh, known), mesh.vertices) < 1e-11);
 }
 
 TEST_CASE("a thin plate goes on with the curvature of a cylinder, a membrane cuts it short") {
-  const gonio::triangle_mesh mesh = tube_mesh(30, 40, 5.0);
+  const gonio::shape::triangle_mesh mesh = tube_mesh(30, 40, 5.0);
   const Eigen::Vector3d side(5.0, 0.0, mesh.vertices.row(2).mean());
   const auto known = known_but(mesh.vertices, [&](const auto& point) { return (point - side).norm() < 3.0; });
   const double sagitta = 5.0 - std::sqrt(25.0 - 9.0);  // what a plane across the hole would be off: 1
@@ -88,16 +88,16 @@ TEST_CASE("a thin plate goes on with the curvature of a cylinder, a membrane cut
 }
 
 TEST_CASE("a thin plate closes a sphere nearly round") {
-  const gonio::triangle_mesh mesh = sphere_mesh(4, 10.0);
+  const gonio::shape::triangle_mesh mesh = sphere_mesh(4, 10.0);
   const auto known = known_but(mesh.vertices, [](const auto& point) { return point.z() > 8.0; });
-  const gonio::point_columns plate = filled(mesh, known), film = filled(mesh, known, smoothness::membrane);
+  const gonio::shape::point_columns plate = filled(mesh, known), film = filled(mesh, known, smoothness::membrane);
   // The cap that is missing is 2 high.
   CHECK((plate.colwise().norm().array() - 10.0).abs().maxCoeff() < 0.3);
   CHECK(film.colwise().norm().minCoeff() < 8.5);
 }
 
 TEST_CASE("an end of a tube is continued by its slope") {
-  gonio::triangle_mesh cone = tube_mesh(20, 30, 5.0);
+  gonio::shape::triangle_mesh cone = tube_mesh(20, 30, 5.0);
   for (auto vertex : cone.vertices.colwise()) vertex.head<2>() *= 1.0 - 0.02 * vertex.z();
   const double end = cone.vertices.row(2).maxCoeff();
   const auto known = known_but(cone.vertices, [&](const auto& point) { return point.z() > end - 3.0; });
@@ -108,13 +108,13 @@ TEST_CASE("an end of a tube is continued by its slope") {
 TEST_CASE("no other filling bends less, and known vertices stay") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
-    gonio::triangle_mesh mesh = sphere_mesh(1);
+    gonio::shape::triangle_mesh mesh = sphere_mesh(1);
     for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.3);
     std::vector<bool> known;
     for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) known.push_back(generator() % 3 != 0);
     known[5] = true;
-    const gonio::point_columns best = filled(mesh, known);
-    gonio::point_columns other = best;
+    const gonio::shape::point_columns best = filled(mesh, known);
+    gonio::shape::point_columns other = best;
     for (std::size_t v = 0; v < known.size(); ++v) {
       const auto column = static_cast<Eigen::Index>(v);
       if (known[v]) RC_ASSERT(best.col(column) == mesh.vertices.col(column));
@@ -125,9 +125,9 @@ TEST_CASE("no other filling bends less, and known vertices stay") {
 }
 
 TEST_CASE("each vertex of a membrane is in the middle of its neighbours") {
-  const gonio::triangle_mesh mesh = sphere_mesh(2);
+  const gonio::shape::triangle_mesh mesh = sphere_mesh(2);
   const auto known = known_but(mesh.vertices, [](const auto& point) { return point.z() > 0.3; });
-  const gonio::point_columns film = filled(mesh, known, smoothness::membrane);
+  const gonio::shape::point_columns film = filled(mesh, known, smoothness::membrane);
   const mesh_topology topology(mesh);
   for (Eigen::Index v = 0; v < film.cols(); ++v) {
     if (known[static_cast<std::size_t>(v)]) continue;
@@ -138,12 +138,12 @@ TEST_CASE("each vertex of a membrane is in the middle of its neighbours") {
 }
 
 TEST_CASE("where all is known nothing changes") {
-  const gonio::triangle_mesh mesh = tetrahedron();
+  const gonio::shape::triangle_mesh mesh = tetrahedron();
   CHECK(filled(mesh, std::vector<bool>(4, true)) == mesh.vertices);
 }
 
 TEST_CASE("what cannot be filled in is refused") {
-  const gonio::triangle_mesh mesh = tetrahedron();
+  const gonio::shape::triangle_mesh mesh = tetrahedron();
   const mesh_topology topology(mesh);
   const std::vector<bool> known{true, false, true, true};
   CHECK_THROWS_WITH_AS(static_cast<void>(fill_smoothly(topology, mesh.vertices.leftCols(3), known)),
@@ -152,14 +152,14 @@ TEST_CASE("what cannot be filled in is refused") {
                        "a mesh of 4 vertices has 4 points and 2 marks of known ones", gonio::error);
   CHECK_THROWS_WITH_AS(static_cast<void>(fill_smoothly(topology, mesh.vertices, std::vector<bool>(4, false))),
                        doctest::Contains("no vertex is known"), gonio::error);
-  gonio::point_columns broken = mesh.vertices;
+  gonio::shape::point_columns broken = mesh.vertices;
   broken(0, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(static_cast<void>(fill_smoothly(topology, broken, known)),
                        "the position of known vertex 2 is not finite", gonio::error);
 }
 
 TEST_CASE("a part of the mesh without known vertices is refused, and a known one of no triangle is no help") {
-  const gonio::triangle_mesh mesh =
+  const gonio::shape::triangle_mesh mesh =
       mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {9, 9, 9}}, {{0, 1, 2}, {3, 4, 5}});
   for (const smoothness kind : {smoothness::membrane, smoothness::thin_plate})
     CHECK_THROWS_WITH_AS(static_cast<void>(filled(mesh, {true, true, false, false, false, false, true}, kind)),
@@ -168,7 +168,7 @@ TEST_CASE("a part of the mesh without known vertices is refused, and a known one
 
 TEST_CASE("a thin plate that may still turn is refused") {
   for (int around = 8; around < 20; ++around) {
-    const gonio::triangle_mesh mesh = tube_mesh(9, around);
+    const gonio::shape::triangle_mesh mesh = tube_mesh(9, around);
     const double middle = mesh.vertices.row(2).mean();
     const auto known = known_but(mesh.vertices, [&](const auto& point) { return std::abs(point.z() - middle) > 1e-9; });
     REQUIRE(std::ranges::count(known, true) == around);

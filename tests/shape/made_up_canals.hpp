@@ -26,7 +26,7 @@ inline canal_traits made_up_traits(std::uint64_t seed) {
 
 /// 25 mm high along the y axis and open at both ends: `rings` rings of `around` vertices, numbered as those of
 /// `tube_mesh`.
-inline gonio::triangle_mesh canal_mesh(int rings, int around, const canal_traits& traits = {}) {
+inline gonio::shape::triangle_mesh canal_mesh(int rings, int around, const canal_traits& traits = {}) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
   const auto& [bend, twist, width, flare, dimple, length] = traits;

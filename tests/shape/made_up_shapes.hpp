@@ -11,8 +11,8 @@
 
 /// `count` shapes of `vertices` vertices about a mean of size 10, whose changes have `directions` directions of falling
 /// size and a hundredth of it besides.
-inline std::vector<gonio::point_columns> made_up_shapes(Eigen::Index vertices, std::size_t count,
-                                                        Eigen::Index directions, std::uint64_t seed) {
+inline std::vector<gonio::shape::point_columns> made_up_shapes(Eigen::Index vertices, std::size_t count,
+                                                               Eigen::Index directions, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
@@ -23,7 +23,7 @@ inline std::vector<gonio::point_columns> made_up_shapes(Eigen::Index vertices, s
   const Eigen::VectorXd mean = 10.0 * numbers(3 * vertices, 1);
   Eigen::MatrixXd changes = numbers(3 * vertices, directions);
   for (Eigen::Index j = 0; j < directions; ++j) changes.col(j) /= 1.0 + static_cast<double>(j);
-  std::vector<gonio::point_columns> shapes;
+  std::vector<gonio::shape::point_columns> shapes;
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::VectorXd common = changes * numbers(directions, 1), own = 0.01 * numbers(3 * vertices, 1);
     const Eigen::VectorXd shape = mean + common + own;
@@ -39,6 +39,7 @@ inline std::vector<std::string> made_up_names(std::size_t count) {
 }
 
 /// Of such shapes, all components.
-inline gonio::shape_basis made_up_basis(const std::vector<gonio::point_columns>& shapes) {
-  return gonio::learn_pca(gonio::shape_set::of(shapes, made_up_names(shapes.size())), gonio::lin{}, shapes.size());
+inline gonio::shape::shape_basis made_up_basis(const std::vector<gonio::shape::point_columns>& shapes) {
+  return gonio::learn_pca(gonio::shape::shape_set::of(shapes, made_up_names(shapes.size())), gonio::lin{},
+                          shapes.size());
 }

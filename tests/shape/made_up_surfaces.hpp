@@ -23,25 +23,25 @@ inline Eigen::Vector3d made_up_point(std::mt19937_64& generator, double half_siz
   return point;
 }
 
-inline gonio::triangle_mesh mesh_of(const std::vector<Eigen::Vector3d>& vertices,
-                                    const std::vector<Eigen::Vector3i>& triangles) {
-  gonio::triangle_mesh mesh{gonio::point_columns(3, static_cast<Eigen::Index>(vertices.size())),
-                            gonio::triangle_columns(3, static_cast<Eigen::Index>(triangles.size()))};
+inline gonio::shape::triangle_mesh mesh_of(const std::vector<Eigen::Vector3d>& vertices,
+                                           const std::vector<Eigen::Vector3i>& triangles) {
+  gonio::shape::triangle_mesh mesh{gonio::shape::point_columns(3, static_cast<Eigen::Index>(vertices.size())),
+                                   gonio::shape::triangle_columns(3, static_cast<Eigen::Index>(triangles.size()))};
   for (std::size_t v = 0; v < vertices.size(); ++v) mesh.vertices.col(static_cast<Eigen::Index>(v)) = vertices[v];
   for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
   return mesh;
 }
 
 /// The corners (0, 0, 0), (1, 0, 0), (0, 1, 0) and (0, 0, 1), and the triangle opposite to each, outwards.
-inline gonio::triangle_mesh tetrahedron() {
+inline gonio::shape::triangle_mesh tetrahedron() {
   return mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}});
 }
 
 /// A part of the plane z = 0, seen from above: vertex row * columns + column is at (width * column + shift * row,
 /// height * row, 0), and each cell is cut from its first corner to the opposite one. A shift of -width/2 and a height
 /// of sqrt(3)/2 width make all triangles equilateral.
-inline gonio::triangle_mesh flat_grid(int rows, int columns, double width = 1.0, double height = 1.0,
-                                      double shift = 0.0) {
+inline gonio::shape::triangle_mesh flat_grid(int rows, int columns, double width = 1.0, double height = 1.0,
+                                             double shift = 0.0) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
   for (int row = 0; row < rows; ++row)
@@ -57,7 +57,7 @@ inline gonio::triangle_mesh flat_grid(int rows, int columns, double width = 1.0,
 
 /// An icosahedron whose triangles were cut into four `times` times and put on a sphere about zero: 20 * 4^times
 /// triangles.
-inline gonio::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
+inline gonio::shape::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
   const double golden = std::numbers::phi;
   std::vector<Eigen::Vector3d> vertices{{-1, golden, 0}, {1, golden, 0}, {-1, -golden, 0}, {1, -golden, 0},
                                         {0, -1, golden}, {0, 1, golden}, {0, -1, -golden}, {0, 1, -golden},
@@ -83,14 +83,14 @@ inline gonio::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
     }
     triangles = std::move(finer);
   }
-  gonio::triangle_mesh mesh = mesh_of(vertices, triangles);
-  mesh.vertices = radius * gonio::unit_columns(mesh.vertices);
+  gonio::shape::triangle_mesh mesh = mesh_of(vertices, triangles);
+  mesh.vertices = radius * gonio::shape::unit_columns(mesh.vertices);
   return mesh;
 }
 
 /// The open wall of a cylinder about the z axis, seen from outside: `rings` rings of `around` vertices, each turned
 /// by half a step from the one below, near-equilateral. Vertex i of a ring is ring * around + i.
-inline gonio::triangle_mesh tube_mesh(int rings, int around, double radius = 1.0) {
+inline gonio::shape::triangle_mesh tube_mesh(int rings, int around, double radius = 1.0) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> triangles;
   const double step = 2.0 * std::numbers::pi / around, rise = std::sqrt(0.75) * 2.0 * radius * std::sin(step / 2.0);

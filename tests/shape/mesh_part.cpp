@@ -9,33 +9,33 @@
 #include <iostream>  // rapidcheck.h does not include what it uses
 
 TEST_CASE("a part has the marked triangles, each vertex once") {
-  const gonio::triangle_mesh mesh = flat_grid(3, 4);
+  const gonio::shape::triangle_mesh mesh = flat_grid(3, 4);
   std::vector<bool> marked(12, true);
-  CHECK(gonio::part_of(mesh, marked).vertices.cols() == 12);
-  CHECK(gonio::part_of(mesh, marked).triangles.cols() == 12);
+  CHECK(gonio::shape::part_of(mesh, marked).vertices.cols() == 12);
+  CHECK(gonio::shape::part_of(mesh, marked).triangles.cols() == 12);
   marked[0] = false;  // a corner of two triangles
-  const gonio::triangle_mesh part = gonio::part_of(mesh, marked);
+  const gonio::shape::triangle_mesh part = gonio::shape::part_of(mesh, marked);
   CHECK(part.triangles.cols() == 10);
   CHECK(part.vertices.cols() == 11);
-  const gonio::point_columns areas = gonio::area_normals(part);
+  const gonio::shape::point_columns areas = gonio::shape::area_normals(part);
   for (Eigen::Index t = 0; t < areas.cols(); ++t) CHECK(areas(2, t) == doctest::Approx(1.0));
 }
 
 TEST_CASE("what would touch in one vertex only is parted there") {
-  const gonio::triangle_mesh mesh = flat_grid(3, 3);
+  const gonio::shape::triangle_mesh mesh = flat_grid(3, 3);
   // Vertices 2 and 6 are the corners off the diagonal: without 1, 3, 5 and 7 nothing but the middle would be left.
   std::vector<bool> marked(9, true);
   marked[2] = marked[6] = marked[1] = marked[5] = false;
-  const gonio::triangle_mesh one = gonio::part_of(mesh, marked);
-  CHECK_NOTHROW((void)gonio::mesh_topology(one));
+  const gonio::shape::triangle_mesh one = gonio::shape::part_of(mesh, marked);
+  CHECK_NOTHROW((void)gonio::shape::mesh_topology(one));
   marked.assign(9, true);
   marked[1] = marked[5] = marked[3] = marked[7] = false;
-  CHECK_THROWS_WITH_AS((void)gonio::part_of(mesh, marked),
+  CHECK_THROWS_WITH_AS((void)gonio::shape::part_of(mesh, marked),
                        "no triangle has three marked corners: nothing of the surface is left", gonio::error);
 }
 
 TEST_CASE("any part of a surface is a surface, with the triangles of the whole") {
-  const gonio::triangle_mesh sphere = sphere_mesh(2);
+  const gonio::shape::triangle_mesh sphere = sphere_mesh(2);
   const auto vertices = static_cast<std::size_t>(sphere.vertices.cols());
   CHECK(rc::check([&] {
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
@@ -50,8 +50,8 @@ TEST_CASE("any part of a surface is a surface, with the triangles of the whole")
         kept.push_back(t);
     }
     RC_PRE(!kept.empty());
-    const gonio::triangle_mesh part = gonio::part_of(sphere, marked);
-    (void)gonio::mesh_topology(part);  // throws unless it is a surface
+    const gonio::shape::triangle_mesh part = gonio::shape::part_of(sphere, marked);
+    (void)gonio::shape::mesh_topology(part);  // throws unless it is a surface
     RC_ASSERT(part.triangles.cols() == static_cast<Eigen::Index>(kept.size()));
     for (Eigen::Index t = 0; t < part.triangles.cols(); ++t)
       RC_ASSERT(part.corners(t) == sphere.corners(kept[static_cast<std::size_t>(t)]));
@@ -59,6 +59,6 @@ TEST_CASE("any part of a surface is a surface, with the triangles of the whole")
 }
 
 TEST_CASE("a part of another number of marks is refused") {
-  CHECK_THROWS_WITH_AS((void)gonio::part_of(tetrahedron(), {true}), "1 marks for the 4 vertices of a mesh",
+  CHECK_THROWS_WITH_AS((void)gonio::shape::part_of(tetrahedron(), {true}), "1 marks for the 4 vertices of a mesh",
                        gonio::error);
 }

@@ -7,7 +7,7 @@ namespace {
 
 /// A square in z = 0 that is seen from above, and one behind it in another colour.
 struct two_squares {
-  gonio::triangle_mesh mesh;
+  gonio::shape::triangle_mesh mesh;
   std::vector<gonio::rgb> colours;
 
   two_squares() {
@@ -30,26 +30,26 @@ bool shows(const gonio::image& picture, std::size_t row, std::size_t column, con
 
 TEST_CASE("what is near hides what is behind, from either side") {
   const two_squares scene;
-  gonio::mesh_view view;
+  gonio::shape::mesh_view view;
   view.radius = 4.0;
   view.pixels = 80;  // ten to a unit
-  const gonio::image from_above = gonio::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image from_above = gonio::shape::picture_of(scene.mesh, scene.colours, view);
   CHECK(shows(from_above, 40, 40, {1, 0, 0}));
   CHECK(shows(from_above, 31, 48, {1, 0, 0}));
   CHECK(shows(from_above, 28, 40, {0, 0, 1}));
   CHECK(shows(from_above, 21, 58, {0, 0, 1}));
   CHECK(shows(from_above, 18, 40, {1, 1, 1}));
   view.towards = gonio::rgb(0, 0, 1).matrix();
-  const gonio::image from_below = gonio::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image from_below = gonio::shape::picture_of(scene.mesh, scene.colours, view);
   CHECK(shows(from_below, 40, 40, gonio::rgb(0, 0, 0.3)));  // the inside
 }
 
 TEST_CASE("no pixel is left out between two triangles") {
   const two_squares scene;
-  gonio::mesh_view view;
+  gonio::shape::mesh_view view;
   view.radius = 2.7;
   view.pixels = 173;
-  const gonio::image picture = gonio::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image picture = gonio::shape::picture_of(scene.mesh, scene.colours, view);
   std::size_t red = 0, blue = 0;
   for (std::size_t row = 0; row < 173; ++row)
     for (std::size_t column = 0; column < 173; ++column) {
@@ -63,16 +63,16 @@ TEST_CASE("no pixel is left out between two triangles") {
 
 TEST_CASE("a view of a mesh holds it all") {
   const two_squares scene;
-  const gonio::mesh_view view = gonio::mesh_view::of(scene.mesh, {0, 0, -1});
+  const gonio::shape::mesh_view view = gonio::shape::mesh_view::of(scene.mesh, {0, 0, -1});
   CHECK(view.centre.z() == -0.5);
   CHECK((scene.mesh.vertices.colwise() - view.centre).colwise().norm().maxCoeff() < view.radius);
 }
 
 TEST_CASE("pictures that cannot be are refused") {
   const two_squares scene;
-  CHECK_THROWS_WITH_AS(gonio::picture_of(scene.mesh, std::span(scene.colours).first(3), {}),
+  CHECK_THROWS_WITH_AS(gonio::shape::picture_of(scene.mesh, std::span(scene.colours).first(3), {}),
                        "a picture of 8 vertices is given 3 colours", gonio::error);
-  gonio::mesh_view view;
+  gonio::shape::mesh_view view;
   view.towards = view.up;
-  CHECK_THROWS_AS(gonio::picture_of(scene.mesh, scene.colours, view), gonio::error);
+  CHECK_THROWS_AS(gonio::shape::picture_of(scene.mesh, scene.colours, view), gonio::error);
 }

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-using gonio::mesh_topology;
+using gonio::shape::mesh_topology;
 
 namespace {
 
@@ -28,7 +28,7 @@ std::vector<Eigen::Index> border_of(const mesh_topology& topology) {
 }
 
 /// Closed fans of the given sizes about vertex 0, each closed below by another vertex: spindles.
-gonio::triangle_mesh spindles_touching(const std::vector<int>& sizes) {
+gonio::shape::triangle_mesh spindles_touching(const std::vector<int>& sizes) {
   std::vector<Eigen::Vector3d> vertices{{0, 0, 0}};
   std::vector<Eigen::Vector3i> triangles;
   for (const int size : sizes) {
@@ -61,7 +61,7 @@ TEST_CASE("the neighbours of a grid's vertices are those that edges join, ascend
 }
 
 TEST_CASE("neighbours are those of the triangles' sides, both ways, on any surface") {
-  for (const gonio::triangle_mesh& mesh : {sphere_mesh(2), tube_mesh(5, 7), flat_grid(4, 6), tetrahedron()}) {
+  for (const gonio::shape::triangle_mesh& mesh : {sphere_mesh(2), tube_mesh(5, 7), flat_grid(4, 6), tetrahedron()}) {
     std::vector<std::set<int>> expected(static_cast<std::size_t>(mesh.vertices.cols()));
     for (const auto& corners : mesh.triangles.colwise())
       for (const int from : corners)
@@ -90,7 +90,7 @@ TEST_CASE("a vertex of no triangle is on the border and has no neighbours") {
 
 TEST_CASE("a mesh without triangles is refused, and so is a vertex that is not finite") {
   CHECK_THROWS_WITH_AS(topology_of({}, 7), "a mesh of 7 vertices has no triangles", gonio::error);
-  gonio::triangle_mesh mesh = tetrahedron();
+  gonio::shape::triangle_mesh mesh = tetrahedron();
   mesh.vertices(1, 2) = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH_AS(mesh_topology{mesh}, "vertex 2 of a mesh is not finite", gonio::error);
   mesh.vertices(1, 2) = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ TEST_CASE("an edge of three triangles is refused") {
 }
 
 TEST_CASE("a triangle that is turned over is refused") {
-  gonio::triangle_mesh mesh = sphere_mesh(1);
+  gonio::shape::triangle_mesh mesh = sphere_mesh(1);
   std::swap(mesh.triangles(0, 11), mesh.triangles(1, 11));
   CHECK_THROWS_WITH_AS(mesh_topology{mesh}, doctest::Contains("in the same direction"), gonio::error);
 }
@@ -132,7 +132,7 @@ TEST_CASE("closed fans that touch in a vertex are refused") {
 }
 
 TEST_CASE("an open and a closed fan that touch in a vertex are refused") {
-  const gonio::triangle_mesh closed = spindles_touching({4});
+  const gonio::shape::triangle_mesh closed = spindles_touching({4});
   std::vector<Eigen::Vector3i> triangles;
   for (const auto& corners : closed.triangles.colwise()) triangles.emplace_back(corners);
   triangles.emplace_back(0, 6, 7);

@@ -11,23 +11,25 @@ namespace {
 /// A scan with a hole, and how far from the truth what was recovered there is.
 struct recovered_hole {
   lab::ear_scan scan;
-  gonio::surface_index index, complete;
-  gonio::similarity_transform pose;
+  gonio::shape::surface_index index, complete;
+  gonio::shape::similarity_transform pose;
   std::vector<Eigen::Index> hole;
 
   recovered_hole(const small_ears& ears, std::uint64_t seed)
       : scan(ears.scan(seed, small_ears::with_hole())),
         index(scan.mesh),
         complete(scan.complete),
-        pose(gonio::align(scan.truth, ears.model.mean().vertices)) {
+        pose(gonio::shape::align(scan.truth, ears.model.mean().vertices)) {
     for (std::size_t v = 0; v < scan.covered.size(); ++v)
       if (!scan.covered[v] && ears.common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
         hole.push_back(static_cast<Eigen::Index>(v));
   }
 
-  [[nodiscard]] double off(const gonio::point_columns& vertices, const gonio::similarity_transform& to_model) const {
-    const gonio::point_columns recovered = to_model.inverse()(gonio::point_columns(vertices(Eigen::all, hole)));
-    return gonio::distance_to(complete, recovered).absolute_mean;
+  [[nodiscard]] double off(const gonio::shape::point_columns& vertices,
+                           const gonio::shape::similarity_transform& to_model) const {
+    const gonio::shape::point_columns recovered =
+        to_model.inverse()(gonio::shape::point_columns(vertices(Eigen::all, hole)));
+    return gonio::shape::distance_to(complete, recovered).absolute_mean;
   }
 };
 
@@ -38,15 +40,15 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
   double ours = 0.0, thin_plate = 0.0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const recovered_hole judge(ears, seed);
-    const gonio::recovered_shape found = gonio::recover(ears.model, judge.index, judge.pose);
+    const gonio::shape::recovered_shape found = gonio::shape::recover(ears.model, judge.index, judge.pose);
     ours += judge.off(found.surface.vertices, found.pose);
-    gonio::point_columns shown = found.surface.vertices;
+    gonio::shape::point_columns shown = found.surface.vertices;
     shown(Eigen::all, found.known.vertices) = found.known.positions;
-    const auto known = gonio::marks_of(found.known, ears.model.vertices());
-    thin_plate += judge.off(gonio::fill_smoothly(ears.model.topology(), shown, known), found.pose);
+    const auto known = gonio::shape::marks_of(found.known, ears.model.vertices());
+    thin_plate += judge.off(gonio::shape::fill_smoothly(ears.model.topology(), shown, known), found.pose);
     // Where nothing is known less is sure across the surface; along it little is anywhere.
-    const gonio::shape_uncertainty uncertainty = found.fit.uncertainty();
-    const gonio::point_columns normals = gonio::vertex_normals(found.surface);
+    const gonio::shape::shape_uncertainty uncertainty = found.fit.uncertainty();
+    const gonio::shape::point_columns normals = gonio::shape::vertex_normals(found.surface);
     double in_hole = 0.0, elsewhere = 0.0;
     for (Eigen::Index v = 0; v < normals.cols(); ++v)
       (judge.scan.covered[static_cast<std::size_t>(v)] ? elsewhere : in_hole) +=
@@ -63,9 +65,9 @@ TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
   const recovered_hole judge(ears, 1);
   const double spread = judge.off(ears.model.mean().vertices, judge.pose);
   for (const int local_rounds : {0, 2}) {
-    gonio::published_recovery_options options;
+    gonio::shape::published_recovery_options options;
     options.local_rounds = local_rounds;
-    const auto found = gonio::recover_as_published(ears.model, judge.index, judge.pose, options);
+    const auto found = gonio::shape::recover_as_published(ears.model, judge.index, judge.pose, options);
     CHECK(judge.off(found.surface.vertices, found.pose) < spread);
     CHECK(found.known.vertices.size() < 500);
     CHECK(found.known.vertices.size() > 350);
@@ -73,10 +75,11 @@ TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
 }
 
 TEST_CASE("the explained variance rises from the first to the last round and holds") {
-  const gonio::published_recovery_options options;
-  CHECK(gonio::detail::explained_variance_in(0, options) == 0.30);
-  CHECK(gonio::detail::explained_variance_in(9, options) == 0.999);
-  CHECK(gonio::detail::explained_variance_in(5, options) > gonio::detail::explained_variance_in(4, options));
+  const gonio::shape::published_recovery_options options;
+  CHECK(gonio::shape::detail::explained_variance_in(0, options) == 0.30);
+  CHECK(gonio::shape::detail::explained_variance_in(9, options) == 0.999);
+  CHECK(gonio::shape::detail::explained_variance_in(5, options) >
+        gonio::shape::detail::explained_variance_in(4, options));
 }
 
 TEST_CASE("a scan that shows all comes back less noisy") {
@@ -85,11 +88,12 @@ TEST_CASE("a scan that shows all comes back less noisy") {
   noisy.noise = 0.15;
   noisy.cut = 0.0;
   const lab::ear_scan scan = ears.scan(4, noisy);
-  const auto found =
-      gonio::recover(ears.model, gonio::surface_index(scan.mesh), gonio::align(scan.truth, ears.model.mean().vertices));
-  const gonio::surface_index complete(scan.complete);
-  const double noise = gonio::distance_to(complete, scan.mesh.vertices).root_mean_square;
-  const double left = gonio::distance_to(complete, found.pose.inverse()(found.surface.vertices)).root_mean_square;
+  const auto found = gonio::shape::recover(ears.model, gonio::shape::surface_index(scan.mesh),
+                                           gonio::shape::align(scan.truth, ears.model.mean().vertices));
+  const gonio::shape::surface_index complete(scan.complete);
+  const double noise = gonio::shape::distance_to(complete, scan.mesh.vertices).root_mean_square;
+  const double left =
+      gonio::shape::distance_to(complete, found.pose.inverse()(found.surface.vertices)).root_mean_square;
   CHECK(noise == doctest::Approx(0.15).epsilon(0.1));
   CHECK(left < noise);
 }
@@ -97,13 +101,13 @@ TEST_CASE("a scan that shows all comes back less noisy") {
 TEST_CASE("a scan far outside the family is refused by its Mahalanobis distance") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan ear = ears.scan(5);
-  const auto pose = gonio::align(ear.truth, ears.model.mean().vertices);
+  const auto pose = gonio::shape::align(ear.truth, ears.model.mean().vertices);
   const Eigen::Vector3d middle = ear.mesh.vertices.rowwise().mean();
   for (const Eigen::Vector3d& stretched : {Eigen::Vector3d(1.3, 1.3, 1.3), Eigen::Vector3d(1.4, 0.7, 1.0),
                                            Eigen::Vector3d(0.6, 1.3, 1.3), Eigen::Vector3d(0.7, 0.7, 0.7)}) {
-    gonio::triangle_mesh scan = ear.mesh;
+    gonio::shape::triangle_mesh scan = ear.mesh;
     scan.vertices = (stretched.asDiagonal() * (ear.mesh.vertices.colwise() - middle)).colwise() + middle;
-    CHECK_THROWS_WITH_AS(gonio::recover(ears.model, gonio::surface_index(scan), pose),
+    CHECK_THROWS_WITH_AS(gonio::shape::recover(ears.model, gonio::shape::surface_index(scan), pose),
                          doctest::Contains("the scan is not of the model's family: its Mahalanobis distance"),
                          gonio::error);
   }

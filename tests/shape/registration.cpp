@@ -8,23 +8,23 @@
 TEST_CASE("a registered scan is a shape of the model's vertices on the scan") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(7);
-  const gonio::surface_index index(scan.mesh);
-  const auto pose = gonio::align(scan.truth, ears.model.mean().vertices);
-  const gonio::registration found = gonio::register_scan(ears.model, index, pose);
+  const gonio::shape::surface_index index(scan.mesh);
+  const auto pose = gonio::shape::align(scan.truth, ears.model.mean().vertices);
+  const gonio::shape::registration found = gonio::shape::register_scan(ears.model, index, pose);
   CHECK_MESSAGE(found.accepted(), found.refusal);
-  CHECK(gonio::distance_to(index, found.pose.inverse()(found.vertices)).absolute_mean < 0.05);
+  CHECK(gonio::shape::distance_to(index, found.pose.inverse()(found.vertices)).absolute_mean < 0.05);
   CHECK((found.vertices - found.pose(scan.truth)).colwise().norm().mean() < 1.5);
 }
 
 TEST_CASE("each test of a registration refuses by a sentence") {
   const small_ears& ears = small_ears::of_sixty();
   const lab::ear_scan scan = ears.scan(7, small_ears::with_hole());
-  const gonio::surface_index index(scan.mesh);
-  const auto pose = gonio::align(scan.truth, ears.model.mean().vertices);
-  const auto refusal = [&](const gonio::registration_options& options) {
-    return gonio::register_scan(ears.model, index, pose, options).refusal;
+  const gonio::shape::surface_index index(scan.mesh);
+  const auto pose = gonio::shape::align(scan.truth, ears.model.mean().vertices);
+  const auto refusal = [&](const gonio::shape::registration_options& options) {
+    return gonio::shape::register_scan(ears.model, index, pose, options).refusal;
   };
-  gonio::registration_options options;
+  gonio::shape::registration_options options;
   options.most_missing = 0.05;
   CHECK(refusal(options).starts_with("it does not show"));
   options.most_missing = 1.0;
@@ -39,19 +39,20 @@ TEST_CASE("each test of a registration refuses by a sentence") {
 }
 
 TEST_CASE("the smallest angles of triangles") {
-  gonio::triangle_mesh mesh;
+  gonio::shape::triangle_mesh mesh;
   mesh.vertices.resize(3, 4);
   mesh.vertices << 0, 1, 0, 1, 0, 0, 1, 3, 0, 0, 0, 0;
   mesh.triangles.resize(3, 2);
   mesh.triangles << 0, 1, 1, 3, 2, 2;
-  CHECK(gonio::smallest_angle_percentile(mesh, 1.0) == doctest::Approx(45.0));
-  CHECK(gonio::smallest_angle_percentile(mesh, 0.0) < 30.0);
+  CHECK(gonio::shape::smallest_angle_percentile(mesh, 1.0) == doctest::Approx(45.0));
+  CHECK(gonio::shape::smallest_angle_percentile(mesh, 0.0) < 30.0);
 }
 
 TEST_CASE("averaging over neighbours keeps a border in its place") {
   const small_ears ears(12);
-  const gonio::triangle_mesh mean = ears.model.mean();
-  const gonio::point_columns smooth = gonio::averaged_over_neighbours(ears.model.topology(), mean.vertices);
+  const gonio::shape::triangle_mesh mean = ears.model.mean();
+  const gonio::shape::point_columns smooth =
+      gonio::shape::averaged_over_neighbours(ears.model.topology(), mean.vertices);
   double rim = 0.0;
   for (Eigen::Index v = 0; v < ears.model.vertices(); ++v)
     if (ears.model.topology().on_border(v)) rim = std::max(rim, (smooth - mean.vertices).col(v).norm());

@@ -7,12 +7,12 @@
 
 TEST_CASE("the components of shapes are the eigenvectors of their covariance (Eq. 1)") {
   const auto shapes = made_up_shapes(6, 9, 4, 1);
-  const gonio::shape_basis basis = made_up_basis(shapes);
+  const gonio::shape::shape_basis basis = made_up_basis(shapes);
   Eigen::MatrixXd x(18, 9);
   for (Eigen::Index i = 0; i < 9; ++i) x.col(i) = shapes[static_cast<std::size_t>(i)].reshaped();
   const Eigen::VectorXd mean = x.rowwise().mean();
   x.colwise() -= mean;
-  CHECK((gonio::mean_shape(basis).reshaped() - mean).cwiseAbs().maxCoeff() < 1e-5);
+  CHECK((gonio::shape::mean_shape(basis).reshaped() - mean).cwiseAbs().maxCoeff() < 1e-5);
   const auto eigen = dense_reference::symmetric_eigen(x * x.transpose() / 9.0);
   REQUIRE(basis.size() == 8);  // the mean costs one
   for (Eigen::Index i = 0; i < 8; ++i)
@@ -22,66 +22,67 @@ TEST_CASE("the components of shapes are the eigenvectors of their covariance (Eq
 
 TEST_CASE("the weights of a shape that was learned from expand to it") {
   const auto shapes = made_up_shapes(7, 5, 3, 2);
-  const gonio::shape_basis basis = made_up_basis(shapes);
+  const gonio::shape::shape_basis basis = made_up_basis(shapes);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Eigen::MatrixXd weights = basis.weights_of(i);
     REQUIRE(weights.cols() == 1);
-    CHECK((gonio::shape_of(basis, weights.col(0)) - shapes[i]).cwiseAbs().maxCoeff() < 2e-5);
+    CHECK((gonio::shape::shape_of(basis, weights.col(0)) - shapes[i]).cwiseAbs().maxCoeff() < 2e-5);
   }
 }
 
 TEST_CASE("weights of the shapes learned from have the covariance I / m, so their squared distances have the mean k") {
-  const gonio::shape_basis basis = made_up_basis(made_up_shapes(20, 30, 10, 3));
+  const gonio::shape::shape_basis basis = made_up_basis(made_up_shapes(20, 30, 10, 3));
   double sum = 0.0;
-  for (std::size_t i = 0; i < 30; ++i) sum += gonio::squared_mahalanobis(basis, basis.weights_of(i).col(0));
+  for (std::size_t i = 0; i < 30; ++i) sum += gonio::shape::squared_mahalanobis(basis, basis.weights_of(i).col(0));
   CHECK(sum / 30.0 == doctest::Approx(static_cast<double>(basis.size())).epsilon(1e-4));
 }
 
 TEST_CASE("a share of the variance keeps the fewest components that have it") {
-  const gonio::shape_basis basis = made_up_basis(made_up_shapes(20, 30, 10, 4));
+  const gonio::shape::shape_basis basis = made_up_basis(made_up_shapes(20, 30, 10, 4));
   const Eigen::VectorXd squares = basis.singular_values().cwiseAbs2();
-  const gonio::shape_basis most = gonio::explaining(basis, 0.9);
+  const gonio::shape::shape_basis most = gonio::shape::explaining(basis, 0.9);
   const auto kept = static_cast<Eigen::Index>(most.size());
   CHECK(squares.head(kept).sum() >= 0.9 * squares.sum());
   CHECK(squares.head(kept - 1).sum() < 0.9 * squares.sum());
-  CHECK(gonio::explaining(basis, 1.0).size() == basis.size());
-  CHECK_THROWS_WITH_AS(gonio::explaining(basis, 0.0),
+  CHECK(gonio::shape::explaining(basis, 1.0).size() == basis.size());
+  CHECK_THROWS_WITH_AS(gonio::shape::explaining(basis, 0.0),
                        "the explained variance must be above 0 and at most 1, not 0.000000", gonio::error);
 }
 
 TEST_CASE("the last functions of a basis with motion turn and shift a shape") {
-  const gonio::shape_basis basis = made_up_basis(made_up_shapes(8, 6, 3, 6));
+  const gonio::shape::shape_basis basis = made_up_basis(made_up_shapes(8, 6, 3, 6));
   const double freedom = 100.0;
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.size()) + 6);
   weights.head(basis.size()) = basis.weights_of(4).col(0).cast<double>();
-  const gonio::point_columns shape = gonio::shape_of(basis, weights.head(basis.size()));
-  const gonio::shape_basis moving = gonio::with_motion(basis, shape, freedom);
+  const gonio::shape::point_columns shape = gonio::shape::shape_of(basis, weights.head(basis.size()));
+  const gonio::shape::shape_basis moving = gonio::shape::with_motion(basis, shape, freedom);
   REQUIRE(moving.size() == basis.size() + 6);
   const Eigen::Vector3d centroid = shape.rowwise().mean(), turn(0.01, -0.02, 0.03), shift(1.0, 2.0, -3.0);
   weights.tail<6>() << turn / freedom, shift / freedom;
-  gonio::point_columns expected = shape.colwise() + shift;
+  gonio::shape::point_columns expected = shape.colwise() + shift;
   for (Eigen::Index v = 0; v < shape.cols(); ++v) expected.col(v) += turn.cross(shape.col(v) - centroid);
-  CHECK((gonio::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
-  CHECK_THROWS_WITH_AS((void)gonio::with_motion(basis, shape.leftCols(3)),
+  CHECK((gonio::shape::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
+  CHECK_THROWS_WITH_AS((void)gonio::shape::with_motion(basis, shape.leftCols(3)),
                        "a shape of 3 vertices is to move with a basis of 8", gonio::error);
   // They are no shapes that were learned from.
-  CHECK((gonio::shape_of(moving, moving.weights_of(2).col(0)) - gonio::shape_of(basis, basis.weights_of(2).col(0)))
+  CHECK((gonio::shape::shape_of(moving, moving.weights_of(2).col(0)) -
+         gonio::shape::shape_of(basis, basis.weights_of(2).col(0)))
             .cwiseAbs()
             .maxCoeff() < 1e-6);
 }
 
 TEST_CASE("shapes that do not belong together are refused") {
   auto shapes = made_up_shapes(4, 3, 2, 5);
-  CHECK_THROWS_WITH_AS(gonio::shape_set::of(shapes, made_up_names(2)), doctest::Contains("3 shapes and 2 names"),
+  CHECK_THROWS_WITH_AS(gonio::shape::shape_set::of(shapes, made_up_names(2)), doctest::Contains("3 shapes and 2 names"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(gonio::shape_set::of({}, {}), doctest::Contains("0 shapes"), gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::shape::shape_set::of({}, {}), doctest::Contains("0 shapes"), gonio::error);
   shapes[1].conservativeResize(3, 3);
-  CHECK_THROWS_WITH_AS(gonio::shape_set::of(shapes, made_up_names(3)),
+  CHECK_THROWS_WITH_AS(gonio::shape::shape_set::of(shapes, made_up_names(3)),
                        "shape 'shape-1' has 3 vertices, expected 4 as 'shape-0' has", gonio::error);
   shapes = made_up_shapes(4, 3, 2, 5);
   shapes[2](1, 1) = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THROWS_WITH_AS(gonio::shape_set::of(shapes, made_up_names(3)),
+  CHECK_THROWS_WITH_AS(gonio::shape::shape_set::of(shapes, made_up_names(3)),
                        "shape 'shape-2' has a vertex that is not finite", gonio::error);
-  const auto same = std::vector<gonio::point_columns>(3, made_up_shapes(4, 1, 2, 5)[0]);
+  const auto same = std::vector<gonio::shape::point_columns>(3, made_up_shapes(4, 1, 2, 5)[0]);
   CHECK_THROWS_AS(made_up_basis(same), gonio::error);
 }

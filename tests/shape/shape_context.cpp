@@ -13,10 +13,10 @@
 #include <limits>
 #include <set>
 
-using gonio::describe;
-using gonio::shape_context_options;
-using gonio::spread_vertices;
-using gonio::triangle_mesh;
+using gonio::shape::describe;
+using gonio::shape::shape_context_options;
+using gonio::shape::spread_vertices;
+using gonio::shape::triangle_mesh;
 
 namespace {
 
@@ -34,7 +34,7 @@ double chi_square_between(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
   return sum;
 }
 
-gonio::shape_descriptors with_histograms(const Eigen::MatrixXf& histograms) {
+gonio::shape::shape_descriptors with_histograms(const Eigen::MatrixXf& histograms) {
   return {std::vector<Eigen::Index>(static_cast<std::size_t>(histograms.cols()), 0), histograms};
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("a frame is right-handed, with the normal third and the vertical in th
     const Eigen::Vector3d normal = made_up_point(generator, 1.0).normalized();
     const double inclination = gonio::angle_between(normal, options.vertical);
     const bool expected = std::min(inclination, std::numbers::pi - inclination) > options.least_inclination;
-    const auto frame = gonio::context_frame(normal, options);
+    const auto frame = gonio::shape::context_frame(normal, options);
     RC_ASSERT(frame.has_value() == expected);
     if (!frame) return;
     RC_ASSERT((frame->transpose() * *frame - Eigen::Matrix3d::Identity()).norm() < 1e-12);
@@ -57,16 +57,16 @@ TEST_CASE("a frame is right-handed, with the normal third and the vertical in th
     RC_ASSERT(frame->col(0).dot(options.vertical) > 0.0);
     RC_ASSERT(std::abs(frame->col(1).dot(options.vertical)) < 1e-12);
   }));
-  CHECK_FALSE(gonio::context_frame(Eigen::Vector3d::Zero(), {}).has_value());
+  CHECK_FALSE(gonio::shape::context_frame(Eigen::Vector3d::Zero(), {}).has_value());
 }
 
 TEST_CASE("the bins of places around a point") {
   const shape_context_options options;  // 8 x 13 x 4 within 10
   const auto bin = [&](double r, double theta, double phi) {
     const double across = r * std::sin(gonio::radians(theta));
-    return gonio::context_bin({across * std::cos(gonio::radians(phi)), across * std::sin(gonio::radians(phi)),
-                               r * std::cos(gonio::radians(theta))},
-                              options);
+    return gonio::shape::context_bin({across * std::cos(gonio::radians(phi)), across * std::sin(gonio::radians(phi)),
+                                      r * std::cos(gonio::radians(theta))},
+                                     options);
   };
   CHECK(options.bins() == 416);
   CHECK(bin(0.1, 1.0, -135.0) == 0);
@@ -77,8 +77,8 @@ TEST_CASE("the bins of places around a point") {
   CHECK(bin(0.1, 179.0, 45.0) == 12 * 4 + 2);
   CHECK(bin(1.3, 1.0, 45.0) == 52 + 2);
   CHECK(bin(10.0, 179.9, 179.9) == 415);  // the last one has its far end
-  CHECK(gonio::context_bin({0.0, 0.0, 10.0}, options) == 7 * 52 + 2);
-  CHECK(gonio::context_bin({0.0, 0.0, -10.0}, options) == 7 * 52 + 12 * 4 + 2);
+  CHECK(gonio::shape::context_bin({0.0, 0.0, 10.0}, options) == 7 * 52 + 2);
+  CHECK(gonio::shape::context_bin({0.0, 0.0, -10.0}, options) == 7 * 52 + 12 * 4 + 2);
 }
 
 TEST_CASE("a descriptor is the area around a point by hand") {
@@ -144,7 +144,7 @@ TEST_CASE("points without a frame or without surroundings are left out, others k
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
   const auto found = describe(sphere, all);
   std::vector<Eigen::Index> expected;
-  const gonio::point_columns normals = gonio::vertex_normals(sphere);
+  const gonio::shape::point_columns normals = gonio::shape::vertex_normals(sphere);
   for (const Eigen::Index v : all)
     if (std::abs(normals(1, v)) <= std::cos(gonio::radians(10))) expected.push_back(v);
   CHECK(found.vertex == expected);
@@ -171,7 +171,7 @@ TEST_CASE("spread vertices are each the farthest from those before") {
   Eigen::Index first = 0;
   (canal.vertices.colwise() - centroid).colwise().norm().maxCoeff(&first);
   CHECK(chosen[0] == first);
-  const gonio::point_columns places = canal.vertices(Eigen::all, chosen);
+  const gonio::shape::point_columns places = canal.vertices(Eigen::all, chosen);
   for (Eigen::Index i = 1; i < 60; ++i) {
     const auto nearest = [&](const Eigen::Vector3d& place) {
       return (places.leftCols(i).colwise() - place).colwise().norm().minCoeff();
@@ -197,7 +197,7 @@ TEST_CASE("costs are chi-square distances") {
   Eigen::MatrixXf a(3, 2), b(3, 3);
   a << 1.0F, 0.5F, 0.0F, 0.5F, 0.0F, 0.0F;
   b << 1.0F, 0.0F, 0.5F, 0.0F, 0.0F, 0.25F, 0.0F, 1.0F, 0.25F;
-  const Eigen::MatrixXd costs = gonio::chi_square_costs(with_histograms(a), with_histograms(b));
+  const Eigen::MatrixXd costs = gonio::shape::chi_square_costs(with_histograms(a), with_histograms(b));
   REQUIRE(costs.rows() == 2);
   REQUIRE(costs.cols() == 3);
   CHECK(costs(0, 0) == 0.0);
@@ -206,13 +206,13 @@ TEST_CASE("costs are chi-square distances") {
   CHECK(costs(1, 2) == doctest::Approx(0.5 * (0.0625 / 0.75 + 0.25)));
   const triangle_mesh canal = canal_mesh(20, 17), other = canal_mesh(22, 16, made_up_traits(3));
   const auto first = describe(canal, spread_vertices(canal, 30)), second = describe(other, spread_vertices(other, 35));
-  const Eigen::MatrixXd all = gonio::chi_square_costs(first, second, {1});
-  CHECK(gonio::chi_square_costs(first, second, {4}) == all);
+  const Eigen::MatrixXd all = gonio::shape::chi_square_costs(first, second, {1});
+  CHECK(gonio::shape::chi_square_costs(first, second, {4}) == all);
   for (Eigen::Index i = 0; i < all.rows(); ++i)
     for (Eigen::Index j = 0; j < all.cols(); ++j)
       CHECK(all(i, j) ==
             doctest::Approx(chi_square_between(first.histograms.col(i), second.histograms.col(j))).epsilon(1e-5));
-  CHECK_THROWS_WITH_AS((void)gonio::chi_square_costs(with_histograms(a), first),
+  CHECK_THROWS_WITH_AS((void)gonio::shape::chi_square_costs(with_histograms(a), first),
                        "descriptors of 3 and 416 bins cannot be compared", gonio::error);
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
   const triangle_mesh canal = canal_mesh(30, 26);
   const auto few = describe(canal, spread_vertices(canal, 40)), many = describe(canal, spread_vertices(canal, 60));
   for (const auto& [from, onto] : {std::pair(&few, &many), std::pair(&many, &few), std::pair(&few, &few)}) {
-    const auto matches = gonio::match(*from, *onto);
+    const auto matches = gonio::shape::match(*from, *onto);
     CHECK(matches.size() == std::min(from->vertex.size(), onto->vertex.size()));
     for (const auto& [own, other, cost] : matches) {
       CHECK(from->vertex[static_cast<std::size_t>(own)] == onto->vertex[static_cast<std::size_t>(other)]);
@@ -229,8 +229,8 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
   }
   // The most alike first.
   const triangle_mesh other = canal_mesh(30, 26, made_up_traits(4));
-  const auto matches = gonio::match(describe(other, spread_vertices(other, 50)), many);
-  CHECK(std::ranges::is_sorted(matches, {}, &gonio::shape_match::cost));
+  const auto matches = gonio::shape::match(describe(other, spread_vertices(other, 50)), many);
+  CHECK(std::ranges::is_sorted(matches, {}, &gonio::shape::shape_match::cost));
   CHECK(matches.front().cost > 0.0);
 }
 
@@ -266,5 +266,5 @@ TEST_CASE("what cannot be described is refused") {
   refused_mesh(broken, "names a vertex that is not among its 90");
   broken.triangles(1, 3) = -1;
   refused_mesh(broken, "names a vertex");
-  refused_mesh({canal.vertices, gonio::triangle_columns(3, 0)}, "no triangles");
+  refused_mesh({canal.vertices, gonio::shape::triangle_columns(3, 0)}, "no triangles");
 }

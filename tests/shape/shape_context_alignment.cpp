@@ -10,11 +10,11 @@
 #include <functional>
 #include <limits>
 
-using gonio::pre_alignment;
-using gonio::shape_context_alignment_options;
-using gonio::shape_context_matcher;
-using gonio::similarity_transform;
-using gonio::triangle_mesh;
+using gonio::shape::pre_alignment;
+using gonio::shape::shape_context_alignment_options;
+using gonio::shape::shape_context_matcher;
+using gonio::shape::similarity_transform;
+using gonio::shape::triangle_mesh;
 
 namespace {
 
@@ -36,7 +36,7 @@ double turn_between(const similarity_transform& a, const similarity_transform& b
 
 /// Without the triangles near a place.
 triangle_mesh with_hole(const triangle_mesh& mesh, const Eigen::Vector3d& place, double radius) {
-  triangle_mesh left{mesh.vertices, gonio::triangle_columns(3, mesh.triangles.cols())};
+  triangle_mesh left{mesh.vertices, gonio::shape::triangle_columns(3, mesh.triangles.cols())};
   Eigen::Index kept = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if ((mesh.corners(t).rowwise().mean() - place).norm() > radius) left.triangles.col(kept++) = mesh.triangles.col(t);
@@ -79,7 +79,7 @@ TEST_CASE("individuals, otherwise triangulated and in any pose, are brought near
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const similarity_transform pose = platform_pose(seed);
     const triangle_mesh scan = posed(canal_mesh(45, 29, made_up_traits(seed)), pose);
-    const similarity_transform truth = gonio::align(pose(individual_canal(seed).vertices), model.vertices);
+    const similarity_transform truth = gonio::shape::align(pose(individual_canal(seed).vertices), model.vertices);
     const pre_alignment found = matcher.align(scan);
     CHECK(turn_between(found.transform, truth) < 12.0);
     CHECK((found.transform(scan.vertices) - truth(scan.vertices)).colwise().norm().mean() < 2.5);
@@ -89,9 +89,9 @@ TEST_CASE("individuals, otherwise triangulated and in any pose, are brought near
 
 TEST_CASE("the mean distances are those of closest vertices") {
   const triangle_mesh model = canal_mesh(20, 17), scan = posed(canal_mesh(17, 21, made_up_traits(5)), platform_pose(5));
-  const pre_alignment found = gonio::align_by_shape_context(scan, model, quick_options());
-  const gonio::point_columns aligned = found.transform(scan.vertices);
-  const auto expected = [](const gonio::point_columns& from, const gonio::point_columns& onto) {
+  const pre_alignment found = gonio::shape::align_by_shape_context(scan, model, quick_options());
+  const gonio::shape::point_columns aligned = found.transform(scan.vertices);
+  const auto expected = [](const gonio::shape::point_columns& from, const gonio::shape::point_columns& onto) {
     double sum = 0.0;
     for (const auto& point : from.colwise()) sum += (onto.colwise() - point).colwise().norm().minCoeff();
     return sum / static_cast<double>(from.cols());
@@ -102,7 +102,7 @@ TEST_CASE("the mean distances are those of closest vertices") {
   triangle_mesh strayed = scan;
   strayed.vertices.conservativeResize(3, scan.vertices.cols() + 1);
   strayed.vertices.rightCols<1>() = found.transform.inverse()(model.vertices.col(7));
-  CHECK(gonio::align_by_shape_context(strayed, model, quick_options()).mean_distance ==
+  CHECK(gonio::shape::align_by_shape_context(strayed, model, quick_options()).mean_distance ==
         doctest::Approx(found.mean_distance));
 }
 
@@ -115,7 +115,8 @@ TEST_CASE("a large hole matters little, and less than to plain least squares") {
   double robust_error = 0.0, plain_error = 0.0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     const triangle_mesh whole = individual_canal(seed);
-    const similarity_transform pose = platform_pose(seed), truth = gonio::align(pose(whole.vertices), model.vertices);
+    const similarity_transform pose = platform_pose(seed),
+                               truth = gonio::shape::align(pose(whole.vertices), model.vertices);
     const Eigen::Index at = static_cast<Eigen::Index>(seed) * 137;
     const triangle_mesh scan = posed(with_hole(whole, whole.vertices.col(at), 8.0), pose);
     const pre_alignment found = robust_matcher.align(scan);
@@ -133,9 +134,9 @@ TEST_CASE("an infinite tolerance is the paper's least squares over the most sign
   const triangle_mesh model = canal_mesh(canal_rings, canal_sectors), scan = individual_canal(9);
   shape_context_alignment_options options = quick_options();
   options.tolerance = std::numeric_limits<double>::infinity();
-  const auto from = gonio::describe(scan, gonio::spread_vertices(scan, 120)),
-             onto = gonio::describe(model, gonio::spread_vertices(model, 120));
-  const auto matches = gonio::match(from, onto);
+  const auto from = gonio::shape::describe(scan, gonio::shape::spread_vertices(scan, 120)),
+             onto = gonio::shape::describe(model, gonio::shape::spread_vertices(model, 120));
+  const auto matches = gonio::shape::match(from, onto);
   const auto count = static_cast<std::size_t>(std::lround(static_cast<double>(matches.size()) / 3.0));
   std::vector<Eigen::Index> ours, theirs;
   for (std::size_t i = 0; i < count; ++i) {
@@ -143,31 +144,31 @@ TEST_CASE("an infinite tolerance is the paper's least squares over the most sign
     theirs.push_back(onto.vertex[static_cast<std::size_t>(matches[i].onto)]);
   }
   const similarity_transform expected =
-      gonio::align(scan.vertices(Eigen::all, ours), model.vertices(Eigen::all, theirs));
-  const pre_alignment found = gonio::align_by_shape_context(scan, model, options);
+      gonio::shape::align(scan.vertices(Eigen::all, ours), model.vertices(Eigen::all, theirs));
+  const pre_alignment found = gonio::shape::align_by_shape_context(scan, model, options);
   CHECK(found.matches == count);
   CHECK((found.transform(scan.vertices) - expected(scan.vertices)).norm() < 1e-9);
 }
 
 TEST_CASE("wrong matches do not move the pose, if there are not too many") {
   std::mt19937_64 generator(4);
-  gonio::detail::matched_points points{gonio::point_columns(3, 90), {}};
+  gonio::shape::detail::matched_points points{gonio::shape::point_columns(3, 90), {}};
   for (auto point : points.from.colwise()) point = made_up_point(generator, 12.0);
   const similarity_transform pose = platform_pose(3);
   points.onto = pose(points.from);
   for (Eigen::Index i = 1; i < 90; i += 3) points.onto.col(i) = pose(made_up_point(generator, 12.0));
-  const auto [found, used] = gonio::detail::robust_pose(points, 30, 3.0);
+  const auto [found, used] = gonio::shape::detail::robust_pose(points, 30, 3.0);
   CHECK(turn_between(found, pose) < 1.5);
   CHECK(used >= 60);
   CHECK(used < 66);
-  CHECK(turn_between(gonio::detail::robust_pose(points, 30, std::numeric_limits<double>::infinity()).first, pose) >
-        3.0);
+  CHECK(turn_between(gonio::shape::detail::robust_pose(points, 30, std::numeric_limits<double>::infinity()).first,
+                     pose) > 3.0);
 }
 
 TEST_CASE("the same bytes for any number of threads") {
   const triangle_mesh model = canal_mesh(20, 17), scan = posed(canal_mesh(25, 20, made_up_traits(2)), platform_pose(2));
   const auto run = [&](unsigned threads) {
-    return gonio::align_by_shape_context(scan, model, quick_options(), {threads});
+    return gonio::shape::align_by_shape_context(scan, model, quick_options(), {threads});
   };
   const pre_alignment one = run(1), three = run(3);
   CHECK(one.transform.rotation == three.transform.rotation);

@@ -23,7 +23,7 @@ std::vector<Eigen::Index> every_other(Eigen::Index first, Eigen::Index vertices)
 TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
   const Eigen::Index vertices = 6;
   const auto shapes = made_up_shapes(vertices, 60, 5, 1);
-  const gonio::shape_basis basis = made_up_basis(shapes);
+  const gonio::shape::shape_basis basis = made_up_basis(shapes);
   REQUIRE(basis.size() == 18);
   const Eigen::MatrixXd q = basis.components().cast<double>();
   const Eigen::MatrixXd covariance = q * q.transpose() / 60.0;
@@ -32,10 +32,10 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
                         s22 = covariance(known_rows, known_rows);
   const Eigen::MatrixXd expected = s11 - s12 * dense_reference::inverse(s22) * s12.transpose();
 
-  const auto known = gonio::known_vertices::marked(shapes[0], {true, false, true, false, true, false});
+  const auto known = gonio::shape::known_vertices::marked(shapes[0], {true, false, true, false, true, false});
   const gonio::truncated_svd solver{1.0};
   const auto fit = gonio::decomposition{basis, solver}.fit(known);
-  const gonio::shape_uncertainty uncertainty(fit, known, solver);
+  const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::Matrix3d block = expected.block<3, 3>(3 * i, 3 * i);
     CHECK((uncertainty.as_published(2 * i + 1) - block).norm() < 1e-3 * block.norm());
@@ -47,11 +47,12 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
 
 TEST_CASE("by Tikhonov it is the posterior of the weights") {
   const auto shapes = made_up_shapes(8, 20, 5, 2);
-  const gonio::shape_basis basis = made_up_basis(shapes);
-  const auto known = gonio::known_vertices::marked(shapes[3], {true, false, true, false, true, false, true, false});
+  const gonio::shape::shape_basis basis = made_up_basis(shapes);
+  const auto known =
+      gonio::shape::known_vertices::marked(shapes[3], {true, false, true, false, true, false, true, false});
   const double eta = 0.5;
   const gonio::tikhonov solver{eta};
-  const gonio::shape_uncertainty uncertainty(gonio::decomposition{basis, solver}.fit(known), known, solver);
+  const gonio::shape::shape_uncertainty uncertainty(gonio::decomposition{basis, solver}.fit(known), known, solver);
   const Eigen::MatrixXd q2 = basis.components()(every_other(0, 8), Eigen::all).cast<double>();
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(k, k) + q2.transpose() * q2 / eta;
@@ -64,20 +65,20 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
 }
 
 TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of twenty, from few shapes, too") {
-  const double chi_square = gonio::chi_square_quantile(0.95, 3.0);
+  const double chi_square = gonio::shape::chi_square_quantile(0.95, 3.0);
   for (const std::size_t count : {std::size_t{30}, std::size_t{300}}) {
     std::size_t inside = 0, inside_as_published = 0, all = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Eigen::Index vertices = 30;
       const auto shapes = made_up_shapes(vertices, count + 20, 12, seed);
-      const gonio::shape_basis basis = made_up_basis({shapes.begin(), shapes.end() - 20});
+      const gonio::shape::shape_basis basis = made_up_basis({shapes.begin(), shapes.end() - 20});
       std::vector<bool> marks(30, true);
       for (std::size_t v = 10; v < 20; ++v) marks[v] = false;
       for (auto shape = shapes.end() - 20; shape != shapes.end(); ++shape) {
-        const auto known = gonio::known_vertices::marked(*shape, marks);
+        const auto known = gonio::shape::known_vertices::marked(*shape, marks);
         const gonio::truncated_svd solver{0.999};
         const auto fit = gonio::decomposition{basis, solver}.fit(known);
-        const gonio::shape_uncertainty uncertainty(fit, known, solver);
+        const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);
         for (Eigen::Index v = 10; v < 20; v += 3) {
           const Eigen::Vector3d off = fit.vertex(v) - shape->col(v);
           inside += off.dot(uncertainty.covariance(v).llt().solve(off)) <= uncertainty.squared_radius(0.95);

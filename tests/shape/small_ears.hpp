@@ -11,14 +11,14 @@
 struct small_ears {
   lab::ear_canal_family family;
   lab::ear_canal_template common{500};
-  std::vector<gonio::point_columns> shapes;
+  std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
-  gonio::shape_model model;
+  gonio::shape::shape_model model;
 
   explicit small_ears(std::size_t count = 60)
       : shapes(draw(count)),
         names(name(count)),
-        model(gonio::learn_shape_model(shapes, names, common.mesh().triangles)) {}
+        model(gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles)) {}
 
   /// Of one that the model has not seen.
   [[nodiscard]] lab::ear_scan scan(std::uint64_t seed, lab::scan_options how = {}) const {
@@ -39,8 +39,8 @@ struct small_ears {
   }
 
  private:
-  [[nodiscard]] std::vector<gonio::point_columns> draw(std::size_t count) const {
-    std::vector<gonio::point_columns> drawn;
+  [[nodiscard]] std::vector<gonio::shape::point_columns> draw(std::size_t count) const {
+    std::vector<gonio::shape::point_columns> drawn;
     for (std::size_t i = 0; i < count; ++i) drawn.push_back(common.corresponded(family.draw(i)));
     return drawn;
   }

@@ -14,8 +14,8 @@
 #include <optional>
 #include <vector>
 
-using gonio::surface_index;
-using gonio::surface_point;
+using gonio::shape::surface_index;
+using gonio::shape::surface_point;
 
 namespace {
 
@@ -34,7 +34,7 @@ Eigen::Vector3d closest_by_region(const Eigen::Matrix3d& corners, const Eigen::V
   return a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac;
 }
 
-double least_distance(const gonio::triangle_mesh& mesh, const Eigen::Vector3d& point) {
+double least_distance(const gonio::shape::triangle_mesh& mesh, const Eigen::Vector3d& point) {
   double least = std::numeric_limits<double>::infinity();
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     least = std::min(least, (closest_by_region(mesh.corners(t), point) - point).norm());
@@ -42,7 +42,7 @@ double least_distance(const gonio::triangle_mesh& mesh, const Eigen::Vector3d& p
 }
 
 /// The least distance along a line of unit direction at which it meets a triangle: by its plane, and the sides' planes.
-std::optional<double> least_along(const gonio::triangle_mesh& mesh, const Eigen::Vector3d& origin,
+std::optional<double> least_along(const gonio::shape::triangle_mesh& mesh, const Eigen::Vector3d& origin,
                                   const Eigen::Vector3d& unit) {
   std::optional<double> least;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
@@ -62,7 +62,7 @@ std::optional<double> least_along(const gonio::triangle_mesh& mesh, const Eigen:
 }
 
 /// Triangles of random shapes and places that do not touch: also slivers.
-gonio::triangle_mesh triangle_soup(std::mt19937_64& generator, int triangles) {
+gonio::shape::triangle_mesh triangle_soup(std::mt19937_64& generator, int triangles) {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> corners;
   for (int t = 0; t < triangles; ++t) {
@@ -74,7 +74,7 @@ gonio::triangle_mesh triangle_soup(std::mt19937_64& generator, int triangles) {
   return mesh_of(vertices, corners);
 }
 
-std::vector<gonio::triangle_mesh> various_surfaces(std::mt19937_64& generator) {
+std::vector<gonio::shape::triangle_mesh> various_surfaces(std::mt19937_64& generator) {
   return {sphere_mesh(2),
           tube_mesh(6, 9),
           flat_grid(5, 4, 0.3, 0.4),
@@ -83,7 +83,7 @@ std::vector<gonio::triangle_mesh> various_surfaces(std::mt19937_64& generator) {
           mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}})};
 }
 
-void check_consistent(const gonio::triangle_mesh& mesh, const surface_point& found) {
+void check_consistent(const gonio::shape::triangle_mesh& mesh, const surface_point& found) {
   CHECK(found.barycentric.minCoeff() >= 0.0);
   CHECK(std::abs(found.barycentric.sum() - 1.0) < 1e-14);
   CHECK((mesh.corners(found.triangle) * found.barycentric - found.position).norm() < 1e-14);
@@ -93,7 +93,7 @@ void check_consistent(const gonio::triangle_mesh& mesh, const surface_point& fou
 
 TEST_CASE("the closest point is that of all triangles") {
   std::mt19937_64 generator(1);
-  for (const gonio::triangle_mesh& mesh : various_surfaces(generator)) {
+  for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
     const surface_index surface(mesh);
     for (int i = 0; i < 300; ++i) {
       const Eigen::Vector3d point = made_up_point(generator, 3.0);
@@ -107,7 +107,7 @@ TEST_CASE("the closest point is that of all triangles") {
 
 TEST_CASE("points of a surface are their own closest points") {
   CHECK(rc::check([] {
-    const gonio::triangle_mesh mesh = sphere_mesh(1);
+    const gonio::shape::triangle_mesh mesh = sphere_mesh(1);
     const auto triangle = static_cast<Eigen::Index>(*rc::gen::inRange(0, 80));
     const double first = *rc::gen::inRange(0, 101) / 100.0;
     const double second = (1.0 - first) * *rc::gen::inRange(0, 101) / 100.0;
@@ -119,7 +119,7 @@ TEST_CASE("points of a surface are their own closest points") {
 TEST_CASE("a surface that is moved and grown has its closest points moved and grown") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
-    gonio::triangle_mesh mesh = tube_mesh(4, 6);
+    gonio::shape::triangle_mesh mesh = tube_mesh(4, 6);
     const Eigen::Vector3d point = made_up_point(generator, 3.0), shift = made_up_point(generator, 5.0);
     const Eigen::Vector3d axis = made_up_point(generator, 1.0) + Eigen::Vector3d(0.0, 0.0, 2.0);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(made_up_number(generator), axis.normalized()).toRotationMatrix();
@@ -132,7 +132,7 @@ TEST_CASE("a surface that is moved and grown has its closest points moved and gr
 }
 
 TEST_CASE("of triangles at the same distance, the one of the lowest number is told") {
-  const gonio::triangle_mesh mesh = sphere_mesh(2);
+  const gonio::shape::triangle_mesh mesh = sphere_mesh(2);
   const surface_index surface(mesh);
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
     const surface_point found = surface.closest(mesh.vertices.col(v));
@@ -159,7 +159,7 @@ TEST_CASE("triangles without area are searched as well") {
 TEST_CASE("a line's nearest intersection is that of all triangles") {
   std::mt19937_64 generator(2);
   int met = 0;
-  for (const gonio::triangle_mesh& mesh : various_surfaces(generator)) {
+  for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
     const surface_index surface(mesh);
     for (int i = 0; i < 300; ++i) {
       const Eigen::Vector3d origin = made_up_point(generator, 2.0);
@@ -199,7 +199,7 @@ TEST_CASE("lines along the axes meet what lies in planes across them, at both en
 }
 
 TEST_CASE("no line slips between triangles") {
-  const gonio::triangle_mesh mesh = sphere_mesh(2, 3.0);
+  const gonio::shape::triangle_mesh mesh = sphere_mesh(2, 3.0);
   const surface_index surface(mesh);
   for (const auto& corners : mesh.triangles.colwise())
     for (Eigen::Index side = 0; side < 3; ++side)
@@ -241,10 +241,10 @@ TEST_CASE("a closed surface has no border to be closest to") {
 
 TEST_CASE("distances are positive outside of a closed surface and negative inside, near edges and vertices too") {
   std::mt19937_64 generator(4);
-  for (const gonio::triangle_mesh& mesh : {tetrahedron(), sphere_mesh(0), sphere_mesh(2)}) {
+  for (const gonio::shape::triangle_mesh& mesh : {tetrahedron(), sphere_mesh(0), sphere_mesh(2)}) {
     const surface_index surface(mesh);
     const Eigen::Vector3d middle = mesh.vertices.rowwise().mean();
-    const gonio::point_columns normals = gonio::unit_columns(gonio::area_normals(mesh));
+    const gonio::shape::point_columns normals = gonio::shape::unit_columns(gonio::shape::area_normals(mesh));
     for (int i = 0; i < 1000; ++i) {
       // About an edge, from its middle to its end.
       const auto triangle = static_cast<Eigen::Index>(generator() % static_cast<std::uint64_t>(mesh.triangles.cols()));
@@ -267,9 +267,9 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
 TEST_CASE("the sign at a vertex is right where the mean normal by area has it wrong") {
   // A spike, with one triangle much larger than the two others.
   const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {100, 0, -200}, {-50, 86.6, -200}, {-0.5, -0.866, -2}};
-  const gonio::triangle_mesh spike = mesh_of(vertices, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
+  const gonio::shape::triangle_mesh spike = mesh_of(vertices, {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}});
   const surface_index surface(spike);
-  const gonio::point_columns means = gonio::vertex_normals(spike);
+  const gonio::shape::point_columns means = gonio::shape::vertex_normals(spike);
   std::mt19937_64 generator(5);
   int outside = 0, wrong_by_mean = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -299,9 +299,10 @@ TEST_CASE("pseudonormals are of the triangle, of the edge's two and of the verte
 TEST_CASE("many points are answered as one by one, by any number of threads") {
   std::mt19937_64 generator(6);
   const surface_index surface(sphere_mesh(2));
-  gonio::point_columns points(3, 1000);
+  gonio::shape::point_columns points(3, 1000);
   for (auto point : points.colwise()) point = made_up_point(generator, 2.0);
-  const auto one = gonio::closest_points(surface, points, {1}), three = gonio::closest_points(surface, points, {3});
+  const auto one = gonio::shape::closest_points(surface, points, {1}),
+             three = gonio::shape::closest_points(surface, points, {3});
   REQUIRE(one.size() == 1000);
   REQUIRE(three.size() == 1000);
   for (std::size_t i = 0; i < 1000; ++i) {
@@ -310,7 +311,7 @@ TEST_CASE("many points are answered as one by one, by any number of threads") {
     CHECK((one[i].triangle == single.triangle && three[i].triangle == single.triangle));
     CHECK((one[i].distance == single.distance && three[i].distance == single.distance));
   }
-  CHECK(gonio::closest_points(surface, gonio::point_columns(3, 0)).empty());
+  CHECK(gonio::shape::closest_points(surface, gonio::shape::point_columns(3, 0)).empty());
 }
 
 TEST_CASE("a copy of an index outlives it and shares its mesh") {
@@ -323,7 +324,7 @@ TEST_CASE("a copy of an index outlives it and shares its mesh") {
 }
 
 TEST_CASE("a mesh that is no surface is refused, and so are queries that are not finite") {
-  CHECK_THROWS_AS(surface_index(gonio::triangle_mesh{}), gonio::error);
+  CHECK_THROWS_AS(surface_index(gonio::shape::triangle_mesh{}), gonio::error);
   CHECK_THROWS_AS(surface_index(mesh_of({{0, 0, 0}}, {{0, 1, 2}})), gonio::error);
   const surface_index surface(tetrahedron());
   const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();

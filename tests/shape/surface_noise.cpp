@@ -8,33 +8,33 @@
 namespace {
 
 /// Uniform noise of a standard deviation along the normals.
-gonio::triangle_mesh with_noise(gonio::triangle_mesh mesh, double deviation, std::uint64_t seed) {
+gonio::shape::triangle_mesh with_noise(gonio::shape::triangle_mesh mesh, double deviation, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
-  const gonio::point_columns normals = gonio::vertex_normals(mesh);
+  const gonio::shape::point_columns normals = gonio::shape::vertex_normals(mesh);
   for (Eigen::Index v = 0; v < normals.cols(); ++v)
     mesh.vertices.col(v) += deviation * std::sqrt(12.0) * (made_up_number(generator) - 0.5) * normals.col(v);
   return mesh;
 }
 
-double root_mean_noise(const gonio::triangle_mesh& mesh) {
-  return std::sqrt(gonio::noise_variances(mesh, gonio::mesh_topology(mesh)).mean());
+double root_mean_noise(const gonio::shape::triangle_mesh& mesh) {
+  return std::sqrt(gonio::shape::noise_variances(mesh, gonio::shape::mesh_topology(mesh)).mean());
 }
 
 }  // namespace
 
 TEST_CASE("the noise of a curved surface is told without its curvature") {
-  const gonio::triangle_mesh smooth = sphere_mesh(4, 5.0);
+  const gonio::shape::triangle_mesh smooth = sphere_mesh(4, 5.0);
   CHECK(root_mean_noise(smooth) < 0.002);
   for (const double deviation : {0.02, 0.05, 0.1})
     CHECK(root_mean_noise(with_noise(smooth, deviation, 1)) == doctest::Approx(deviation).epsilon(0.1));
 }
 
 TEST_CASE("noise is told where it is") {
-  gonio::triangle_mesh mesh = flat_grid(30, 40);
-  const gonio::triangle_mesh noisy = with_noise(mesh, 0.1, 2);
+  gonio::shape::triangle_mesh mesh = flat_grid(30, 40);
+  const gonio::shape::triangle_mesh noisy = with_noise(mesh, 0.1, 2);
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v)
     if (mesh.vertices(0, v) >= 20.0) mesh.vertices.col(v) = noisy.vertices.col(v);
-  const Eigen::RowVectorXd variances = gonio::noise_variances(mesh, gonio::mesh_topology(mesh));
+  const Eigen::RowVectorXd variances = gonio::shape::noise_variances(mesh, gonio::shape::mesh_topology(mesh));
   double rough = 0.0;
   Eigen::Index count = 0;
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
@@ -47,9 +47,9 @@ TEST_CASE("noise is told where it is") {
 }
 
 TEST_CASE("means over neighbours keep the border of a plane on the border") {
-  const gonio::triangle_mesh mesh = flat_grid(5, 6);
-  const gonio::mesh_topology topology(mesh);
-  const gonio::point_columns means = gonio::averaged_over_neighbours(topology, mesh.vertices);
+  const gonio::shape::triangle_mesh mesh = flat_grid(5, 6);
+  const gonio::shape::mesh_topology topology(mesh);
+  const gonio::shape::point_columns means = gonio::shape::averaged_over_neighbours(topology, mesh.vertices);
   for (Eigen::Index v = 0; v < means.cols(); ++v) {
     CHECK(means(2, v) == 0.0);
     if (mesh.vertices(1, v) == 0.0) CHECK(means(1, v) <= 1.0 / 3.0);

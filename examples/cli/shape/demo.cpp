@@ -41,8 +41,8 @@ struct shape_demo_command {
 /// A way to recover, and how far what it put into a hole is from the truth.
 struct judged_surface {
   std::string name;
-  gonio::point_columns vertices;  ///< in the scan's space
-  gonio::surface_distance hole;
+  gonio::shape::point_columns vertices;  ///< in the scan's space
+  gonio::shape::surface_distance hole;
 };
 
 /// All ways, and how sure ours says that it is.
@@ -52,16 +52,16 @@ struct judged_ear {
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
-gonio::shape_model learn_ear_canals(const lab::ear_canal_template& common, const shape_demo_command& options) {
+gonio::shape::shape_model learn_ear_canals(const lab::ear_canal_template& common, const shape_demo_command& options) {
   const lab::ear_canal_family family;
-  std::vector<gonio::point_columns> shapes;
+  std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   lab::number_source seeds(options.seed);
   for (std::size_t i = 0; i < options.shapes; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("ear-" + std::to_string(i + 1));
   }
-  return gonio::learn_shape_model(shapes, names, common.mesh().triangles, options.threads);
+  return gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles, options.threads);
 }
 
 lab::ear_scan scan_held_out(const lab::ear_canal_template& common, const shape_demo_command& options, std::size_t i) {
@@ -84,8 +84,9 @@ std::vector<Eigen::Index> hole_of(const lab::ear_canal_template& common, const l
 }
 
 /// The share of vertices whose true place is in the 95 % ellipsoid about where they were recovered.
-double share_inside(const gonio::cross_validated_uncertainty& uncertainty, const gonio::recovered_shape& ours,
-                    const gonio::point_columns& truth, const std::vector<Eigen::Index>& vertices) {
+double share_inside(const gonio::shape::cross_validated_uncertainty& uncertainty,
+                    const gonio::shape::recovered_shape& ours, const gonio::shape::point_columns& truth,
+                    const std::vector<Eigen::Index>& vertices) {
   const double radius = uncertainty.squared_radius(0.95);
   const auto inside = std::ranges::count_if(vertices, [&](Eigen::Index vertex) {
     const Eigen::Vector3d off = ours.surface.vertices.col(vertex) - ours.pose(truth.col(vertex));
@@ -95,30 +96,31 @@ double share_inside(const gonio::cross_validated_uncertainty& uncertainty, const
 }
 
 /// The ways to recover a scan, judged where it has its hole.
-judged_ear judge_ear(const gonio::shape_model& model, const lab::ear_canal_template& common, const lab::ear_scan& scan,
-                     const shape_demo_command& options) {
-  const gonio::surface_index index(scan.mesh), complete(scan.complete);
-  const gonio::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
+judged_ear judge_ear(const gonio::shape::shape_model& model, const lab::ear_canal_template& common,
+                     const lab::ear_scan& scan, const shape_demo_command& options) {
+  const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
+  const gonio::shape::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
   const std::vector<Eigen::Index> hole = hole_of(common, scan);
   judged_ear judged;
   judged.missing = hole.size();
-  const auto judge = [&](std::string name, const gonio::point_columns& vertices, const auto& to_model) {
-    gonio::point_columns placed = to_model.inverse()(vertices);
-    const gonio::point_columns recovered = placed(Eigen::all, hole);
+  const auto judge = [&](std::string name, const gonio::shape::point_columns& vertices, const auto& to_model) {
+    gonio::shape::point_columns placed = to_model.inverse()(vertices);
+    const gonio::shape::point_columns recovered = placed(Eigen::all, hole);
     judged.ways.push_back(
-        {std::move(name), std::move(placed), gonio::distance_to(complete, recovered, options.threads)});
+        {std::move(name), std::move(placed), gonio::shape::distance_to(complete, recovered, options.threads)});
   };
-  const gonio::recovered_shape ours = gonio::recover(model, index, pose, {}, options.threads);
-  gonio::point_columns shown = ours.surface.vertices;
+  const gonio::shape::recovered_shape ours = gonio::shape::recover(model, index, pose, {}, options.threads);
+  gonio::shape::point_columns shown = ours.surface.vertices;
   shown(Eigen::all, ours.known.vertices) = ours.known.positions;
-  judge("thin plate", gonio::fill_smoothly(model.topology(), shown, gonio::marks_of(ours.known, model.vertices())),
+  judge("thin plate",
+        gonio::shape::fill_smoothly(model.topology(), shown, gonio::shape::marks_of(ours.known, model.vertices())),
         ours.pose);
-  gonio::published_recovery_options published;
+  gonio::shape::published_recovery_options published;
   published.local_rounds = 0;
-  const auto at_once = gonio::recover_as_published(model, index, pose, published, options.threads);
+  const auto at_once = gonio::shape::recover_as_published(model, index, pose, published, options.threads);
   judge("Algorithm 1", at_once.surface.vertices, at_once.pose);
   published.local_rounds = 3;
-  const auto locally = gonio::recover_as_published(model, index, pose, published, options.threads);
+  const auto locally = gonio::shape::recover_as_published(model, index, pose, published, options.threads);
   judge("+ local smoothing", locally.surface.vertices, locally.pose);
   judge("gonio", ours.surface.vertices, ours.pose);
   if (options.trials > 0)
@@ -172,21 +174,21 @@ json json_of(const judged_ear& ear) {
 }
 
 /// The scan beside what the ways made of it.
-gonio::image demo_picture(const gonio::shape_model& model, const lab::ear_scan& scan,
+gonio::image demo_picture(const gonio::shape::shape_model& model, const lab::ear_scan& scan,
                           const std::vector<judged_surface>& ways) {
-  const auto upright = [&](gonio::point_columns vertices) {
-    return gonio::point_columns(scan.placement.inverse() * vertices);
+  const auto upright = [&](gonio::shape::point_columns vertices) {
+    return gonio::shape::point_columns(scan.placement.inverse() * vertices);
   };
-  const gonio::surface_index complete(scan.complete);
+  const gonio::shape::surface_index complete(scan.complete);
   std::vector<gonio::image> row{shape_picture({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, 0.5)};
   for (const judged_surface& way : ways)
     row.push_back(
-        shape_picture(model.mesh(upright(way.vertices)), gonio::signed_distances(complete, way.vertices), 0.5));
-  return gonio::side_by_side(row, 4);
+        shape_picture(model.mesh(upright(way.vertices)), gonio::shape::signed_distances(complete, way.vertices), 0.5));
+  return gonio::render::side_by_side(row, 4);
 }
 
-void write_example(const std::filesystem::path& folder, const gonio::shape_model& model, const lab::ear_scan& scan,
-                   const std::vector<judged_surface>& ways) {
+void write_example(const std::filesystem::path& folder, const gonio::shape::shape_model& model,
+                   const lab::ear_scan& scan, const std::vector<judged_surface>& ways) {
   gonio::io::write_shape_model(folder / "ears.shapes", model);
   gonio::io::write_mesh(folder / "scan.ply", scan.mesh);
   gonio::io::write_mesh(folder / "truth.ply", scan.complete);
@@ -196,7 +198,7 @@ void write_example(const std::filesystem::path& folder, const gonio::shape_model
 void show_shapes(const shape_demo_command& options) {
   if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
   const lab::ear_canal_template common;
-  const gonio::shape_model model = learn_ear_canals(common, options);
+  const gonio::shape::shape_model model = learn_ear_canals(common, options);
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
   std::vector<judged_ear> ears;
@@ -217,7 +219,7 @@ void show_shapes(const shape_demo_command& options) {
   else
     print_means(ears);
   if (rows.empty()) return;
-  gonio::io::write_png(options.folder / "recovered.png", gonio::stacked(rows, 4));
+  gonio::io::write_png(options.folder / "recovered.png", gonio::render::stacked(rows, 4));
   if (!options.as_json)
     std::cout << "In " << options.folder.string()
               << ": recovered.png (scan, then each way, coloured by the distance from the truth: -0.5 mm is blue, 0 "

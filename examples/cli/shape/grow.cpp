@@ -23,7 +23,7 @@ struct shape_grow_command {
   double defects = 0.1;
   std::uint64_t seed = 77;
   double wrong = 2.5;
-  gonio::bootstrap_options how;
+  gonio::shape::bootstrap_options how;
   bool as_json = false;
   gonio::thread_count threads;
 };
@@ -45,7 +45,7 @@ struct judged_bootstrap {
 };
 
 judged_bootstrap judge_bootstrap(const std::vector<lab::ear_scan>& truths,
-                                 const std::vector<gonio::bootstrap_outcome>& outcomes) {
+                                 const std::vector<gonio::shape::bootstrap_outcome>& outcomes) {
   judged_bootstrap judged;
   for (std::size_t i = 0; i < truths.size(); ++i) {
     const bool good = truths[i].defect == lab::scan_defect::none;
@@ -56,7 +56,7 @@ judged_bootstrap judge_bootstrap(const std::vector<lab::ear_scan>& truths,
     }
     ++(good ? judged.accepted_good : judged.accepted_defective);
     if (!good) continue;
-    const gonio::registration& found = *outcomes[i].registered;
+    const gonio::shape::registration& found = *outcomes[i].registered;
     judged.off.push_back((found.vertices - found.pose(truths[i].truth)).colwise().norm().mean());
   }
   std::ranges::sort(judged.off);
@@ -90,19 +90,19 @@ void grow_shapes(const shape_grow_command& options) {
   const lab::ear_canal_template common;
   const lab::ear_canal_family family;
   lab::number_source seeds(options.seed);
-  std::vector<gonio::point_columns> shapes;
+  std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < options.annotated; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("annotated-" + std::to_string(i + 1));
   }
   const auto truths = lab::population(family, common, options.scans, seeds.seed(), options.defects);
-  std::vector<gonio::named_scan> scans;
+  std::vector<gonio::shape::named_scan> scans;
   for (const lab::ear_scan& one : truths) scans.push_back({"scan-" + std::to_string(scans.size() + 1), one.mesh});
   progress_bar bar;
-  const auto grown = gonio::bootstrap_shape_model(std::move(shapes), std::move(names), common.mesh().triangles, scans,
-                                                  options.how, options.threads,
-                                                  [&](std::string_view stage, double done) { bar.draw(stage, done); });
+  const auto grown = gonio::shape::bootstrap_shape_model(
+      std::move(shapes), std::move(names), common.mesh().triangles, scans, options.how, options.threads,
+      [&](std::string_view stage, double done) { bar.draw(stage, done); });
   bar.wipe();
   const judged_bootstrap judged = judge_bootstrap(truths, grown.outcomes);
   if (options.as_json)

@@ -21,11 +21,11 @@ struct shape_learn_command {
 };
 
 /// The vertices of meshes that have the triangles of the first.
-std::vector<gonio::point_columns> read_corresponded(const std::vector<std::filesystem::path>& files,
-                                                    gonio::triangle_columns& triangles) {
-  std::vector<gonio::point_columns> shapes;
+std::vector<gonio::shape::point_columns> read_corresponded(const std::vector<std::filesystem::path>& files,
+                                                           gonio::shape::triangle_columns& triangles) {
+  std::vector<gonio::shape::point_columns> shapes;
   for (const auto& file : files) {
-    gonio::triangle_mesh mesh = gonio::io::read_mesh(file);
+    gonio::shape::triangle_mesh mesh = gonio::io::read_mesh(file);
     if (shapes.empty()) triangles = mesh.triangles;
     const bool same = mesh.triangles.cols() == triangles.cols() && mesh.triangles == triangles;
     if (!same || (!shapes.empty() && mesh.vertices.cols() != shapes[0].cols()))
@@ -37,23 +37,23 @@ std::vector<gonio::point_columns> read_corresponded(const std::vector<std::files
 }
 
 void learn_shapes(const shape_learn_command& options) {
-  gonio::triangle_columns triangles;
+  gonio::shape::triangle_columns triangles;
   std::vector<std::string> names;
   for (const auto& file : options.shapes) names.push_back(file.stem().string());
-  std::vector<gonio::point_columns> shapes = read_corresponded(options.shapes, triangles);
+  std::vector<gonio::shape::point_columns> shapes = read_corresponded(options.shapes, triangles);
   if (options.scans.empty()) {
-    const auto model = gonio::learn_shape_model(shapes, names, triangles, options.threads);
+    const auto model = gonio::shape::learn_shape_model(shapes, names, triangles, options.threads);
     gonio::io::write_shape_model(options.output, model);
     std::cout << model.shapes() << " shapes of " << model.vertices() << " vertices; "
               << model.explaining(0.99).basis().size() << " components explain 99 %\n";
     return;
   }
-  std::vector<gonio::named_scan> scans;
+  std::vector<gonio::shape::named_scan> scans;
   for (const auto& file : options.scans) scans.push_back({file.stem().string(), gonio::io::read_mesh(file)});
   progress_bar bar;
-  const auto grown = gonio::bootstrap_shape_model(std::move(shapes), std::move(names), std::move(triangles), scans, {},
-                                                  options.threads,
-                                                  [&](std::string_view stage, double done) { bar.draw(stage, done); });
+  const auto grown = gonio::shape::bootstrap_shape_model(
+      std::move(shapes), std::move(names), std::move(triangles), scans, {}, options.threads,
+      [&](std::string_view stage, double done) { bar.draw(stage, done); });
   bar.wipe();
   gonio::io::write_shape_model(options.output, grown.model);
   for (std::size_t i = 0; i < scans.size(); ++i)

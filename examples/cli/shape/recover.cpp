@@ -37,9 +37,9 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
 }
 
 /// How far vertices are expected to be off, by leaving shapes of the model out.
-void print_how_sure(const gonio::cross_validated_uncertainty& uncertainty, const gonio::triangle_mesh& recovered,
-                    const std::vector<Eigen::Index>& vertices) {
-  const gonio::point_columns normals = gonio::vertex_normals(recovered);
+void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty,
+                    const gonio::shape::triangle_mesh& recovered, const std::vector<Eigen::Index>& vertices) {
+  const gonio::shape::point_columns normals = gonio::shape::vertex_normals(recovered);
   double across = 0.0, all = 0.0;
   for (const Eigen::Index vertex : vertices) {
     const Eigen::Matrix3d covariance = uncertainty.covariance(vertex);
@@ -53,17 +53,17 @@ void print_how_sure(const gonio::cross_validated_uncertainty& uncertainty, const
 }
 
 void recover_shape(const shape_recover_command& options) {
-  const gonio::shape_model model = gonio::io::read_shape_model(options.model);
-  const gonio::triangle_mesh scan = gonio::io::read_mesh(options.scan);
-  gonio::recovery_options how;
+  const gonio::shape::shape_model model = gonio::io::read_shape_model(options.model);
+  const gonio::shape::triangle_mesh scan = gonio::io::read_mesh(options.scan);
+  gonio::shape::recovery_options how;
   how.fine.misplacement = options.noise;
-  const gonio::surface_index index = in_file(options.scan, [&] { return gonio::surface_index(scan); });
-  const gonio::recovered_shape found = in_file(options.scan, [&] {
-    return gonio::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
+  const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
+  const gonio::shape::recovered_shape found = in_file(options.scan, [&] {
+    return gonio::shape::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
   });
-  gonio::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
+  gonio::shape::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
 
-  const std::vector<bool> known = gonio::marks_of(found.known, model.vertices());
+  const std::vector<bool> known = gonio::shape::marks_of(found.known, model.vertices());
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
     if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
@@ -74,12 +74,12 @@ void recover_shape(const shape_recover_command& options) {
   Eigen::VectorXd distances;
   std::vector<gonio::rgb> colours;
   if (!options.truth.empty()) {
-    gonio::triangle_mesh whole = gonio::io::read_mesh(options.truth);
-    const auto truth = in_file(options.truth, [&] { return gonio::surface_index(std::move(whole)); });
-    distances = gonio::signed_distances(truth, recovered.vertices, options.threads);
-    for (const double distance : distances) colours.push_back(gonio::false_colour(distance, {-0.5, 0.5}));
+    gonio::shape::triangle_mesh whole = gonio::io::read_mesh(options.truth);
+    const auto truth = in_file(options.truth, [&] { return gonio::shape::surface_index(std::move(whole)); });
+    distances = gonio::shape::signed_distances(truth, recovered.vertices, options.threads);
+    for (const double distance : distances) colours.push_back(gonio::render::false_colour(distance, {-0.5, 0.5}));
     if (!missing.empty()) {
-      const auto off = gonio::surface_distance::of(distances(missing));
+      const auto off = gonio::shape::surface_distance::of(distances(missing));
       std::cout << "distance of these from the truth: signed mean " << fixed(off.signed_mean, 3) << " mm, absolute "
                 << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
     }

@@ -11,23 +11,23 @@
 
 namespace cli {
 
-gonio::image shape_picture(const gonio::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
+gonio::image shape_picture(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
   std::vector<gonio::rgb> colours(static_cast<std::size_t>(mesh.vertices.cols()), gonio::rgb::Constant(0.5));
   for (Eigen::Index v = 0; v < distances.size(); ++v)
-    colours[static_cast<std::size_t>(v)] = gonio::false_colour(distances[v], {-largest, largest});
+    colours[static_cast<std::size_t>(v)] = gonio::render::false_colour(distances[v], {-largest, largest});
   const auto from = [&](const Eigen::Vector3d& towards) {
-    gonio::mesh_view view = gonio::mesh_view::of(mesh, towards);
+    gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
     view.radius = 18.0;  // mm: all ears at one scale
     view.pixels = 240;
-    return gonio::picture_of(mesh, colours, view);
+    return gonio::shape::picture_of(mesh, colours, view);
   };
   const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};
-  return gonio::side_by_side(both);
+  return gonio::render::side_by_side(both);
 }
 
-gonio::similarity_transform find_pose(const gonio::shape_model& model, const gonio::triangle_mesh& scan,
-                                      gonio::thread_count threads) {
-  const gonio::pre_alignment found = gonio::align_by_shape_context(scan, model.mean(), {}, threads);
+gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
+                                             const gonio::shape::triangle_mesh& scan, gonio::thread_count threads) {
+  const gonio::shape::pre_alignment found = gonio::shape::align_by_shape_context(scan, model.mean(), {}, threads);
   // What the scan lacks is far from the model, but not the other way round.
   constexpr double largest = 5.0;
   if (found.mean_scan_distance > largest)

@@ -17,11 +17,12 @@ void add_shape_grow(command& shape);
 
 /// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
 /// compared with; without distances in grey. `largest` mm are pure blue and red.
-[[nodiscard]] gonio::image shape_picture(const gonio::triangle_mesh& mesh, const Eigen::VectorXd& distances,
+[[nodiscard]] gonio::image shape_picture(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances,
                                          double largest);
 
 /// Where a scan lies by shape context, from it to the model. Throws gonio::error if it matches nowhere.
-[[nodiscard]] gonio::similarity_transform find_pose(const gonio::shape_model& model, const gonio::triangle_mesh& scan,
-                                                    gonio::thread_count threads);
+[[nodiscard]] gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& model,
+                                                           const gonio::shape::triangle_mesh& scan,
+                                                           gonio::thread_count threads);
 
 }  // namespace cli

@@ -46,11 +46,11 @@ struct laboratory {
   std::string name;
   lab::sensor chip;
   lab::defects wrong;
-  gonio::sensor_noise noise;
+  gonio::capture::sensor_noise noise;
 };
 
 std::array<laboratory, 4> laboratories(double outliers) {
-  const gonio::sensor_noise usual_noise{.read = 1.6, .shot = 0.2, .relative = 0.01};
+  const gonio::capture::sensor_noise usual_noise{.read = 1.6, .shot = 0.2, .relative = 0.01};
   const lab::defects noise{.vignetting = 0.1, .flicker = 0.01}, usual = lab::defects::usual();
   lab::defects with_outliers = usual;
   with_outliers.outliers = outliers;
@@ -68,7 +68,7 @@ std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
   with_machine(options.machine, room, [&](const auto& machine) {
     for (const gonio::direction_pair& pair : pairs) {
       if (poses.size() == most) return;
-      const gonio::placement found = gonio::place_either_way(machine, pair);
+      const gonio::capture::placement found = gonio::capture::place_either_way(machine, pair);
       if (found.is_reachable()) poses.push_back(found.at);
     }
   });
@@ -87,9 +87,10 @@ std::vector<gonio::direction_pair> random_poses(const laboratory_options& option
 }
 
 /// What this laboratory measures of a table.
-std::vector<gonio::measured_reflectance> measure(const laboratory_options& options, const laboratory& where,
-                                                 const gonio::brdf_table& table,
-                                                 const std::vector<gonio::direction_pair>& poses, std::uint64_t seed) {
+std::vector<gonio::capture::measured_reflectance> measure(const laboratory_options& options, const laboratory& where,
+                                                          const gonio::brdf_table& table,
+                                                          const std::vector<gonio::direction_pair>& poses,
+                                                          std::uint64_t seed) {
   const lab::surface surface = [&](const gonio::direction& wi, const gonio::direction& wo) { return table(wi, wo); };
   lab::dark_room reference(lab::white(), where.chip, where.wrong, seed, 2 * seed + 1);
   lab::dark_room material(surface, where.chip, where.wrong, seed, 2 * seed);
@@ -107,7 +108,7 @@ struct sample_errors {
   double within = 0.0;           ///< channels of which the 95 % interval holds the truth
   double channels = 0.0;
 
-  void add(const gonio::measured_reflectance& found, const gonio::brdf_table& truth) {
+  void add(const gonio::capture::measured_reflectance& found, const gonio::brdf_table& truth) {
     const gonio::rgb expected = truth(found.at.wi, found.at.wo), off = found.value - expected;
     relative.push_back(std::abs(off.sum() / expected.sum()));
     for (Eigen::Index channel = 0; channel < 3; ++channel, ++channels)

@@ -30,7 +30,7 @@ struct models_options {
   std::vector<std::string> models{"phong", "blinn-phong", "phong-blinn", "phong-blinn-fresnel"}, losses{"l1", "l2"},
       only;
   std::string metric = "lin";
-  gonio::cell_weighting cell_weights = gonio::cell_weighting::equal;
+  gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false;
   gonio::thread_count threads;
 };
@@ -46,11 +46,11 @@ std::string significant(double value) {
 gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 30, 36})); }
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
-             std::span<const gonio::fit_observation> observations, const gonio::brdf_table& truth,
+             std::span<const gonio::model::fit_observation> observations, const gonio::brdf_table& truth,
              const gonio::appearance_judge& judge) {
-  const gonio::model_fit fit =
-      fit_by_metric(given.metric, lobes_named(model), observations,
-                    {.norm = loss == "l1" ? gonio::fit_norm::l1 : gonio::fit_norm::l2, .threads = given.threads});
+  const gonio::model::model_fit fit = fit_by_metric(
+      given.metric, lobes_named(model), observations,
+      {.norm = loss == "l1" ? gonio::model::fit_norm::l1 : gonio::model::fit_norm::l2, .threads = given.threads});
   const auto seen = judge.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
   return {{"converged", fit.converged},    {"evaluations", fit.evaluations}, {"loss", fit.loss},
           {"promised", fit.promised_gain}, {"delta_e_lights", seen.lights},  {"delta_e_env", seen.environment},
@@ -62,7 +62,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
   const auto all = gonio::io::read_networks(given.networks);
   const auto networks = given.only.empty() ? all : networks_in(all, given.only);
   const gonio::valid_cells cells = cells_of_fit();
-  const gonio::material_set materials = gonio::tabulate_networks(networks, cells, given.threads);
+  const gonio::material_set materials = gonio::model::tabulate_networks(networks, cells, given.threads);
   const gonio::appearance_judge judge(cells, 36, given.threads);
   resumable_results results(given.state);
   json rows = json::array();
@@ -70,7 +70,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
     gonio::report(bar.listener(), materials.names[m],
                   static_cast<double>(m) / static_cast<double>(materials.names.size()));
     const gonio::brdf_table truth = materials.table(m);
-    const auto observations = gonio::fit_observations(truth, given.threads, given.cell_weights);
+    const auto observations = gonio::model::fit_observations(truth, given.threads, given.cell_weights);
     for (const std::string& model : given.models)
       for (const std::string& loss : given.losses) {
         const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights)};

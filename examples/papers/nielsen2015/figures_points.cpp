@@ -22,29 +22,29 @@ using angles = std::vector<gonio::half_difference>;
 
 /// The search of Nielsen et al. 2015: of some seeds the lowest condition number.
 angles by_condition(const laboratory& lab, const options& given, std::size_t n) {
-  const gonio::point_geometry points(lab.prior().cells());
-  const gonio::criterion_of_plan condition{lab.prior(), points, gonio::condition_number{}};
-  gonio::capture_plan best;
+  const gonio::design::point_geometry points(lab.prior().cells());
+  const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
+  gonio::design::capture_plan best;
   for (std::size_t r = 0; r < given.repetitions; ++r) {
-    gonio::capture_plan plan = gonio::grow_and_descend(points, condition, n, 1, given.seed + r);
+    gonio::design::capture_plan plan = gonio::design::grow_and_descend(points, condition, n, 1, given.seed + r);
     if (plan.value < best.value || best.candidates.empty()) best = std::move(plan);
   }
   return samples_of(points, best.candidates);
 }
 
-gonio::expected_error criterion_of(const laboratory& lab, const options& given) {
-  return gonio::expected_error(lab.prior(), {.eta = given.eta});
+gonio::design::expected_error criterion_of(const laboratory& lab, const options& given) {
+  return gonio::design::expected_error(lab.prior(), {.eta = given.eta});
 }
 
 /// E of a set, root mean square over the cells.
 double expected_of(const laboratory& lab, const options& given, const angles& directions) {
-  return lab.expected(criterion_of(lab, given)(gonio::rows_at(lab.prior(), directions).components));
+  return lab.expected(criterion_of(lab, given)(gonio::design::rows_at(lab.prior(), directions).components));
 }
 
 /// The best points by E of 1 to `most`.
 std::vector<angles> points_by_expected_error(const laboratory& lab, const options& given, std::size_t most,
                                              const gonio::progress& listener) {
-  const gonio::cell_candidates candidates(lab.prior(), criterion_of(lab, given), {}, given.threads);
+  const gonio::design::cell_candidates candidates(lab.prior(), criterion_of(lab, given), {}, given.threads);
   std::vector<angles> sets;
   for (const auto& plan : best_plans(candidates, most, 0, given.seed, listener))
     sets.push_back(samples_of(candidates.geometry(), plan.candidates));
@@ -52,10 +52,11 @@ std::vector<angles> points_by_expected_error(const laboratory& lab, const option
 }
 
 /// The best spheres by E of 1 to `most`.
-std::vector<gonio::capture_plan> spheres_by_expected_error(const laboratory& lab, const options& given,
-                                                           std::size_t most, const gonio::progress& listener) {
-  const gonio::image_candidates candidates(
-      gonio::image_objective(lab.prior(), criterion_of(lab, given), gonio::sphere_geometry(lab.prior().cells())),
+std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laboratory& lab, const options& given,
+                                                                   std::size_t most, const gonio::progress& listener) {
+  const gonio::design::image_candidates candidates(
+      gonio::design::image_objective(lab.prior(), criterion_of(lab, given),
+                                     gonio::design::sphere_geometry(lab.prior().cells())),
       given.threads, listener);
   return best_plans(candidates, most, most, given.seed, listener);
 }
@@ -84,7 +85,7 @@ std::vector<double> published_slices(std::size_t n) {
   return {};
 }
 
-std::vector<std::size_t> numbers_of(const gonio::sphere_geometry& spheres, const std::vector<double>& slices) {
+std::vector<std::size_t> numbers_of(const gonio::design::sphere_geometry& spheres, const std::vector<double>& slices) {
   std::vector<std::size_t> numbers;
   for (const double theta_d : slices)
     numbers.push_back(spheres.nearest(gonio::to_directions({0.0, gonio::radians(theta_d), 0.0})));
@@ -93,8 +94,8 @@ std::vector<std::size_t> numbers_of(const gonio::sphere_geometry& spheres, const
 
 /// The published points of a number, if there are any.
 json error_of_published(const laboratory& lab, std::size_t n) {
-  if (!gonio::has_nielsen_directions(n)) return {};
-  return lab.error(gonio::nielsen_directions(n));
+  if (!gonio::design::has_nielsen_directions(n)) return {};
+  return lab.error(gonio::design::nielsen_directions(n));
 }
 
 table against_points(const laboratory& lab, const options& given, const gonio::progress& listener) {
@@ -120,9 +121,9 @@ table against_points(const laboratory& lab, const options& given, const gonio::p
 table against_spheres(const laboratory& lab, const options& given, const gonio::progress& listener) {
   table shown{"Pictures of spheres: the same; published: Table 2 of 2015, of which the search was by condition number",
               {{"n", 0}, {"published"}, {"expected error"}, {"random"}, {"random / expected error", 2}}};
-  const gonio::sphere_geometry spheres(lab.prior().cells());
+  const gonio::design::sphere_geometry spheres(lab.prior().cells());
   const auto plans = spheres_by_expected_error(lab, given, std::min<std::size_t>(given.up_to(5), 5), listener);
-  for (const gonio::capture_plan& plan : plans) {
+  for (const gonio::design::capture_plan& plan : plans) {
     const std::size_t n = plan.candidates.size();
     gonio::report(listener, "spheres", static_cast<double>(n) / static_cast<double>(plans.size()));
     const auto theirs = numbers_of(spheres, published_slices(n));
@@ -152,11 +153,12 @@ struct named_errors {
 
 /// Ward's lobe beside a Lambertian one, fitted to each material's measurements there; compared by ln(1 + f).
 Eigen::ArrayX3d fitted_ward(const laboratory& lab, const options& given, const angles& directions) {
-  const std::vector kinds{&gonio::lobe_kind::of<gonio::lambert_shape>(), &gonio::lobe_kind::of<gonio::ward_shape>()};
-  std::vector<gonio::analytic_brdf> fits;
+  const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),
+                          &gonio::model::lobe_kind::of<gonio::model::ward_shape>()};
+  std::vector<gonio::model::analytic_brdf> fits;
   for (std::size_t m = 0; m < lab.tested.names().size(); ++m) {
-    const auto observations = gonio::fit_observations(lab.tested.measured(m, directions));
-    fits.push_back(gonio::fit_model(kinds, observations, gonio::log(), {.random_starts = 20}).model);
+    const auto observations = gonio::model::fit_observations(lab.tested.measured(m, directions));
+    fits.push_back(gonio::model::fit_model(kinds, observations, gonio::log(), {.random_starts = 20}).model);
   }
   return lab.tested.of(fits, given.threads);
 }
@@ -167,12 +169,12 @@ std::vector<named_errors> five_directions(const laboratory& lab, const options& 
   for (std::size_t r = 0; r < given.random_sets; ++r)
     random += lab.tested.from(random_points(lab, 5, given.seed + r)) / static_cast<double>(given.random_sets);
   const angles expected = points_by_expected_error(lab, given, 5, listener).back();
-  return {{"published", lab.tested.from(gonio::nielsen_directions(5))},
+  return {{"published", lab.tested.from(gonio::design::nielsen_directions(5))},
           {"condition", lab.tested.from(by_condition(lab, given, 5))},
           {"expected error", lab.tested.from(expected)},
-          {"industry", lab.tested.from(gonio::westlund_meyer_directions())},
+          {"industry", lab.tested.from(gonio::design::westlund_meyer_directions())},
           {"random", std::move(random)},
-          {"Ward, published", fitted_ward(lab, given, gonio::nielsen_directions(5))},
+          {"Ward, published", fitted_ward(lab, given, gonio::design::nielsen_directions(5))},
           {"Ward, expected error", fitted_ward(lab, given, expected)},
           {"all", lab.tested.from_all()},
           {"nothing", lab.tested.from_nothing()}};

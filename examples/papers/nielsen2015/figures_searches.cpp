@@ -17,14 +17,14 @@ namespace {
 constexpr std::size_t most_exchanged_points = 10;
 
 struct timed_plan {
-  gonio::capture_plan plan;
+  gonio::design::capture_plan plan;
   double seconds = 0.0;
 };
 
 template <class Search>
 timed_plan timed(Search&& search) {
   const auto start = std::chrono::steady_clock::now();
-  gonio::capture_plan plan = search();
+  gonio::design::capture_plan plan = search();
   return {std::move(plan), std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()};
 }
 
@@ -34,7 +34,7 @@ timed_plan swaps_within(double seconds, const Objective& objective, std::size_t 
   std::size_t count = 300;
   timed_plan run;
   for (int round = 0; round < 3; ++round) {
-    run = timed([&] { return gonio::swap_at_random(objective.geometry(), objective, n, count, seed); });
+    run = timed([&] { return gonio::design::swap_at_random(objective.geometry(), objective, n, count, seed); });
     const double share = seconds / std::max(run.seconds, 1e-6);
     count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(share * static_cast<double>(count))));
   }
@@ -93,16 +93,17 @@ table race_by_condition(const laboratory& lab, const options& given, const gonio
                {"condition, mean", 2},
                {"condition, best", 2},
                {"mapped error of the best"}}};
-  const gonio::point_geometry points(lab.prior().cells());
-  const gonio::criterion_of_plan condition{lab.prior(), points, gonio::condition_number{}};
+  const gonio::design::point_geometry points(lab.prior().cells());
+  const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
   for (const std::size_t n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.0);
-    auto records = race("descent (Nielsen et al.)", condition, n, given,
-                        [&](std::uint64_t seed) { return gonio::grow_and_descend(points, condition, n, 1, seed); });
+    auto records = race("descent (Nielsen et al.)", condition, n, given, [&](std::uint64_t seed) {
+      return gonio::design::grow_and_descend(points, condition, n, 1, seed);
+    });
     record& guessed = records.emplace_back(record{"descent from the best of 500"});
     for (std::size_t r = 0; r < given.repetitions; ++r)
       guessed.found.push_back(
-          timed([&] { return gonio::grow_and_descend(points, condition, n, 500, given.seed + r); }));
+          timed([&] { return gonio::design::grow_and_descend(points, condition, n, 500, given.seed + r); }));
     for (const record& searched : records) add_row(shown, n, searched, condition, lab, 1.0);
   }
   return shown;
@@ -117,18 +118,18 @@ table race_by_expected_error(const laboratory& lab, const options& given, const 
                {"E, mean", 4},
                {"E, best", 4},
                {"mapped error of the best"}}};
-  const gonio::cell_candidates candidates(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}), {},
-                                          given.threads);
+  const gonio::design::cell_candidates candidates(
+      lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}), {}, given.threads);
   const double scale = std::sqrt(static_cast<double>(lab.prior().cells().size()));
   for (const std::size_t n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.5);
     auto records = race("descent from the best of 500 (Xu et al.)", candidates, n, given, [&](std::uint64_t seed) {
-      return gonio::grow_and_descend(candidates.geometry(), candidates, n, 500, seed);
+      return gonio::design::grow_and_descend(candidates.geometry(), candidates, n, 500, seed);
     });
-    records.push_back({"greedy over all cells", {timed([&] { return gonio::grow_greedily(candidates, n); })}});
+    records.push_back({"greedy over all cells", {timed([&] { return gonio::design::grow_greedily(candidates, n); })}});
     const auto [greedy, seconds] = records.back().found.front();
     if (n <= most_exchanged_points) {
-      timed_plan exchanged = timed([&] { return gonio::exchange(candidates, greedy); });
+      timed_plan exchanged = timed([&] { return gonio::design::exchange(candidates, greedy); });
       exchanged.seconds += seconds;
       records.push_back({"greedy and exchange over all cells", {std::move(exchanged)}});
     }

@@ -59,8 +59,8 @@ void run(const nielsen_options& options) {
   const gonio::appearance_judge judge(truths.cells, 36, options.threads);
 
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
-  for (const std::size_t n : gonio::nielsen_direction_counts) {
-    const auto directions = gonio::nielsen_directions(n);
+  for (const std::size_t n : gonio::design::nielsen_direction_counts) {
+    const auto directions = gonio::design::nielsen_directions(n);
     const auto reconstruct = [&](const gonio::log_relative_pca& from) {
       return reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), judge, options.threads);
     };
@@ -85,7 +85,7 @@ void run(const nielsen_options& options) {
                "Delta E lights |\n"
             << "|---|---|---|---|---|---|---|---|\n";
   for (std::size_t i = 0; i < reference_rms.size(); ++i) {
-    const std::string n = std::to_string(gonio::nielsen_direction_counts[i]);
+    const std::string n = std::to_string(gonio::design::nielsen_direction_counts[i]);
     const json& row = result["directions"][n];
     print_row(n, reference_rms[i], row["full"], &row["shipped_form"]);
   }

@@ -12,11 +12,11 @@
 
 namespace papers {
 
-gonio::log_relative_pca learn_all_components(const gonio::named_networks& networks, const gonio::valid_cells& cells,
-                                             gonio::thread_count threads, const gonio::progress& listener,
-                                             gonio::cosine_weighting weighting) {
+gonio::log_relative_pca learn_all_components(const gonio::model::named_networks& networks,
+                                             const gonio::valid_cells& cells, gonio::thread_count threads,
+                                             const gonio::progress& listener, gonio::cosine_weighting weighting) {
   constexpr std::size_t every_component = 300;
-  auto materials = gonio::tabulate_networks(networks, cells, threads, listener);
+  auto materials = gonio::model::tabulate_networks(networks, cells, threads, listener);
   const auto metric = gonio::log_relative::to_median_of(materials, threads).weighted_by(weighting);
   return gonio::learn_pca(std::move(materials), metric, every_component, threads, listener);
 }
@@ -27,7 +27,7 @@ nielsen_split nielsen_split::learn(const studied_networks& networks, gonio::thre
   const auto& tested = gonio::nielsen_test_materials();
   const auto cells = networks.cells();
   return {learn_all_components(networks_except(all, tested), cells, threads, listener),
-          gonio::tabulate_networks(networks_in(all, tested), cells, threads)};
+          gonio::model::tabulate_networks(networks_in(all, tested), cells, threads)};
 }
 
 std::filesystem::path shipped_directions() { return shipped_prior().parent_path() / "directions"; }
@@ -39,8 +39,8 @@ std::string points_file(const std::string& set, std::size_t count) {
 std::optional<std::vector<gonio::half_difference>> written_points(const std::filesystem::path& folder,
                                                                   const std::string& set, std::size_t count) {
   if (set == "published") {
-    if (!gonio::has_nielsen_directions(count)) return {};
-    return gonio::nielsen_directions(count);
+    if (!gonio::design::has_nielsen_directions(count)) return {};
+    return gonio::design::nielsen_directions(count);
   }
   const auto file = folder / points_file(set, count);
   if (!std::filesystem::exists(file)) return {};

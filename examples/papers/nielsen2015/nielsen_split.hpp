@@ -18,7 +18,7 @@ namespace papers {
 
 /// All principal components of some networks' materials, relative to their median.
 [[nodiscard]] gonio::log_relative_pca learn_all_components(
-    const gonio::named_networks& networks, const gonio::valid_cells& cells, gonio::thread_count threads,
+    const gonio::model::named_networks& networks, const gonio::valid_cells& cells, gonio::thread_count threads,
     const gonio::progress& listener, gonio::cosine_weighting weighting = gonio::cosine_weighting::product);
 
 /// What is learned from, and what is tested.

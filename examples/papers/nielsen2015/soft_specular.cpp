@@ -110,7 +110,7 @@ double delta_e_env(const gonio::comparison& errors) { return errors.delta_e_env;
 std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio::material_set& truths,
                                                  const gonio::appearance_judge& judge, std::size_t count,
                                                  gonio::thread_count threads) {
-  const auto cells = gonio::cells_at(truths.cells, gonio::nielsen_directions(count));
+  const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   const auto reconstruct = [&](const ridge& estimator) {
     return reconstruct_from_cells(estimator, cells, truths, from.metric, judge, threads);
   };
@@ -156,9 +156,10 @@ void run(const soft_specular_options& options) {
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();
   const auto& names = gonio::nielsen_test_materials();
-  const auto truths = gonio::tabulate_networks(networks_in(networks, names), cells, options.threads);
+  const auto truths = gonio::model::tabulate_networks(networks_in(networks, names), cells, options.threads);
   const rivals from = learn_rivals(
-      options, gonio::tabulate_networks(networks_except(networks, names), cells, options.threads, listener), listener);
+      options, gonio::model::tabulate_networks(networks_except(networks, names), cells, options.threads, listener),
+      listener);
   const gonio::appearance_judge judge(cells, 36, options.threads);
 
   json result{{"threshold", from.switching.threshold()},

@@ -39,8 +39,8 @@ class combination_experiment {
  public:
   combination_experiment(const combination_options& options, const gonio::progress& listener)
       : threads_(options.threads),
-        materials_(gonio::tabulate_networks(gonio::io::read_networks(options.networks), gonio::valid_cells(), threads_,
-                                            listener)),
+        materials_(gonio::model::tabulate_networks(gonio::io::read_networks(options.networks), gonio::valid_cells(),
+                                                   threads_, listener)),
         relative_(gonio::log_relative::to_median_of(materials_, threads_)),
         judge_(materials_.cells, 36, threads_) {}
 

@@ -29,8 +29,8 @@ struct corrections_options {
 void run_corrections(const corrections_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
-  const gonio::measured materials{gonio::tabulate_networks(gonio::io::read_networks(options.networks),
-                                                           gonio::valid_cells(), options.threads, listener),
+  const gonio::measured materials{gonio::model::tabulate_networks(gonio::io::read_networks(options.networks),
+                                                                  gonio::valid_cells(), options.threads, listener),
                                   gonio::log{}, options.threads};
   struct row {
     std::string rule, solver;

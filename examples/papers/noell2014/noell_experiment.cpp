@@ -164,7 +164,8 @@ struct noell_experiment::parts {
 
 noell_experiment::noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,
                                    gonio::thread_count threads, const gonio::progress& listener) {
-  auto truths = gonio::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
+  auto truths =
+      gonio::model::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
   const gonio::valid_cells cells = truths.cells;
   parts_.reset(new parts{threads, std::move(truths), noell_judges(cells, environment, threads), {}, {}, {}});
 }

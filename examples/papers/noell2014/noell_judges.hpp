@@ -26,9 +26,10 @@ class noell_judges {
   noell_judges(const gonio::valid_cells& cells, const std::filesystem::path& environment, gonio::thread_count threads)
       : formula_(cells, 36, threads), threads_(threads) {
     if (!environment.empty())
-      natural_.emplace(cells,
-                       gonio::environment_lighting(90, 72, gonio::environment_map(gonio::io::read_hdr(environment))),
-                       36, gonio::sphere_judge::middle_grey, threads);
+      natural_.emplace(
+          cells,
+          gonio::render::environment_lighting(90, 72, gonio::render::environment_map(gonio::io::read_hdr(environment))),
+          36, gonio::sphere_judge::middle_grey, threads);
   }
 
   /// delta_e_env under the formula environment at the exposure of a white sphere, delta_e_natural (if there is an

@@ -35,19 +35,20 @@ struct sampling_options {
 
 struct named_light {
   std::string name;
-  gonio::environment_sampler light;
+  gonio::render::environment_sampler light;
 };
 
-using sampled_material = gonio::half_vector_sampler<gonio::lookup_table<>>;
+using sampled_material = gonio::render::half_vector_sampler<gonio::render::lookup_table<>>;
 
 std::vector<named_light> lights_of(const sampling_options& options) {
   std::vector<named_light> lights;
-  lights.push_back({"white", gonio::environment_sampler(gonio::environment_map::of(
+  lights.push_back({"white", gonio::render::environment_sampler(gonio::render::environment_map::of(
                                  [](const gonio::direction&) { return gonio::rgb(gonio::rgb::Ones()); }, 64))});
-  lights.push_back({"formula", gonio::environment_sampler(gonio::environment_map::of(gonio::formula_environment{}))});
+  lights.push_back({"formula", gonio::render::environment_sampler(
+                                   gonio::render::environment_map::of(gonio::render::formula_environment{}))});
   for (const auto& path : options.environments)
-    lights.push_back(
-        {path.stem().string(), gonio::environment_sampler(gonio::environment_map(gonio::io::read_hdr(path)))});
+    lights.push_back({path.stem().string(),
+                      gonio::render::environment_sampler(gonio::render::environment_map(gonio::io::read_hdr(path)))});
   return lights;
 }
 
@@ -59,8 +60,8 @@ struct variances {
 /// At a point of the sphere. The variance of f L cos / pdf is the integral of its square times pdf, less the square of
 /// its mean. Both integrals are estimated with draws by the environment and by the material, in equal shares, the same
 /// for both kinds: drawn by either kind alone, a small lamp would be missed and the table be one of chance.
-variances variances_at(const gonio::surface_frame& surface, const sampled_material& f,
-                       const gonio::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
+variances variances_at(const gonio::render::surface_frame& surface, const sampled_material& f,
+                       const gonio::render::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
   const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
   const gonio::direction wo = surface.to_local(gonio::direction::UnitZ());
   variances squares;
@@ -81,7 +82,7 @@ variances variances_at(const gonio::surface_frame& surface, const sampled_materi
 }
 
 /// The ratio of the mean variances over the points of a sphere that the camera sees.
-double ratio_of_variances(const sampled_material& f, const gonio::environment_sampler& light,
+double ratio_of_variances(const sampled_material& f, const gonio::render::environment_sampler& light,
                           const sampling_options& options) {
   std::mt19937_64 generator(options.seed);
   const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
@@ -90,7 +91,8 @@ double ratio_of_variances(const sampled_material& f, const gonio::environment_sa
     const double within = number(), turn = 2.0 * std::numbers::pi * number();
     const double squared = (static_cast<double>(point) + within) / static_cast<double>(options.points);
     const double radius = std::sqrt(squared);
-    const gonio::surface_frame surface({radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0 - squared)});
+    const gonio::render::surface_frame surface(
+        {radius * std::cos(turn), radius * std::sin(turn), std::sqrt(1.0 - squared)});
     const variances at = variances_at(surface, f, light, options.draws, generator);
     sum.by_cosine += at.by_cosine;
     sum.by_importance += at.by_importance;
@@ -126,7 +128,7 @@ void run_sampling(const sampling_options& options) {
   gonio::for_each_block(
       tables.size(), 1,
       [&](gonio::block range) {
-        const sampled_material sampler(gonio::lookup_table<>::of(tables[range.begin].table));
+        const sampled_material sampler(gonio::render::lookup_table<>::of(tables[range.begin].table));
         for (std::size_t i = 0; i < lights.size(); ++i)
           ratios[range.begin][i] = ratio_of_variances(sampler, lights[i].light, options);
         const std::scoped_lock lock(reporting);

@@ -61,8 +61,9 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
   table_report result;
   const auto draw = [&](const gonio::brdf_table& table) {
     if (!options.picture.empty())
-      result.spheres.push_back(gonio::render_sphere(gonio::horizon_lookup(table), gonio::two_lights(),
-                                                    {.size = 128, .supersampling = 2}, options.threads));
+      result.spheres.push_back(gonio::render::render_sphere(gonio::render::horizon_lookup(table),
+                                                            gonio::render::two_lights(),
+                                                            {.size = 128, .supersampling = 2}, options.threads));
   };
   for (const std::size_t count : options.counts) {
     auto& repetitions = result.errors.emplace_back();
@@ -75,8 +76,8 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
   }
   draw(truth);
   if (!result.spheres.empty()) {
-    const double exposure = gonio::exposure_of_spheres(std::span(result.spheres).last(1));
-    for (gonio::image& sphere : result.spheres) gonio::expose(sphere, exposure);
+    const double exposure = gonio::render::exposure_of_spheres(std::span(result.spheres).last(1));
+    for (gonio::image& sphere : result.spheres) gonio::render::expose(sphere, exposure);
   }
   return result;
 }
@@ -100,10 +101,10 @@ void run(const measured_options& options) {
       means["peak_ratio"] = mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
       result[files[f].name][std::to_string(options.counts[i])] = means;
     }
-    if (!options.picture.empty()) rows.push_back(gonio::side_by_side(spheres, 4));
+    if (!options.picture.empty()) rows.push_back(gonio::render::side_by_side(spheres, 4));
   }
   bar.wipe();
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, gonio::stacked(rows));
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, gonio::render::stacked(rows));
 
   if (options.print_json) {
     std::cout << result.dump(2) << '\n';

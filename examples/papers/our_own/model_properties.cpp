@@ -15,7 +15,7 @@ namespace papers {
 namespace {
 
 /// A share of the way between the bounds of a parameter that says how sharp a lobe is, narrowed to what materials have.
-gonio::lobe_kind::values of_sharpness(const gonio::lobe_kind& kind, double sharpness) {
+gonio::model::lobe_kind::values of_sharpness(const gonio::model::lobe_kind& kind, double sharpness) {
   auto values = kind.typical();
   const auto about = kind.parameters();
   for (std::size_t i = 0; i < about.size(); ++i) {
@@ -26,22 +26,22 @@ gonio::lobe_kind::values of_sharpness(const gonio::lobe_kind& kind, double sharp
   return values;
 }
 
-json properties_of(const gonio::analytic_brdf& f) {
-  const auto albedo = gonio::find_largest_albedo(f);
-  return {{"asymmetry", gonio::worst_asymmetry(f).amount},
-          {"negative", gonio::worst_negative(f).amount},
-          {"anisotropy", gonio::worst_anisotropy(f).amount},
+json properties_of(const gonio::model::analytic_brdf& f) {
+  const auto albedo = gonio::model::find_largest_albedo(f);
+  return {{"asymmetry", gonio::model::worst_asymmetry(f).amount},
+          {"negative", gonio::model::worst_negative(f).amount},
+          {"anisotropy", gonio::model::worst_anisotropy(f).amount},
           {"largest_albedo", albedo.value},
           {"at_degrees", gonio::degrees(albedo.theta)},
-          {"albedo_from_above", gonio::directional_albedo(f, 0.0).maxCoeff()}};
+          {"albedo_from_above", gonio::model::directional_albedo(f, 0.0).maxCoeff()}};
 }
 
 void print_properties(bool as_json) {
   json rows = json::array();
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds())
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
     for (const double sharpness : {0.15, 0.5, 0.85}) {
       const auto values = of_sharpness(*kind, sharpness);
-      const gonio::analytic_brdf f({gonio::analytic_lobe(*kind, gonio::rgb::Ones(), values)});
+      const gonio::model::analytic_brdf f({gonio::model::analytic_lobe(*kind, gonio::rgb::Ones(), values)});
       json row{{"model", to_json(f)[0]}};
       row.update(properties_of(f));
       rows.push_back(std::move(row));
@@ -51,7 +51,7 @@ void print_properties(bool as_json) {
     std::cout << rows.dump(2) << '\n';
     return;
   }
-  std::cout << "Colour 1; reciprocity and isotropy over " << gonio::pair_grid().steps
+  std::cout << "Colour 1; reciprocity and isotropy over " << gonio::model::pair_grid().steps
             << "^3 pairs, as the largest relative difference.\n\n"
             << "| model | parameters | reciprocal | isotropic | albedo from above | largest albedo | at |\n"
             << "|---|---|---|---|---|---|---|\n";

@@ -44,8 +44,8 @@ std::vector<gonio::direction_pair> draw_pairs(std::mt19937_64& random, std::size
 
 /// Parameters that a few hundred directions can tell: exponents from 1 to 500, slopes from 0.04 to 0.8, refractive
 /// indices from 1.1 to 2.5, tilts from 30 to 60 degrees, others within their bounds; colours from 0.05 to 1.
-gonio::analytic_lobe draw_lobe(const gonio::lobe_kind& kind, std::mt19937_64& random) {
-  gonio::lobe_kind::values values{};
+gonio::model::analytic_lobe draw_lobe(const gonio::model::lobe_kind& kind, std::mt19937_64& random) {
+  gonio::model::lobe_kind::values values{};
   const auto about = kind.parameters();
   for (std::size_t i = 0; i < about.size(); ++i) {
     double low = about[i].lowest, high = about[i].highest;
@@ -59,17 +59,17 @@ gonio::analytic_lobe draw_lobe(const gonio::lobe_kind& kind, std::mt19937_64& ra
   return {kind, {between(random, 0.05, 1.0), between(random, 0.05, 1.0), between(random, 0.05, 1.0)}, values};
 }
 
-std::vector<gonio::fit_observation> observe(const gonio::analytic_brdf& f,
-                                            const std::vector<gonio::direction_pair>& pairs) {
-  std::vector<gonio::fit_observation> all;
-  for (const auto& [wi, wo] : pairs) all.push_back({gonio::lobe_geometry(wi, wo), f(wi, wo), 1.0});
+std::vector<gonio::model::fit_observation> observe(const gonio::model::analytic_brdf& f,
+                                                   const std::vector<gonio::direction_pair>& pairs) {
+  std::vector<gonio::model::fit_observation> all;
+  for (const auto& [wi, wo] : pairs) all.push_back({gonio::model::lobe_geometry(wi, wo), f(wi, wo), 1.0});
   return all;
 }
 
 /// All unknowns of a model: the parameters of each lobe, then its colour.
-Eigen::VectorXd unknowns_of(const gonio::analytic_brdf& f) {
+Eigen::VectorXd unknowns_of(const gonio::model::analytic_brdf& f) {
   std::vector<double> all;
-  for (const gonio::analytic_lobe& lobe : f.lobes()) {
+  for (const gonio::model::analytic_lobe& lobe : f.lobes()) {
     all.insert(all.end(), lobe.parameters().begin(),
                lobe.parameters().begin() + static_cast<std::ptrdiff_t>(lobe.kind().parameters().size()));
     all.insert(all.end(), lobe.colour().begin(), lobe.colour().end());
@@ -78,15 +78,16 @@ Eigen::VectorXd unknowns_of(const gonio::analytic_brdf& f) {
 }
 
 /// Fisher's information of the unknowns; an observation's weight is one over the variance of each of its channels.
-Eigen::MatrixXd information(const gonio::analytic_brdf& f, const std::vector<gonio::fit_observation>& observations) {
+Eigen::MatrixXd information(const gonio::model::analytic_brdf& f,
+                            const std::vector<gonio::model::fit_observation>& observations) {
   const Eigen::Index n = unknowns_of(f).size();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
-  for (const gonio::fit_observation& seen : observations)
+  for (const gonio::model::fit_observation& seen : observations)
     for (Eigen::Index channel = 0; channel < 3; ++channel) {
       Eigen::VectorXd row = Eigen::VectorXd::Zero(n);
       Eigen::Index j = 0;
-      for (const gonio::analytic_lobe& lobe : f.lobes()) {
-        gonio::lobe_kind::values slopes{};
+      for (const gonio::model::analytic_lobe& lobe : f.lobes()) {
+        gonio::model::lobe_kind::values slopes{};
         const double value = lobe.kind().value_and_slopes(seen.at, lobe.parameters(), slopes);
         for (std::size_t p = 0; p < lobe.kind().parameters().size(); ++p) row[j++] = slopes[p] * lobe.colour()[channel];
         row[j + channel] = value;
@@ -98,12 +99,12 @@ Eigen::MatrixXd information(const gonio::analytic_brdf& f, const std::vector<gon
 }
 
 /// The model with noise: each channel off by a deviation that is a share of the mean of the three.
-std::vector<gonio::fit_observation> observe_with_noise(const gonio::analytic_brdf& f,
-                                                       const std::vector<gonio::direction_pair>& pairs, double noise,
-                                                       std::mt19937_64& random) {
+std::vector<gonio::model::fit_observation> observe_with_noise(const gonio::model::analytic_brdf& f,
+                                                              const std::vector<gonio::direction_pair>& pairs,
+                                                              double noise, std::mt19937_64& random) {
   auto all = observe(f, pairs);
   std::normal_distribution<double> normal;
-  for (gonio::fit_observation& seen : all) {
+  for (gonio::model::fit_observation& seen : all) {
     const double deviation = noise * seen.value.mean();
     for (double& channel : seen.value) channel += deviation * normal(random);
     seen.weight = 1.0 / (deviation * deviation);
@@ -111,27 +112,27 @@ std::vector<gonio::fit_observation> observe_with_noise(const gonio::analytic_brd
   return all;
 }
 
-json recover(const gonio::lobe_kind& kind, const recovery_options& given) {
+json recover(const gonio::model::lobe_kind& kind, const recovery_options& given) {
   std::mt19937_64 random(given.seed);
-  const auto& lambert = gonio::lobe_kind::of<gonio::lambert_shape>();
-  const gonio::model_fit_options fit{.threads = given.threads};
+  const auto& lambert = gonio::model::lobe_kind::of<gonio::model::lambert_shape>();
+  const gonio::model::model_fit_options fit{.threads = given.threads};
   std::size_t found = 0, evaluations = 0;
   double worst = 0.0;
   std::vector<double> passed_on;
   for (std::size_t draw = 0; draw < given.draws; ++draw) {
-    const gonio::analytic_brdf truth({draw_lobe(lambert, random), draw_lobe(kind, random)});
+    const gonio::model::analytic_brdf truth({draw_lobe(lambert, random), draw_lobe(kind, random)});
     const Eigen::VectorXd exact = unknowns_of(truth);
-    const auto clean =
-        gonio::fit_model({&lambert, &kind}, observe(truth, draw_pairs(random, given.samples)), gonio::lin(), fit);
+    const auto clean = gonio::model::fit_model({&lambert, &kind}, observe(truth, draw_pairs(random, given.samples)),
+                                               gonio::lin(), fit);
     const double off = (unknowns_of(clean.model) - exact).cwiseQuotient(exact).cwiseAbs().maxCoeff();
     worst = std::max(worst, off);
     found += off < 1e-6 ? 1 : 0;
     evaluations += clean.evaluations;
 
     const auto noisy = observe_with_noise(truth, draw_pairs(random, given.few), given.noise, random);
-    gonio::model_fit_options many = fit;
+    gonio::model::model_fit_options many = fit;
     many.random_starts = given.starts;
-    const auto estimate = gonio::fit_model({&lambert, &kind}, noisy, gonio::lin(), many);
+    const auto estimate = gonio::model::fit_model({&lambert, &kind}, noisy, gonio::lin(), many);
     const Eigen::VectorXd error = unknowns_of(estimate.model) - exact;
     // Its mean is 1 for an unbiased estimator that reaches the bound of Cramer and Rao.
     passed_on.push_back(error.dot(information(truth, noisy) * error) / static_cast<double>(error.size()));
@@ -152,7 +153,7 @@ json recover(const gonio::lobe_kind& kind, const recovery_options& given) {
 void run(const recovery_options& given) {
   progress_bar bar;
   json rows = json::array();
-  for (const gonio::lobe_kind* kind : gonio::lobe_kinds()) {
+  for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds()) {
     if (kind->parameters().empty()) continue;
     gonio::report(bar.listener(), std::string(kind->name()), 0.0);
     rows.push_back(recover(*kind, given));

@@ -40,7 +40,7 @@ struct measured_options {
 struct workshop {
   workshop(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : threads(given.threads),
-        materials(gonio::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
+        materials(gonio::model::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
                   gonio::log{}, threads),
         corrections(materials, {}, gonio::nnls{}, threads),
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),

@@ -42,7 +42,7 @@ constexpr std::array weightings{std::pair{"product", cosine_weighting::product},
 /// Means over the materials from some directions, mapped errors in the domain of either weight.
 json judged(const gonio::log_relative_pca& prior, const gonio::material_set& truths, std::size_t count,
             const std::string& eta, const gonio::appearance_judge& judge, gonio::thread_count threads) {
-  const auto cells = gonio::cells_at(truths.cells, gonio::nielsen_directions(count));
+  const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   std::array<std::vector<material_result>, weightings.size()> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
@@ -77,8 +77,8 @@ void run(const cosine_options& options) {
   progress_bar bar;
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();
-  const auto truths = gonio::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
-                                               options.threads, bar.listener());
+  const auto truths = gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
+                                                      options.threads, bar.listener());
   const gonio::appearance_judge judge(cells, 36, options.threads);
   json rows = json::array();
   for (const auto& [name, weighting] : weightings) {

@@ -99,8 +99,8 @@ struct judged_set {
 /// Sets that are not searched for are of points, and of the numbers that somebody published.
 bool exists(const directions_options& options, const std::string& set, std::size_t count) {
   const bool points = options.geometry == "point";
-  if (set == "published") return points && gonio::has_nielsen_directions(count);
-  if (set == "industry") return points && count == gonio::westlund_meyer_directions().size();
+  if (set == "published") return points && gonio::design::has_nielsen_directions(count);
+  if (set == "industry") return points && count == gonio::design::westlund_meyer_directions().size();
   return set != "random" || points;
 }
 
@@ -129,8 +129,8 @@ designed find_set(const laboratory& lab, const directions_options& options, cons
     for (const auto& [wi, wo] : directions) found.samples.push_back(gonio::to_half_difference(wi, wo));
     return found;
   }
-  if (set == "published") return point_samples(gonio::nielsen_directions(count));
-  if (set == "industry") return point_samples(gonio::westlund_meyer_directions());
+  if (set == "published") return point_samples(gonio::design::nielsen_directions(count));
+  if (set == "industry") return point_samples(gonio::design::westlund_meyer_directions());
   if (set == "random") {
     std::vector<gonio::half_difference> angles;
     for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
@@ -147,15 +147,17 @@ bool takes_pictures(const directions_options& options) {
 /// All pictures of a material, each by the simulated laboratory with defects of its own.
 std::vector<gonio::picture_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
                                                  const designed& found, std::uint64_t seed) {
-  const gonio::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
-  const gonio::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
+  const gonio::design::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
+  const gonio::capture::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
   std::vector<gonio::picture_samples> pictures;
   for (const auto& [wi, wo] : found.poses) {
-    const gonio::near_field_setup setup{
-        .camera = gonio::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels), .light = {wi}, .disc = disc};
+    const gonio::capture::near_field_setup setup{
+        .camera = gonio::design::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels),
+        .light = {wi},
+        .disc = disc};
     const gonio::image picture = lab::photograph(
         material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.misplacement)}, ++seed);
-    pictures.push_back(gonio::near_field_pairs(picture, setup));
+    pictures.push_back(gonio::capture::near_field_pairs(picture, setup));
   }
   return pictures;
 }
@@ -232,7 +234,8 @@ json judged(const laboratory& lab, const directions_options& options, const desi
   json poses = json::array();
   for (const auto& [wi, wo] : found.poses)
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
-  const double condition = gonio::condition_number{}(gonio::rows_at(lab.prior, found.samples).components);
+  const double condition =
+      gonio::design::condition_number{}(gonio::design::rows_at(lab.prior, found.samples).components);
   return {{"expected_error", in_sample},     {"left_out_error", left_out},     {"condition", condition},
           {"samples", found.samples.size()}, {"errors", mean_errors(results)}, {"poses", poses}};
 }

@@ -21,12 +21,12 @@ namespace papers {
 
 namespace figures {
 
-laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
+laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                            const gonio::progress& listener) {
   const auto cells = given.networks.cells();
   const auto others = networks_in(given.networks.read(), gonio::nielsen_test_materials());
   return {mapped_errors(learn_all_components(learned, cells, given.threads, listener),
-                        gonio::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
+                        gonio::model::tabulate_networks(others, cells, given.threads), given.eta, given.threads)};
 }
 
 laboratory open_laboratory(const options& given, const gonio::progress& listener) {

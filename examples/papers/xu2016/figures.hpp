@@ -61,11 +61,11 @@ struct laboratory {
 
 /// The 90 materials that Nielsen et al. 2015 learn from, or some of them, and the ten others.
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::progress& listener);
-[[nodiscard]] laboratory open_laboratory(const options& given, const gonio::named_networks& learned,
+[[nodiscard]] laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                                          const gonio::progress& listener);
 
 /// All samples of a plan.
-template <gonio::capture_geometry Geometry>
+template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
                                                              const std::vector<std::size_t>& candidates) {
   std::vector<gonio::half_difference> samples;
@@ -78,16 +78,17 @@ template <gonio::capture_geometry Geometry>
 
 /// The best plans of 1 to `most` measurements: each grown from the one before by the best of all additions, exchanged
 /// while it has not more than `exchanged` measurements, and slid along the grid.
-template <gonio::sweeping_objective Objective>
-[[nodiscard]] std::vector<gonio::capture_plan> best_plans(const Objective& objective, std::size_t most,
-                                                          std::size_t exchanged, std::uint64_t seed,
-                                                          const gonio::progress& listener) {
-  std::vector<gonio::capture_plan> plans;
-  gonio::capture_plan grown;
+template <gonio::design::sweeping_objective Objective>
+[[nodiscard]] std::vector<gonio::design::capture_plan> best_plans(const Objective& objective, std::size_t most,
+                                                                  std::size_t exchanged, std::uint64_t seed,
+                                                                  const gonio::progress& listener) {
+  std::vector<gonio::design::capture_plan> plans;
+  gonio::design::capture_plan grown;
   for (std::size_t n = 1; n <= most; ++n) {
-    grown = gonio::grow_greedily(objective, n, std::move(grown), listener);
-    const gonio::capture_plan start = n <= exchanged ? gonio::exchange(objective, grown, listener) : grown;
-    plans.push_back(gonio::descend(objective.geometry(), objective, start, seed));
+    grown = gonio::design::grow_greedily(objective, n, std::move(grown), listener);
+    const gonio::design::capture_plan start =
+        n <= exchanged ? gonio::design::exchange(objective, grown, listener) : grown;
+    plans.push_back(gonio::design::descend(objective.geometry(), objective, start, seed));
   }
   return plans;
 }

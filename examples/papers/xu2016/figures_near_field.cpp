@@ -20,41 +20,45 @@ namespace papers::figures {
 
 namespace {
 
-using pictures = gonio::image_candidates<gonio::log_relative, gonio::near_field_geometry>;
+using pictures = gonio::design::image_candidates<gonio::log_relative, gonio::design::near_field_geometry>;
 
 /// More pictures than that are not exchanged: it would take minutes.
 constexpr std::size_t most_exchanged = 2;
 constexpr double figures_field_of_view = 25.0;
 
-gonio::near_field_geometry geometry_of(double field_of_view, double step) {
-  return gonio::near_field_geometry({.field_of_view = gonio::radians(field_of_view), .step = gonio::radians(step)});
+gonio::design::near_field_geometry geometry_of(double field_of_view, double step) {
+  return gonio::design::near_field_geometry(
+      {.field_of_view = gonio::radians(field_of_view), .step = gonio::radians(step)});
 }
 
 pictures read_pictures(const laboratory& lab, const options& given, double field_of_view,
                        const gonio::progress& listener) {
-  return pictures(gonio::image_objective(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}),
-                                         geometry_of(field_of_view, given.step)),
-                  given.threads, listener);
+  return pictures(
+      gonio::design::image_objective(lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}),
+                                     geometry_of(field_of_view, given.step)),
+      given.threads, listener);
 }
 
 /// The best plans of 1 to `most` pictures on the grid of candidates, slid on from there on one of degrees.
-std::vector<gonio::capture_plan> refined_plans(const laboratory& lab, const options& given, const pictures& coarse,
-                                               std::size_t most, const gonio::progress& listener) {
-  const gonio::image_objective fine(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}),
-                                    geometry_of(gonio::degrees(coarse.geometry().options().field_of_view), 1.0));
+std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, const options& given,
+                                                       const pictures& coarse, std::size_t most,
+                                                       const gonio::progress& listener) {
+  const gonio::design::image_objective fine(
+      lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}),
+      geometry_of(gonio::degrees(coarse.geometry().options().field_of_view), 1.0));
   auto plans = best_plans(coarse, most, most_exchanged, given.seed, listener);
-  for (gonio::capture_plan& plan : plans) {
+  for (gonio::design::capture_plan& plan : plans) {
     gonio::report(listener, "sliding", static_cast<double>(plan.candidates.size()) / static_cast<double>(most));
     for (std::size_t& candidate : plan.candidates)
       candidate = fine.geometry().nearest(coarse.geometry().centre(candidate));
-    plan = gonio::descend(fine.geometry(), fine, std::move(plan), given.seed);
+    plan = gonio::design::descend(fine.geometry(), fine, std::move(plan), given.seed);
   }
   return plans;
 }
 
 /// The error after each of some plans.
-std::vector<json> errors_of(const laboratory& lab, const gonio::near_field_geometry& geometry,
-                            const std::vector<gonio::capture_plan>& plans) {
+std::vector<json> errors_of(const laboratory& lab, const gonio::design::near_field_geometry& geometry,
+                            const std::vector<gonio::design::capture_plan>& plans) {
   std::vector<json> errors;
   for (const auto& plan : plans) errors.emplace_back(lab.error(samples_of(geometry, plan.candidates)));
   return errors;
@@ -67,13 +71,13 @@ struct point_errors {
 
 point_errors errors_of_points(const laboratory& lab, const options& given, std::size_t most,
                               const gonio::progress& listener) {
-  const gonio::cell_candidates candidates(lab.prior(), gonio::expected_error(lab.prior(), {.eta = given.eta}), {},
-                                          given.threads);
+  const gonio::design::cell_candidates candidates(
+      lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}), {}, given.threads);
   point_errors errors;
   for (const auto& plan : best_plans(candidates, most, 0, given.seed, listener)) {
     const std::size_t n = plan.candidates.size();
-    errors.published.push_back(gonio::has_nielsen_directions(n) ? json(lab.error(gonio::nielsen_directions(n)))
-                                                                : json());
+    errors.published.push_back(
+        gonio::design::has_nielsen_directions(n) ? json(lab.error(gonio::design::nielsen_directions(n))) : json());
     errors.expected.emplace_back(lab.error(samples_of(candidates.geometry(), plan.candidates)));
   }
   return errors;
@@ -117,20 +121,20 @@ table points_for_pictures(const std::vector<std::pair<std::string, std::vector<j
 
 /// Nielsen et al. 2015's search, whose plan of n measurements grows to that of n + 1: a random one more, then a
 /// descent.
-template <gonio::capture_geometry Geometry, gonio::plan_objective Objective>
-std::vector<gonio::capture_plan> plans_by_descent(const Geometry& geometry, const Objective& objective,
-                                                  std::size_t most, std::uint64_t seed,
-                                                  const gonio::progress& listener) {
+template <gonio::design::capture_geometry Geometry, gonio::design::plan_objective Objective>
+std::vector<gonio::design::capture_plan> plans_by_descent(const Geometry& geometry, const Objective& objective,
+                                                          std::size_t most, std::uint64_t seed,
+                                                          const gonio::progress& listener) {
   std::mt19937_64 generator(seed);
   std::uniform_int_distribution<std::size_t> any(0, geometry.size() - 1);
-  std::vector<gonio::capture_plan> plans;
-  gonio::capture_plan plan;
+  std::vector<gonio::design::capture_plan> plans;
+  gonio::design::capture_plan plan;
   while (plans.size() < most) {
     std::size_t added = any(generator);
     while (!geometry.allows(added) || std::ranges::find(plan.candidates, added) != plan.candidates.end())
       added = any(generator);
     plan.candidates.push_back(added);
-    plan = gonio::descend(geometry, objective, std::move(plan), generator());
+    plan = gonio::design::descend(geometry, objective, std::move(plan), generator());
     plans.push_back(plan);
     gonio::report(listener, "condition", static_cast<double>(plans.size()) / static_cast<double>(most));
   }
@@ -138,7 +142,8 @@ std::vector<gonio::capture_plan> plans_by_descent(const Geometry& geometry, cons
 }
 
 /// Half and difference angles of the pictures of a plan in degrees, as the paper tabulates them.
-std::vector<std::vector<json>> printed_angles(const std::string& name, const gonio::near_field_geometry& geometry,
+std::vector<std::vector<json>> printed_angles(const std::string& name,
+                                              const gonio::design::near_field_geometry& geometry,
                                               const std::vector<std::size_t>& candidates) {
   std::vector<std::vector<json>> rows;
   for (const std::size_t candidate : candidates) {
@@ -168,7 +173,7 @@ class with_one_in_place {
   with_one_in_place(const pictures& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
       : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
 
-  [[nodiscard]] const gonio::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
+  [[nodiscard]] const gonio::design::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
   [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
     return std::ranges::all_of(candidates, [&](std::size_t c) { return in_place(c); })
                ? all_(candidates)
@@ -193,10 +198,10 @@ class with_one_in_place {
 };
 
 /// For each number of pictures the best of all places to stand in.
-std::vector<gonio::capture_plan> plans_in_place(const pictures& all, const options& given, std::size_t most,
-                                                gonio::direction gonio::direction_pair::*fixed,
-                                                const gonio::progress& listener) {
-  std::vector<gonio::capture_plan> best(most);
+std::vector<gonio::design::capture_plan> plans_in_place(const pictures& all, const options& given, std::size_t most,
+                                                        gonio::direction gonio::direction_pair::*fixed,
+                                                        const gonio::progress& listener) {
+  std::vector<gonio::design::capture_plan> best(most);
   const double step = gonio::radians(given.step), largest = all.geometry().options().largest_polar_angle;
   for (double place = 0.0; place <= largest + 1e-9; place += step) {
     gonio::report(listener, "fixed at " + std::to_string(std::lround(gonio::degrees(place))), place / largest);
@@ -210,7 +215,7 @@ std::vector<gonio::capture_plan> plans_in_place(const pictures& all, const optio
 
 /// What the paper prints for two pictures by a camera that stays (Fig. 14 a), on a grid of degrees.
 double error_of_printed_fixed_camera(const laboratory& lab) {
-  const gonio::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
+  const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
   const auto at = [&](double theta_h, double theta_d, double phi_d) {
     return fine.nearest(
         gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)}));
@@ -227,13 +232,13 @@ tables xu_5(const options& given, const gonio::progress& listener) {
   for (const double field_of_view : given.fields_of_view) {
     const std::string name = degrees_of(field_of_view);
     const pictures all = read_pictures(lab, given, field_of_view, listener);
-    const gonio::near_field_geometry fine = geometry_of(field_of_view, 1.0);
+    const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     errors.emplace_back(name + ", expected error",
                         errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
-    const gonio::criterion_of_plan condition{lab.prior(), fine, gonio::condition_number{}};
+    const gonio::design::criterion_of_plan condition{lab.prior(), fine, gonio::design::condition_number{}};
     const auto theirs = plans_by_descent(fine, condition, most, given.seed, listener);
     std::vector<json> reached;
-    for (const gonio::capture_plan& plan : theirs) reached.emplace_back(plan.value);
+    for (const gonio::design::capture_plan& plan : theirs) reached.emplace_back(plan.value);
     errors.emplace_back(name + ", condition", errors_of(lab, fine, theirs));
     conditions.emplace_back(name, std::move(reached));
   }
@@ -248,7 +253,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
   table angles = table_of_angles();
   for (const double field_of_view : given.fields_of_view) {
     const pictures all = read_pictures(lab, given, field_of_view, listener);
-    const gonio::near_field_geometry fine = geometry_of(field_of_view, 1.0);
+    const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     const auto plans = refined_plans(lab, given, all, std::min<std::size_t>(given.up_to(5), 5), listener);
     series.emplace_back(degrees_of(field_of_view), errors_of(lab, fine, plans));
     for (std::size_t i = 0; i < std::min<std::size_t>(plans.size(), 2); ++i) {
@@ -278,7 +283,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
     const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
     const pictures all = read_pictures(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);
-    const gonio::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
+    const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
     shown.rows.push_back({count, lab.prior().size(), lab.error(samples_of(fine, plans.back().candidates)),
                           lab.tested.from_all().mean()});
   }

@@ -67,7 +67,7 @@ gonio::sample_set mapped_errors::measured(std::size_t material,
   return samples;
 }
 
-Eigen::ArrayX3d mapped_errors::of(const std::vector<gonio::analytic_brdf>& estimates,
+Eigen::ArrayX3d mapped_errors::of(const std::vector<gonio::model::analytic_brdf>& estimates,
                                   gonio::thread_count threads) const {
   const Eigen::ArrayXd squares = gonio::sum_over_blocks(
       prior_.cells().size(), 1024, Eigen::ArrayXd::Zero(3 * std::ssize(names_)).eval(),

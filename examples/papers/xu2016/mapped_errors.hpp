@@ -36,7 +36,7 @@ class mapped_errors {
                                            std::span<const gonio::half_difference> directions) const;
 
   /// Of other estimates than this prior's, one for each material.
-  [[nodiscard]] Eigen::ArrayX3d of(const std::vector<gonio::analytic_brdf>& estimates,
+  [[nodiscard]] Eigen::ArrayX3d of(const std::vector<gonio::model::analytic_brdf>& estimates,
                                    gonio::thread_count threads) const;
 
   /// The lower bound: the projection of the whole table.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// What is known of a camera and of the white reference.
 struct calibration {
@@ -76,7 +76,7 @@ struct measured_reflectance {
 /// highlight was measured, or what is whiter than the reference.
 void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance);
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/calibration.ipp>

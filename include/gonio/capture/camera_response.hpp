@@ -13,7 +13,7 @@
 #include <span>
 #include <utility>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// The logarithm of exposure as a function of counts from 0 to a largest one, for one colour channel. It never falls.
 /// Exposures are relative: that of the middle count is 1.
@@ -96,7 +96,7 @@ struct response_options {
 [[nodiscard]] camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                 std::uint16_t largest_count, const response_options& options = {});
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/camera_response.ipp>

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// The pixels of a picture by material.
 struct colour_clusters {
@@ -54,7 +54,7 @@ struct cluster_count_choice {
 /// the number of threads. O(n k) a step.
 ///
 /// ```cpp
-/// const auto materials = gonio::cluster_colours(second_picture, 3, seed);
+/// const auto materials = gonio::capture::cluster_colours(second_picture, 3, seed);
 /// for (std::size_t m = 0; m < materials.count(); ++m) estimate_from(materials.pixels(m));
 /// ```
 [[nodiscard]] colour_clusters cluster_colours(const point_matrix_view& colours, Eigen::Index k, std::uint64_t seed,
@@ -65,7 +65,7 @@ struct cluster_count_choice {
 [[nodiscard]] colour_clusters cluster_colours(const point_matrix_view& colours, const cluster_count_choice& choice,
                                               std::uint64_t seed, thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/colour_clusters.ipp>

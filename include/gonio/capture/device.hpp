@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// Thrown by a device that did not do what it was asked. The message names the device and what went wrong.
 class device_failure : public std::runtime_error {
@@ -55,7 +55,7 @@ struct placement {
 ///   void switch_on(std::size_t) {}
 ///   void switch_off() {}
 /// };
-/// static_assert(gonio::light_source<torch>);
+/// static_assert(gonio::capture::light_source<torch>);
 /// ```
 template <class L>
 concept light_source = requires(L& lights, const L& same, std::size_t lamp) {
@@ -75,7 +75,7 @@ concept light_source = requires(L& lights, const L& same, std::size_t lamp) {
 ///   std::string obstacle(const gonio::direction& w) const { return w.z() > 0.5 ? "" : "the wire is too short"; }
 ///   void move_to(const gonio::direction&) {}
 /// };
-/// static_assert(gonio::positioner<bent_wire>);
+/// static_assert(gonio::capture::positioner<bent_wire>);
 /// ```
 template <class P>
 concept positioner = requires(P& arm, const P& same, const direction& w) {
@@ -93,11 +93,11 @@ concept positioner = requires(P& arm, const P& same, const direction& w) {
 ///   std::uint16_t largest_count() const { return 255; }
 ///   double shortest_time() const { return 0.001; }
 ///   double longest_time() const { return 1.0; }
-///   gonio::camera_frame expose(double seconds) {
-///     return gonio::camera_frame::Constant(1, 3, static_cast<std::uint16_t>(255 * seconds));
+///   gonio::capture::camera_frame expose(double seconds) {
+///     return gonio::capture::camera_frame::Constant(1, 3, static_cast<std::uint16_t>(255 * seconds));
 ///   }
 /// };
-/// static_assert(gonio::camera<photodiode>);
+/// static_assert(gonio::capture::camera<photodiode>);
 /// ```
 template <class C>
 concept camera = requires(C& eye, const C& same, double seconds) {
@@ -115,14 +115,15 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 /// returned, takes pictures there; it leaves the lamps off, also when it throws device_failure.
 /// ```cpp
 /// struct open_hand {
-///   gonio::placement place(const gonio::direction_pair& pair) const { return {pair, ""}; }
+///   gonio::capture::placement place(const gonio::direction_pair& pair) const { return {pair, ""}; }
 ///   double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
 ///     return gonio::angle_between(from.wi, to.wi);
 ///   }
 ///   std::uint16_t largest_count() const { return 255; }
-///   gonio::reading measure(const gonio::direction_pair&) { return {{0.1}, {gonio::camera_frame::Constant(1, 3, 7)}}; }
+///   gonio::capture::reading measure(const gonio::direction_pair&) { return {{0.1},
+///   {gonio::capture::camera_frame::Constant(1, 3, 7)}}; }
 /// };
-/// static_assert(gonio::goniometer<open_hand>);
+/// static_assert(gonio::capture::goniometer<open_hand>);
 /// ```
 template <class G>
 concept goniometer = requires(G& machine, const G& same, const direction_pair& pair) {
@@ -167,4 +168,4 @@ template <camera Camera>
   return taken;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

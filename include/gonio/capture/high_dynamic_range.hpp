@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// What a camera's counts vary by.
 struct sensor_noise {
@@ -87,7 +87,7 @@ void require_times(std::size_t pictures, std::span<const double> times, const st
                                                 const camera_response& response, const sensor_noise& noise = {},
                                                 std::uint16_t saturation = 0);
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/high_dynamic_range.ipp>

@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// Points, one a row: n x d.
 using point_matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -50,7 +50,7 @@ namespace detail {
 /// threads. O(n k d) a step.
 ///
 /// ```cpp
-/// const auto clusters = gonio::k_means(points, 3, seed);
+/// const auto clusters = gonio::capture::k_means(points, 3, seed);
 /// ```
 [[nodiscard]] point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                      thread_count threads = {});
@@ -62,7 +62,7 @@ namespace detail {
 [[nodiscard]] double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
                                      thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/k_means.ipp>

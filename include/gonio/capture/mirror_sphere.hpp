@@ -14,7 +14,7 @@
 #include <optional>
 #include <string>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// A mirror sphere and the camera that looks at its centre. Axes: x to the right and y up in the picture, z from the
 /// sphere towards the camera. Places in the picture are those of a sphere of radius 1 that fills it: from -1 to 1, y
@@ -100,7 +100,7 @@ void require_unwrappable(const image& probe, const unwrap_options& options);
 [[nodiscard]] image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
                            thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/mirror_sphere.ipp>

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// A light so far away that it comes from the same direction everywhere on the sample.
 struct distant_light {
@@ -88,9 +88,10 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 /// the block. Throws gonio::error as `require_usable` does, if the picture's size is not the camera's, naming a pixel
 /// of the region that is not finite, or if nothing of the sample is seen.
 /// ```cpp
-/// const gonio::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
+/// const gonio::capture::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples =
-///     gonio::near_field_pairs(picture, {.camera = camera, .light = lamp, .disc = gonio::sample_disc{0.2}});
+///     gonio::capture::near_field_pairs(picture, {.camera = camera, .light = lamp, .disc =
+///     gonio::capture::sample_disc{0.2}});
 /// ```
 [[nodiscard]] picture_samples near_field_pairs(const image& picture, const near_field_setup& setup);
 
@@ -99,7 +100,7 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
   return as_sample_set(near_field_pairs(picture, setup));
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/near_field_image.ipp>

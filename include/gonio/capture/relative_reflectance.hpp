@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// The solid angle in sr of a lens of effective diameter D = f / F from a distance r, which is what a pixel receives
 /// (Eq. 4 and 5). All lengths in the same unit. Throws gonio::error unless all are positive and finite.
@@ -63,7 +63,7 @@ class reference_light {
   return std::isfinite(relative_deviation) ? 1.0 / (1.0 + ratio * ratio) : 0.0;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/relative_reflectance.ipp>

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// A pose that a scan goes without, counted from 0, and why.
 struct missing_pose {
@@ -137,7 +137,7 @@ scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Recor
   return outcome;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/scan.ipp>

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 /// A camera that looks at the middle of a sphere from a place on it, as a robot takes it: angles in the robot's axes.
 struct camera_pose {
@@ -117,7 +117,7 @@ struct scan_pace {
 [[nodiscard]] double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
                                       const scan_pace& pace = {});
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/trajectory.ipp>

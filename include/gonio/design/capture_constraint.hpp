@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// A range of polar angles, both ends included, in radians.
 struct polar_range {
@@ -43,7 +43,7 @@ struct capture_constraint {
   [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
 };
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/capture_constraint.ipp>

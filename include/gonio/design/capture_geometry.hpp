@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// A step on a grid of candidates: how many along each of its axes.
 using grid_step = std::array<int, 3>;
@@ -61,7 +61,7 @@ class point_geometry {
 };
 static_assert(capture_geometry<point_geometry>);
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/capture_geometry.ipp>

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// The rows Y and W of all cells (see `expected_error`), in float: 8 bytes a cell and observation, or 2.4 GB for a
 /// million cells and 270 observations. A prior that was learned with fewer cells (`gonio learn --thin`) needs less, and
@@ -74,7 +74,7 @@ class cell_candidates::with_one_more {
   extended_error<double> with_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/cell_candidates.ipp>

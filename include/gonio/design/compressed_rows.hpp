@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// Rows of a basis at some measurements, n x k, and what noise that is 1 in every sample does to each.
 struct component_rows {
@@ -53,7 +53,7 @@ template <basis Basis>
 /// + L) of a direction V unknown, which is hardly less than all where L is far below eta. O(n k min(n, k)).
 [[nodiscard]] component_rows compressed(const component_rows& rows, double negligible);
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/compressed_rows.ipp>

@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// Reads the rows of all samples anew whenever it is asked. For the expected error `cell_candidates` and
 /// `image_candidates` are much faster.
 ///
 /// ```cpp
-/// const gonio::point_geometry points(prior.cells());
-/// const gonio::criterion_of_plan condition{prior, points, gonio::condition_number{}};
-/// const auto five = gonio::grow_and_descend(points, condition, 5);
+/// const gonio::design::point_geometry points(prior.cells());
+/// const gonio::design::criterion_of_plan condition{prior, points, gonio::design::condition_number{}};
+/// const auto five = gonio::design::grow_and_descend(points, condition, 5);
 /// ```
 template <basis Basis, capture_geometry Geometry, design_criterion Criterion>
 class criterion_of_plan {
@@ -42,4 +42,4 @@ class criterion_of_plan {
   Criterion criterion_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::design

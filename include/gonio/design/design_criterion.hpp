@@ -8,7 +8,7 @@
 
 #include <concepts>
 
-namespace gonio {
+namespace gonio::design {
 
 /// A number for the components' values at measurements, n x k: the smaller, the better. It must not depend on the order
 /// of the rows.
@@ -65,7 +65,7 @@ class a_optimality {
 };
 static_assert(design_criterion<a_optimality>);
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/design_criterion.ipp>

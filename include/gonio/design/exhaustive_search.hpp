@@ -4,7 +4,7 @@
 
 #include <gonio/design/search.hpp>
 
-namespace gonio {
+namespace gonio::design {
 
 /// An objective that also tells, all at once, what a set is worth with each of all candidates beside it; infinity for
 /// those that are not allowed.
@@ -64,4 +64,4 @@ template <sweeping_objective Objective>
   return plan;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

@@ -10,7 +10,7 @@
 
 #include <utility>
 
-namespace gonio {
+namespace gonio::design {
 
 /// How the expected error weighs what may go wrong. With its defaults, but for eta, it is Eq. 15 as printed without
 /// noise.
@@ -191,7 +191,7 @@ extern template class extended_error<float>;
 extern template class extended_error<double>;
 #endif
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/expected_error.ipp>

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 namespace detail {
 
@@ -134,7 +134,7 @@ class image_candidates {
   thread_count threads_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/image_candidates.ipp>

@@ -9,8 +9,10 @@
 #include <vector>
 
 namespace gonio {
-
 class pinhole_camera;  // core/pinhole_camera.hpp, which needs more of Eigen than all else here
+}
+
+namespace gonio::design {
 
 /// The apparatus.
 struct near_field_options {
@@ -78,7 +80,7 @@ class near_field_geometry {
 };
 static_assert(capture_geometry<near_field_geometry>);
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/near_field_geometry.ipp>

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 namespace detail {
 
@@ -37,7 +37,7 @@ inline constexpr std::array<std::size_t, 5> nielsen_direction_counts{1, 2, 5, 10
 /// degrees, the viewer in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the light.
 [[nodiscard]] std::vector<half_difference> westlund_meyer_directions();
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/published_directions.ipp>

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 /// What a set of candidates is worth to measure: smaller is better. Their order must not matter.
 ///
@@ -189,7 +189,7 @@ template <capture_geometry Geometry, plan_objective Objective>
   return plan;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/search.ipp>

@@ -7,7 +7,7 @@
 
 #include <numeric>
 
-namespace gonio {
+namespace gonio::design {
 
 /// One candidate for each theta_d of a grid: its samples are all valid cells of that slice, each once.
 class sphere_geometry {
@@ -38,7 +38,7 @@ class sphere_geometry {
 };
 static_assert(capture_geometry<sphere_geometry>);
 
-}  // namespace gonio
+}  // namespace gonio::design
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/design/impl/sphere_geometry.ipp>

@@ -25,14 +25,14 @@ class appearance_judge {
  public:
   /// Prepares the spheres; takes the time and memory of two `sphere_operator`s.
   explicit appearance_judge(const valid_cells& cells, int size = 36, thread_count threads = {})
-      : lights_(cells, two_lights(), size, sphere_judge::middle_grey, threads),
-        environment_(cells, environment_lighting(), size, sphere_judge::middle_grey, threads) {}
+      : lights_(cells, render::two_lights(), size, sphere_judge::middle_grey, threads),
+        environment_(cells, render::environment_lighting(), size, sphere_judge::middle_grey, threads) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 
   /// The spheres' linear colours before clipping, as the operators of both lightings.
-  [[nodiscard]] const sphere_operator& lights() const noexcept { return lights_.sphere(); }
-  [[nodiscard]] const sphere_operator& environment() const noexcept { return environment_.sphere(); }
+  [[nodiscard]] const render::sphere_operator& lights() const noexcept { return lights_.sphere(); }
+  [[nodiscard]] const render::sphere_operator& environment() const noexcept { return environment_.sphere(); }
 
   /// What an observer sees of a table. Throws gonio::error if it is over other cells.
   [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;

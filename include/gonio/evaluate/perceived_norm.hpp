@@ -23,7 +23,7 @@ namespace detail {
 
 /// How the lightness of one point of a sphere changes with the weights, for each observation of a basis: m x k.
 template <error_metric Metric>
-[[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const sphere_operator& sphere,
+[[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                                  std::size_t point) {
   std::vector<std::size_t> cells;
   std::vector<double> weights;
@@ -66,7 +66,7 @@ template <error_metric Metric>
 /// grey. 4 k m operations for each entry of the sphere, 2 k^2 m for each point; the same bytes for any number of
 /// threads. Throws gonio::error if the sphere is over other cells.
 template <error_metric Metric>
-[[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const sphere_operator& sphere,
+[[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
   if (!(basis.cells() == sphere.cells())) throw error("a basis and a sphere over other cells cannot be combined");
   constexpr std::size_t points_of_a_sum = 8;
@@ -93,8 +93,8 @@ template <error_metric Metric>
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, thread_count threads = {}) {
   constexpr int size = 20;
-  const sphere_operator lights(basis.cells(), two_lights(), size, threads),
-      environment(basis.cells(), environment_lighting(45, 24), size, threads);
+  const render::sphere_operator lights(basis.cells(), render::two_lights(), size, threads),
+      environment(basis.cells(), render::environment_lighting(45, 24), size, threads);
   return (perceived_norm(basis, lights, threads) + perceived_norm(basis, environment, threads)) / 2.0;
 }
 

@@ -15,7 +15,7 @@ namespace gonio {
 /// What an observer sees of a sphere: the CIELAB colours of its points, and the exposure at which they were taken,
 /// relative to one at which a white Lambertian sphere has mean luminance 1.
 struct sphere_appearance {
-  sphere_colours lab;
+  render::sphere_colours lab;
   double exposure = 1.0;
 };
 
@@ -29,8 +29,8 @@ struct sphere_appearance {
 /// environment it would darken its neighbours.
 ///
 /// ```cpp
-/// const gonio::environment_map grace(gonio::io::read_hdr("grace_probe_latlong.hdr"));
-/// const gonio::sphere_judge judge(truth.cells(), gonio::important_lights(grace, 4096, 1));
+/// const gonio::render::environment_map grace(gonio::io::read_hdr("grace_probe_latlong.hdr"));
+/// const gonio::sphere_judge judge(truth.cells(), gonio::render::important_lights(grace, 4096, 1));
 /// const gonio::sphere_appearance seen = judge.expose(truth);  // once for each truth
 /// for (const gonio::brdf_table& estimate : estimates) std::cout << judge.difference(estimate, seen) << '\n';
 /// ```
@@ -44,7 +44,7 @@ class sphere_judge {
 
   /// Prepares the sphere; takes the time and memory of a `sphere_operator`. Throws gonio::error unless `mean_luminance`
   /// is positive and finite.
-  template <sphere_lighting Lighting>
+  template <render::sphere_lighting Lighting>
   sphere_judge(const valid_cells& cells, const Lighting& lighting, int size = 36, double mean_luminance = middle_grey,
                thread_count threads = {})
       : mean_luminance_(checked(mean_luminance)), sphere_(cells, lighting, size, threads) {}
@@ -52,7 +52,7 @@ class sphere_judge {
   [[nodiscard]] const valid_cells& cells() const noexcept { return sphere_.cells(); }
 
   /// The sphere's linear colours before exposure and clipping.
-  [[nodiscard]] const sphere_operator& sphere() const noexcept { return sphere_; }
+  [[nodiscard]] const render::sphere_operator& sphere() const noexcept { return sphere_; }
 
   /// What an observer sees of a truth, at its own exposure. A black sphere, which no exposure brightens, is seen at
   /// exposure 1. Throws gonio::error if the table is over other cells.
@@ -81,17 +81,18 @@ class sphere_judge {
 
   /// The picture of differences of the paper's Fig. 3: each point in the false colour of its Delta E*ab.
   [[nodiscard]] image difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                       const false_colour_range& range = {}, const rgb& background = rgb::Zero()) const;
+                                       const render::false_colour_range& range = {},
+                                       const rgb& background = rgb::Zero()) const;
 
  private:
   [[nodiscard]] static double checked(double mean_luminance);
 
-  [[nodiscard]] sphere_colours visible_colours(const brdf_table& table, thread_count threads) const;
+  [[nodiscard]] render::sphere_colours visible_colours(const brdf_table& table, thread_count threads) const;
 
-  [[nodiscard]] static sphere_appearance seen_at(double exposure, const sphere_colours& colours);
+  [[nodiscard]] static sphere_appearance seen_at(double exposure, const render::sphere_colours& colours);
 
   double mean_luminance_;
-  sphere_operator sphere_;
+  render::sphere_operator sphere_;
 };
 
 }  // namespace gonio

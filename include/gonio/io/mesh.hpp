@@ -23,17 +23,17 @@ namespace gonio::io {
 /// extension, is damaged or truncated, holds more or less than its header counts, names a vertex that it has not, or
 /// has no triangle or a vertex that is not finite. Text that is cut off within its last line, or an OBJ anywhere after
 /// a line, cannot be told from a whole file. It is not checked that the triangles are a surface: `mesh_topology` does.
-[[nodiscard]] triangle_mesh read_mesh(const std::filesystem::path& path);
+[[nodiscard]] shape::triangle_mesh read_mesh(const std::filesystem::path& path);
 
 /// Writes a .ply (binary, little-endian, coordinates in double) or .obj file (text), of which `read_mesh` reads exactly
 /// this mesh. Throws gonio::error, and leaves what was there, if the extension is another, the mesh is not one that
 /// `read_mesh` would return, or the file cannot be written.
-void write_mesh(const std::filesystem::path& path, const triangle_mesh& mesh);
+void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh);
 
 /// Writes a .ply file with a colour for each vertex: linear Rec. 709, clipped to [0, 1] and stored as 8 bits in sRGB.
 /// Throws as the other one does, and if the extension is .obj, which has no colours that all programs know, if there
 /// are more or less colours than vertices, or if one is NaN.
-void write_mesh(const std::filesystem::path& path, const triangle_mesh& mesh, std::span<const rgb> colours);
+void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh, std::span<const rgb> colours);
 
 }  // namespace gonio::io
 

@@ -105,18 +105,18 @@ class setup_text {
 
 [[nodiscard]] pinhole_camera setup_camera(const setup_text& text);
 
-[[nodiscard]] distant_light setup_light(const setup_text& text);
+[[nodiscard]] capture::distant_light setup_light(const setup_text& text);
 
-[[nodiscard]] near_field_setup make_setup(const setup_text& text);
+[[nodiscard]] capture::near_field_setup make_setup(const setup_text& text);
 
 }  // namespace detail
 
 /// Throws gonio::error naming the line with an entry that is unknown, there twice or not what it should be, or the
 /// entry that is missing, and as `require_usable` does; `name` is what errors call the text.
-[[nodiscard]] near_field_setup parse_near_field_setup(std::string_view text, const std::string& name);
+[[nodiscard]] capture::near_field_setup parse_near_field_setup(std::string_view text, const std::string& name);
 
 /// Reads the set-up of a picture. Throws gonio::error naming the file and the line.
-[[nodiscard]] near_field_setup read_near_field_setup(const std::filesystem::path& path);
+[[nodiscard]] capture::near_field_setup read_near_field_setup(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -22,10 +22,11 @@ namespace gonio::io {
 [[nodiscard]] std::vector<std::string> read_names(const std::filesystem::path& path);
 
 /// Reads networks and their names.
-[[nodiscard]] named_networks read_networks(const std::filesystem::path& path, const std::filesystem::path& names_path);
+[[nodiscard]] model::named_networks read_networks(const std::filesystem::path& path,
+                                                  const std::filesystem::path& names_path);
 
 /// Reads networks with the names in `merl_names.txt` beside them.
-[[nodiscard]] inline named_networks read_networks(const std::filesystem::path& path) {
+[[nodiscard]] inline model::named_networks read_networks(const std::filesystem::path& path) {
   return read_networks(path, path.parent_path() / "merl_names.txt");
 }
 

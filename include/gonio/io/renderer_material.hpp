@@ -27,7 +27,7 @@ struct rough_surface {
 };
 
 /// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, beside a Lambertian one or not.
-[[nodiscard]] rough_surface as_rough_surface(const analytic_brdf& model);
+[[nodiscard]] rough_surface as_rough_surface(const model::analytic_brdf& model);
 
 [[nodiscard]] inline std::string three_numbers(const rgb& colour, const std::string& between) {
   return shortest(colour[0]) + between + shortest(colour[1]) + between + shortest(colour[2]);
@@ -39,13 +39,13 @@ struct rough_surface {
 /// and refractive index are carried over; the colour of the highlight is not, because the coat has none, nor is there
 /// light that it keeps from the base in the sum of lobes. GGX by itself becomes `conductor` with the reflectance at
 /// normal incidence, colour times f0. Throws gonio::error for other models: pbrt has no Beckmann distribution.
-[[nodiscard]] std::string pbrt_material(const analytic_brdf& model);
+[[nodiscard]] std::string pbrt_material(const model::analytic_brdf& model);
 
 /// A `bsdf` of Mitsuba 3, linear sRGB. A rough lobe beside Lambert becomes `roughplastic`, which carries over albedo,
 /// roughness, refractive index, distribution and the colour of the highlight; it lets the base have only the light that
 /// the interface lets through, which the sum of lobes does not. A rough lobe by itself becomes `roughconductor` of 100
 /// % reflectance (material `none`) in the colour times f0: the rise towards grazing angles is not carried over.
-[[nodiscard]] std::string mitsuba_material(const analytic_brdf& model);
+[[nodiscard]] std::string mitsuba_material(const model::analytic_brdf& model);
 
 /// Writes such a text; whole, or not at all.
 inline void write_renderer_material(const std::filesystem::path& path, const std::string& material) {

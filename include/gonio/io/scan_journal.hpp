@@ -37,7 +37,7 @@ struct recorded_scan {
   std::optional<scan_subject> subject;  ///< none if the file is by a version that did not write it down
   std::uint16_t largest_count = 0;
   std::vector<direction_pair> poses;
-  std::vector<std::optional<reading>> readings;  ///< one for each pose
+  std::vector<std::optional<capture::reading>> readings;  ///< one for each pose
 
   [[nodiscard]] std::size_t measured() const {
     return static_cast<std::size_t>(std::ranges::count_if(readings, [](const auto& each) { return each.has_value(); }));
@@ -56,7 +56,7 @@ namespace detail {
 [[nodiscard]] std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
                                              std::uint16_t largest_count);
 
-[[nodiscard]] std::string format_reading(std::size_t pose, const reading& taken);
+[[nodiscard]] std::string format_reading(std::size_t pose, const capture::reading& taken);
 
 /// Takes a line's numbers one after the other.
 class number_reader {
@@ -73,7 +73,8 @@ class number_reader {
   std::size_t used_ = 0;
 };
 
-[[nodiscard]] reading parse_reading(number_reader& numbers, std::uint16_t largest_count, const text_place& place);
+[[nodiscard]] capture::reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
+                                             const text_place& place);
 
 [[nodiscard]] direction_pair parse_pose(const text_rule& rule, const text_place& place);
 
@@ -116,7 +117,7 @@ class scan_journal {
   [[nodiscard]] const recorded_scan& scan() const noexcept { return scan_; }
 
   /// Returns when the reading is on the disk. Throws gonio::error if it cannot be written, or is there already.
-  void add(std::size_t pose, const reading& taken);
+  void add(std::size_t pose, const capture::reading& taken);
 
  private:
   void open();
@@ -131,7 +132,7 @@ class scan_journal {
   recorded_scan scan_;
 };
 
-static_assert(scan_record<scan_journal>);
+static_assert(capture::scan_record<scan_journal>);
 
 }  // namespace gonio::io
 

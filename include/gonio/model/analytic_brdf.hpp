@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// The shape of a lobe behind function pointers. There is one object of each kind, in static storage.
 class lobe_kind {
@@ -149,7 +149,7 @@ class analytic_brdf {
 
 static_assert(brdf<analytic_brdf>);
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/analytic_brdf.ipp>

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// A fitted model and what is known of its minimum.
 struct model_fit {
@@ -42,8 +42,9 @@ namespace detail {
 /// observations, L lobes and P parameters.
 ///
 /// ```cpp
-/// const std::vector kinds{&gonio::lobe_kind::of<gonio::lambert_shape>(), &gonio::lobe_kind_named("ggx")};
-/// const auto fit = gonio::fit_model(kinds, gonio::fit_observations(samples));
+/// const std::vector kinds{&gonio::model::lobe_kind::of<gonio::model::lambert_shape>(),
+/// &gonio::model::lobe_kind_named("ggx")}; const auto fit = gonio::model::fit_model(kinds,
+/// gonio::model::fit_observations(samples));
 /// ```
 template <smooth_metric Metric = lin>
 [[nodiscard]] model_fit fit_model(const std::vector<const lobe_kind*>& kinds,
@@ -52,7 +53,7 @@ template <smooth_metric Metric = lin>
   return detail::fit_model_by(kinds, observations, detail::chosen_metric(metric), options);
 }
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/fit_model.ipp>

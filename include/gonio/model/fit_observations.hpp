@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// One measurement of all three channels.
 struct fit_observation {
@@ -51,7 +51,7 @@ namespace detail {
 
 }  // namespace detail
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/fit_observations.ipp>

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// A material by formula: one of a few analytic models, chosen at run time.
 class formula_brdf {
@@ -48,7 +48,7 @@ namespace detail {
 /// The material of that name. Throws gonio::error listing the names if there is none.
 [[nodiscard]] formula_brdf formula_material(std::string_view name);
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/formula_materials.ipp>

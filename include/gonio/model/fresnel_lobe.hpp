@@ -6,7 +6,7 @@
 #include <gonio/model/phong.hpp>
 #include <gonio/model/ward.hpp>
 
-namespace gonio {
+namespace gonio::model {
 
 /// `with_fresnel<Shape>::shape` is Shape times `fresnel_dielectric`; its last parameter is the refractive index.
 template <template <class> class Shape>
@@ -46,4 +46,4 @@ using phong_blinn_fresnel = lobe<with_fresnel<phong_blinn_shape>::shape>;
 
 static_assert(brdf<phong_fresnel> && brdf<blinn_phong_fresnel> && brdf<phong_blinn_fresnel>);
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace gonio {
+namespace gonio::model {
 
 namespace detail {
 
@@ -38,7 +38,7 @@ template <class Real>
 
 /// F D G / (4 cos_i cos_o). Masking is Smith's, height-uncorrelated as in the paper: G = G1(wi) G1(wo).
 /// ```cpp
-/// const gonio::ggx varnish{.alpha = 0.15, .f0 = gonio::rgb::Constant(0.04)};
+/// const gonio::model::ggx varnish{.alpha = 0.15, .f0 = gonio::rgb::Constant(0.04)};
 /// ```
 /// With h = wi + wo there is no direction above the horizon at which it is not finite: the cosines of the
 /// denominator cancel against those of G, and sines come from components, not from 1 - cos^2.
@@ -95,4 +95,4 @@ using ggx_lobe = lobe<ggx_shape>;
 
 static_assert(brdf<ggx_lobe>);
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -4,7 +4,7 @@
 
 #include <gonio/model/phong.hpp>
 
-namespace gonio {
+namespace gonio::model {
 
 /// (wi' M wo / |M|)^n with the isotropic M = diag(-sin tilt, -sin tilt, cos tilt), in the paper's terms C_x = -sin tilt
 /// and C_z = cos tilt. Their common scale cannot be told from the colour: |M|, the larger of |C_x| and |C_z|, makes the
@@ -35,4 +35,4 @@ using lafortune = lobe<lafortune_shape>;
 
 static_assert(brdf<lafortune>);
 
-}  // namespace gonio
+}  // namespace gonio::model

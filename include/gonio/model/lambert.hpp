@@ -10,11 +10,11 @@
 #include <string_view>
 #include <tuple>
 
-namespace gonio {
+namespace gonio::model {
 
 /// f = albedo / pi above the horizon.
 /// ```cpp
-/// const gonio::lambertian grey{.albedo = gonio::rgb::Constant(0.18)};
+/// const gonio::model::lambertian grey{.albedo = gonio::rgb::Constant(0.18)};
 /// ```
 struct lambertian {
   /// The fraction of the incident light that is reflected, in [0, 1] for a physical surface.
@@ -40,4 +40,4 @@ struct lambert_shape {
 
 static_assert(lobe_shape<lambert_shape>);
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -15,7 +15,7 @@
 #include <tuple>
 #include <utility>
 
-namespace gonio {
+namespace gonio::model {
 
 /// What the lobes of analytic models depend on, of a pair of directions above the horizon.
 struct lobe_geometry {
@@ -59,11 +59,11 @@ struct shape_parameter {
 /// template <class Real>
 /// struct lambert_shape {
 ///   static constexpr std::string_view name = "lambert";
-///   static constexpr std::array<gonio::shape_parameter, 0> parameters{};
+///   static constexpr std::array<gonio::model::shape_parameter, 0> parameters{};
 ///   static auto members(auto& /*self*/) { return std::tie(); }
-///   Real operator()(const gonio::lobe_geometry&) const { return Real(std::numbers::inv_pi); }
+///   Real operator()(const gonio::model::lobe_geometry&) const { return Real(std::numbers::inv_pi); }
 /// };
-/// static_assert(gonio::lobe_shape<lambert_shape>);
+/// static_assert(gonio::model::lobe_shape<lambert_shape>);
 /// ```
 template <template <class> class Shape>
 concept lobe_shape = requires(Shape<double>& shape, const Shape<double>& constant, const lobe_geometry& at) {
@@ -110,7 +110,7 @@ inline constexpr double largest_reflectance = 1e300;
 
 /// A shape in a colour: f = colour * shape(wi, wo).
 /// ```cpp
-/// const gonio::ward varnish{gonio::rgb::Constant(0.1), {.roughness = 0.05}};
+/// const gonio::model::ward varnish{gonio::rgb::Constant(0.1), {.roughness = 0.05}};
 /// ```
 template <template <class> class Shape>
 requires lobe_shape<Shape>
@@ -139,7 +139,7 @@ class lobe {
   shape_type shape_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/lobe.ipp>

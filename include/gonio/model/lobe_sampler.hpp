@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 namespace detail {
 
@@ -134,7 +134,7 @@ void weigh_lobes(const Model& f, std::vector<weighed_lobe>& lobes) {
 /// Importance sampling of an analytic BRDF, which it holds: of any lobe, `lambertian`, `ggx`, a `sum_of_lobes`, an
 /// `analytic_brdf` such as a fit returns, or a `formula_brdf`.
 /// ```cpp
-/// const gonio::lobe_sampler paint{gonio::sum_of_lobes{gonio::lambertian{}, gonio::ggx{}}};
+/// const gonio::model::lobe_sampler paint{gonio::model::sum_of_lobes{gonio::model::lambertian{}, gonio::model::ggx{}}};
 /// const auto drawn = paint.sample(wo, u1, u2);
 /// ```
 /// `sample`, `pdf` and the BRDF itself agree: the weight times pdf is f cos(theta_i), and pdf integrates to 1 over the
@@ -186,7 +186,7 @@ using analytic_sampler = lobe_sampler<analytic_brdf>;
 
 static_assert(direction_sampler<analytic_sampler>);
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/lobe_sampler.ipp>

@@ -15,7 +15,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// How residuals add up.
 enum class fit_norm {
@@ -144,7 +144,7 @@ class model_loss {
 
 }  // namespace detail
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/model_loss.ipp>

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 /// A BRDF given by the 675 parameters of a network, `[W1 6x21][b1][W2 21x21][b2][W3 21x3][b3]`, matrices
 /// row-major and multiplied from the right to a row vector.
@@ -139,7 +139,7 @@ void tabulate_networks(std::span<const network_brdf> networks, const valid_cells
 [[nodiscard]] material_set tabulate_networks(const named_networks& materials, const valid_cells& cells,
                                              thread_count threads = {}, const progress& listener = {});
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/network_brdf.ipp>

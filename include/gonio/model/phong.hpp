@@ -8,7 +8,7 @@
 
 #include <numbers>
 
-namespace gonio {
+namespace gonio::model {
 
 namespace detail {
 
@@ -76,4 +76,4 @@ using phong_blinn = lobe<phong_blinn_shape>;
 
 static_assert(brdf<phong> && brdf<blinn_phong> && brdf<phong_blinn>);
 
-}  // namespace gonio
+}  // namespace gonio::model

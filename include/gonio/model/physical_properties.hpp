@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace gonio {
+namespace gonio::model {
 
 /// The worst that was met, and where.
 struct worst_pair {
@@ -111,7 +111,7 @@ template <brdf Brdf>
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/physical_properties.ipp>

@@ -16,7 +16,7 @@
 #include <variant>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 // ---- densities of directions: draw wi given wo above the horizon, and tell the density in sr^-1 ------------------
 
@@ -252,7 +252,7 @@ template <template <class> class... Shapes>
 /// noisy where it shines.
 [[nodiscard]] sampling_techniques techniques_of(const analytic_lobe& f);
 
-}  // namespace gonio
+}  // namespace gonio::model
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/model/impl/sampling_techniques.ipp>

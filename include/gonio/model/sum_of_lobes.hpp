@@ -7,11 +7,11 @@
 #include <tuple>
 #include <utility>
 
-namespace gonio {
+namespace gonio::model {
 
 /// f = f_1 + f_2 + ... The lobes keep their own parameters; nothing here keeps the sum's albedo below 1.
 /// ```cpp
-/// const gonio::sum_of_lobes paint{gonio::lambertian{}, gonio::ggx{}};
+/// const gonio::model::sum_of_lobes paint{gonio::model::lambertian{}, gonio::model::ggx{}};
 /// ```
 template <brdf... Lobes>
 class sum_of_lobes {
@@ -36,4 +36,4 @@ class sum_of_lobes {
 
 static_assert(brdf<sum_of_lobes<>>);
 
-}  // namespace gonio
+}  // namespace gonio::model

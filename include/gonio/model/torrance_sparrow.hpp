@@ -7,7 +7,7 @@
 
 #include <numbers>
 
-namespace gonio {
+namespace gonio::model {
 
 /// D F G / (4 cos theta_i cos theta_o): Beckmann's distribution, Schlick's Fresnel factor, and the masking of
 /// V-cavities. Eq. 2.21 is printed with cos theta_i, which is not reciprocal; as in its source the angle here is
@@ -46,4 +46,4 @@ using torrance_sparrow = lobe<torrance_sparrow_shape>;
 
 static_assert(brdf<torrance_sparrow>);
 
-}  // namespace gonio
+}  // namespace gonio::model

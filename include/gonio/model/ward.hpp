@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-namespace gonio {
+namespace gonio::model {
 
 namespace detail {
 
@@ -103,4 +103,4 @@ using anisotropic_ward_bounded = lobe<detail::anisotropic_ward<detail::ward_norm
 static_assert(brdf<ward> && brdf<ward_duer> && brdf<ward_bounded>);
 static_assert(brdf<anisotropic_ward> && brdf<anisotropic_ward_duer> && brdf<anisotropic_ward_bounded>);
 
-}  // namespace gonio
+}  // namespace gonio::model

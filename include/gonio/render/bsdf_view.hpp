@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace gonio {
+namespace gonio::render {
 
 /// Any material that samples itself, such as `half_vector_sampler` or `lobe_sampler`, behind three functions: a view of
 /// four pointers. What it views must outlive it. It does not allocate, lock or throw.
@@ -82,4 +82,4 @@ class bsdf_view {
   sampled (*sample_)(const void*, const vector&, float, float) noexcept;
 };
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -16,7 +16,7 @@
 #include <numbers>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 namespace detail {
 
@@ -154,4 +154,4 @@ class cell_finder {
   detail::border_counter<Real> theta_h_, theta_d_, phi_d_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::render

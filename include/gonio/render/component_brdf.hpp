@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// What components can be taken from: a basis of principal components relative to a reference, as
 /// `gonio::log_relative_pca` is one.
@@ -87,8 +87,8 @@ class shared_components {
 /// A BRDF of k weights for each channel. Evaluation costs a row of k + 2 numbers, or eight for trilinear look-up, and
 /// three exponentials; it does not allocate, lock or throw. A view of the components, which must outlive it.
 /// ```cpp
-/// const gonio::shared_components<Eigen::half> components(prior);
-/// const gonio::component_brdf paint(components, fit.found().weights);
+/// const gonio::render::shared_components<Eigen::half> components(prior);
+/// const gonio::render::component_brdf paint(components, fit.found().weights);
 /// ```
 /// Black where `lookup_table` is. Both directions must be of unit length, because the mapping depends on their cosines.
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
@@ -159,4 +159,4 @@ class component_brdf {
 
 static_assert(brdf<component_brdf<>>);
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// Radiance from everywhere, constant within each pixel of a picture that is twice as wide as high.
 ///
@@ -140,7 +140,7 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 static_assert(std::is_invocable_r_v<rgb, const environment_map&, const direction&>);
 static_assert(sphere_lighting<environment_lighting<environment_map>>);
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/environment_map.ipp>

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// A world direction that light comes from, its radiance, and the density in sr^-1 with which it was drawn.
 struct sampled_light {
@@ -61,7 +61,7 @@ class environment_sampler {
   std::vector<double> reached_;  ///< the sum of luminance times solid angle before each pixel, and of all
 };
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/environment_sampler.ipp>

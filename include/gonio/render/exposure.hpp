@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace gonio {
+namespace gonio::render {
 
 /// What a share of a sphere's pixels does not exceed in its brightest channel; `picture` is one of `render_sphere`,
 /// whose surroundings do not count. Throws gonio::error if the picture is not square.
@@ -18,7 +18,7 @@ namespace gonio {
 /// Multiplies all values.
 void expose(image& picture, double exposure);
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/exposure.ipp>

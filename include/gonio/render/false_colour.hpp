@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gonio {
+namespace gonio::render {
 
 /// The values that show as pure blue and pure red; the default is the paper's. Their mean shows as pure green.
 struct false_colour_range {
@@ -27,4 +27,4 @@ struct false_colour_range {
   return {std::max(place, 0.0), 1.0 - std::abs(place), std::max(-place, 0.0)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -17,7 +17,7 @@
 #include <span>
 #include <type_traits>
 
-namespace gonio {
+namespace gonio::render {
 
 /// Shares of the way along the axes of a MERL-like grid, from 0 to 1: sqrt(theta_h / (pi / 2)), theta_d / (pi / 2) and
 /// phi_d / pi. The last wraps. Times the number of cells they count cells.
@@ -220,4 +220,4 @@ class grid_coordinates_block {
   alignas(64) lanes theta_h_{}, theta_d_{}, phi_d_{};
 };
 
-}  // namespace gonio
+}  // namespace gonio::render

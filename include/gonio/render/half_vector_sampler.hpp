@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 namespace detail {
 
@@ -262,4 +262,4 @@ class half_vector_sampler {
   std::vector<Real> ratios_;                              ///< by viewer
 };
 
-}  // namespace gonio
+}  // namespace gonio::render

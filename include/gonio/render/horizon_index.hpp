@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// The eight cells around a place, by their numbers, and weights that sum to 1.
 template <std::floating_point Real>
@@ -132,7 +132,7 @@ class horizon_index {
   std::size_t row_of_last_ = SIZE_MAX;
 };
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/horizon_index.ipp>

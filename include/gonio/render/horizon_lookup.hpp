@@ -12,7 +12,7 @@
 
 #include <algorithm>
 
-namespace gonio {
+namespace gonio::render {
 
 /// A BRDF in sr^-1; zero below the horizon. A view: the table must outlive it.
 class horizon_lookup {
@@ -40,4 +40,4 @@ class horizon_lookup {
 
 static_assert(brdf<horizon_lookup>);
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-namespace gonio {
+namespace gonio::render {
 
 /// Copies a picture into a larger one, its top left corner at (row, column).
 void paste(image& canvas, const image& picture, std::size_t row, std::size_t column);
@@ -20,7 +20,7 @@ void paste(image& canvas, const image& picture, std::size_t row, std::size_t col
 [[nodiscard]] image stacked(std::span<const image> pictures, std::size_t margin = 0,
                             const rgb& background = rgb::Zero());
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/image.ipp>

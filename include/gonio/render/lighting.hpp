@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// A right-handed orthonormal frame whose z axis is a surface normal.
 struct surface_frame {
@@ -56,11 +56,11 @@ struct surface_frame {
 /// struct headlight {
 ///   template <class Visit>
 ///   void for_each_incident(const gonio::direction& normal, Visit&& visit) const {
-///     const gonio::direction wo = gonio::surface_frame(normal).to_local({0.0, 0.0, 1.0});
+///     const gonio::direction wo = gonio::render::surface_frame(normal).to_local({0.0, 0.0, 1.0});
 ///     if (wo.z() > 0.0) visit(wo, wo, gonio::rgb(gonio::rgb::Constant(wo.z())));
 ///   }
 /// };
-/// static_assert(gonio::sphere_lighting<headlight>);
+/// static_assert(gonio::render::sphere_lighting<headlight>);
 /// ```
 template <class Lighting>
 concept sphere_lighting = requires(const Lighting& lighting, const direction& normal,
@@ -199,4 +199,4 @@ class environment_lighting {
 
 static_assert(sphere_lighting<environment_lighting<>>);
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -18,7 +18,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// How a table is read between its values: as the nearest has it, or in proportion to the eight around.
 enum class interpolation { nearest, trilinear };
@@ -43,7 +43,7 @@ concept stored_number =
 /// Look-up is black if a direction is at or below the horizon or has a component that is not a number or larger than
 /// 1e7. Directions need not be of unit length, as long as both have the same.
 /// ```cpp
-/// const auto paint = gonio::lookup_table<Eigen::half>::of(table);  // a brdf_table
+/// const auto paint = gonio::render::lookup_table<Eigen::half>::of(table);  // a brdf_table
 /// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
 /// ```
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>
@@ -203,4 +203,4 @@ class lookup_table {
 
 static_assert(brdf<lookup_table<>>);
 
-}  // namespace gonio
+}  // namespace gonio::render

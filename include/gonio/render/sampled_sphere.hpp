@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// A camera at infinity in front of the sphere, as in render/sphere.hpp.
 struct sampled_sphere_view {
@@ -141,7 +141,7 @@ template <direction_sampler Sampler>
   return picture;
 }
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/sampled_sphere.ipp>

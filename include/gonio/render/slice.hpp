@@ -10,7 +10,7 @@
 
 #include <numbers>
 
-namespace gonio {
+namespace gonio::render {
 
 /// How theta_h runs along the picture.
 enum class slice_axis {
@@ -56,4 +56,4 @@ template <brdf Brdf>
   return picture;
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

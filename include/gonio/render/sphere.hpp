@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 /// What the camera sees of the sphere.
 struct sphere_view {
@@ -180,7 +180,7 @@ class sphere_operator {
   double exposure_ = 1.0;
 };
 
-}  // namespace gonio
+}  // namespace gonio::render
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/render/impl/sphere.ipp>

@@ -10,7 +10,7 @@
 
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// x -> scale * rotation * x + translation.
 struct similarity_transform {
@@ -91,7 +91,7 @@ namespace detail {
 [[nodiscard]] aligned_shapes procrustes_mean(const std::vector<point_columns>& shapes,
                                              const procrustes_options& options = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/alignment.ipp>

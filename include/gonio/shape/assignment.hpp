@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// For each row the column it is assigned to, no column twice, such that the costs of all assigned pairs have the least
 /// sum. As many pairs are made as the shorter side has; rows beyond the number of columns are assigned to -1. Costs of
@@ -17,7 +17,7 @@ namespace gonio {
 /// Throws gonio::error for a cost that is not finite.
 [[nodiscard]] std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/assignment.ipp>

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// A scan to learn from.
 struct named_scan {
@@ -55,7 +55,7 @@ struct bootstrap_result {
                                                      const bootstrap_options& options = {}, thread_count threads = {},
                                                      const progress& listener = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/bootstrap.ipp>

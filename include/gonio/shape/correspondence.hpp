@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// A scan and where it lies: `pose` takes its coordinates to those of the model.
 struct posed_scan {
@@ -56,7 +56,7 @@ struct correspondence_options {
 [[nodiscard]] known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
                                             const correspondence_options& options = {}, thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/correspondence.ipp>

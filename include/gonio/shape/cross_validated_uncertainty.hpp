@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// How an uncertainty is measured.
 struct cross_validation_options {
@@ -60,7 +60,7 @@ class cross_validated_uncertainty {
   std::vector<double> squared_distances_;  // ascending
 };
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/cross_validated_uncertainty.ipp>

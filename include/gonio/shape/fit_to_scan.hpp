@@ -14,7 +14,7 @@
 
 #include <Eigen/Core>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// How a model is brought onto a scan.
 struct fit_to_scan_options {
@@ -67,7 +67,7 @@ namespace detail {
                                              const similarity_transform& pose, const fit_to_scan_options& options = {},
                                              thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/fit_to_scan.ipp>

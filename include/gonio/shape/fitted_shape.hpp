@@ -16,7 +16,7 @@
 
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// Vertices whose positions are known, by number: a column of `positions` for each.
 ///
@@ -63,14 +63,18 @@ class fitted_shape {
   solution found_;
 };
 
+static_assert(measured_over<known_vertices, vertex_coordinates>);
+
+}  // namespace gonio::shape
+
+namespace gonio {
+
 /// `decomposition{shapes, truncated_svd{0.99}}.fit(known)` is a shape.
 template <>
-struct fit_over<vertex_coordinates> {
+struct fit_over<shape::vertex_coordinates> {
   template <class Basis>
-  using type = fitted_shape;
+  using type = shape::fitted_shape;
 };
-
-static_assert(measured_over<known_vertices, vertex_coordinates>);
 
 }  // namespace gonio
 

@@ -13,7 +13,7 @@
 #include <functional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// The length of the shortest path along edges from a vertex to each, in the unit of the mesh; infinite where there is
 /// none. O(vertices log vertices). Throws gonio::error if the topology has another number of vertices than the mesh,
@@ -29,7 +29,7 @@ namespace gonio {
                                                               const std::function<bool(Eigen::Index)>& is_candidate,
                                                               std::size_t count);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/geodesic.ipp>

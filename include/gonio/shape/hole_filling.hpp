@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// Of what there is least in a filled hole.
 enum class smoothness {
@@ -28,7 +28,7 @@ enum class smoothness {
 [[nodiscard]] point_columns fill_smoothly(const mesh_topology& topology, point_columns points,
                                           const std::vector<bool>& known, smoothness kind = smoothness::thin_plate);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/hole_filling.ipp>

@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <span>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// What is seen: parallel rays towards a ball in a square picture that it fills.
 struct mesh_view {
@@ -31,7 +31,7 @@ struct mesh_view {
 /// colours than vertices, or a view without extent or direction.
 [[nodiscard]] image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/mesh_picture.ipp>

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// The neighbourhoods of a mesh that is a surface: manifold, oriented, with or without a border.
 class mesh_topology {
@@ -59,7 +59,7 @@ class mesh_topology {
   std::vector<bool> border_;
 };
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/mesh_topology.ipp>

@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// How a partial scan is recovered.
 struct recovery_options {
@@ -62,7 +62,7 @@ namespace detail {
                                                    const published_recovery_options& options = {},
                                                    thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/recovery.ipp>

@@ -7,7 +7,7 @@
 
 #include <string>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// How a model is propagated, and what is accepted (section 2).
 struct registration_options {
@@ -40,7 +40,7 @@ struct registration {
                                          const similarity_transform& pose, const registration_options& options = {},
                                          thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/registration.ipp>

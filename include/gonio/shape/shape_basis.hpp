@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// The coordinates x, y, z of the first vertex, then of the next: the domain of shapes.
 struct vertex_coordinates {
@@ -78,7 +78,7 @@ inline constexpr Eigen::Index motions = 6;
 /// shape of another number of vertices.
 [[nodiscard]] shape_basis with_motion(const shape_basis& basis, const point_columns& shape, double freedom = 1e3);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/shape_basis.ipp>

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// The bins of a descriptor and the frame they are counted in. The bins of a coordinate are equally wide. The defaults
 /// are the paper's, for millimetres.
@@ -101,7 +101,7 @@ class point_tree {
 [[nodiscard]] std::vector<shape_match> match(const shape_descriptors& from, const shape_descriptors& onto,
                                              thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/shape_context.ipp>

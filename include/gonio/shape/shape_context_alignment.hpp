@@ -11,7 +11,7 @@
 #include <memory>
 #include <utility>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// How a scan is aligned by shape contexts. Lengths are in millimetres by default.
 struct shape_context_alignment_options {
@@ -77,7 +77,7 @@ class shape_context_matcher {
                                                    const shape_context_alignment_options& options = {},
                                                    thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/shape_context_alignment.ipp>

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// M(c): a value type whose copies share their storage.
 class shape_model {
@@ -63,7 +63,7 @@ class shape_model {
 [[nodiscard]] shape_model learn_shape_model(const std::vector<point_columns>& shapes, std::vector<std::string> names,
                                             triangle_columns triangles, thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/shape_model.ipp>

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// The covariance of a shape's vertices given those that are known.
 ///
@@ -43,7 +43,7 @@ class shape_uncertainty {
   double scale_ = 0.0, published_scale_ = 0.0, degrees_of_freedom_ = 0.0;
 };
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/shape_uncertainty.ipp>

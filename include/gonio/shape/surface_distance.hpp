@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// `surface_index::signed_distance` of each column of `points`, in their order. Throws gonio::error if a point is not
 /// finite.
@@ -30,7 +30,7 @@ struct surface_distance {
 [[nodiscard]] surface_distance distance_to(const surface_index& surface, const point_columns& points,
                                            thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/surface_distance.ipp>

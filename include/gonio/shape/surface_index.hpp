@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// A place on a surface that a query found.
 struct surface_point {
@@ -66,7 +66,7 @@ class surface_index {
 [[nodiscard]] std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,
                                                         thread_count threads = {});
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/surface_index.ipp>

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// Each column replaced by the mean of itself and its neighbours. Vertices on the border have neighbours on the border
 /// alone, lest the surface shrink.
@@ -21,7 +21,7 @@ namespace gonio {
 /// seven edges meet. Two more means gather it from about nineteen vertices. O(vertices + edges).
 [[nodiscard]] Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const mesh_topology& topology);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/surface_noise.ipp>

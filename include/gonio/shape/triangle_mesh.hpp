@@ -5,7 +5,7 @@
 
 #include <span>
 
-namespace gonio {
+namespace gonio::shape {
 
 /// A point of space for each column, in any unit of length; the published thresholds are for millimetres.
 using point_columns = Eigen::Matrix3Xd;
@@ -44,7 +44,7 @@ struct triangle_mesh {
 /// none. O(triangles).
 [[nodiscard]] point_columns vertex_normals(const triangle_mesh& mesh);
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/shape/impl/triangle_mesh.ipp>

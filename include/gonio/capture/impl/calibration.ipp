@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE std::vector<double> times_in_common(std::span<const reading> readings) {
   std::vector<double> times = readings.front().times;
@@ -41,9 +41,9 @@ GONIO_INLINE exposure_counts mean_counts(std::span<const reading> readings, std:
   return counts;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
                                                                std::uint16_t largest_count,
@@ -116,4 +116,4 @@ GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance>
                 " samples that are no highlight: are the two exchanged?"};
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE camera_response::camera_response(std::uint16_t largest_count, Eigen::VectorXd log_exposures,
                                               double smallest_known_count)
@@ -63,9 +63,9 @@ GONIO_INLINE std::pair<Eigen::Index, double> camera_response::place_of(double co
   return {left, std::log(position / knot) / std::log1p(1.0 / knot)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 /// 0 at both ends of a camera's range, 1 in its middle (Debevec and Malik 1997, Eq. 4).
 [[nodiscard]] GONIO_INLINE double hat(double count, double saturation) noexcept {
@@ -158,9 +158,9 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   return values;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, std::span<const double> times,
                                                std::uint16_t largest_count, const response_options& options) {
@@ -196,4 +196,4 @@ GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, st
   return {largest_count, detail::never_falling(product(basis.values, found.weights)), equations.smallest_count()};
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

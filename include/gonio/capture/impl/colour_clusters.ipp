@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluster) const {
   std::vector<std::size_t> found;
@@ -23,9 +23,9 @@ GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluste
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 /// Pixels that the number of clusters and their first centres are found from.
 inline constexpr std::size_t clustered_sample = 2000;
@@ -57,9 +57,9 @@ GONIO_INLINE void require_colours(const point_matrix_view& colours) {
   return {found.labels, std::move(centres), found.sizes, silhouette, {}};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE point_matrix clustering_coordinates(const point_matrix_view& colours) {
   detail::require_colours(colours);
@@ -106,4 +106,4 @@ GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, c
   return clusters;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE void sensor_noise::require_usable() const {
   for (const double number : {read, shot, relative})
@@ -30,9 +30,9 @@ GONIO_INLINE double sensor_noise::relative_variance(const camera_response& respo
   return slope * slope * (read * read + shot * count + rounding) / pixels + relative * relative;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                              const sensor_noise& noise, double saturation, double pixels) {
@@ -76,9 +76,9 @@ GONIO_INLINE measured_radiance saturated_radiance(const camera_response& respons
           false};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE measured_radiance merge_exposures(std::span<const std::uint16_t> counts, std::span<const double> times,
                                                const camera_response& response, const sensor_noise& noise,
@@ -130,4 +130,4 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
                  : detail::saturated_radiance(response, taken.times, limit);
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE void require_finite_points(const point_matrix_view& points) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
@@ -141,9 +141,9 @@ GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const E
   return ordered;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, point_matrix centres, thread_count threads,
                                             int most_steps) {
@@ -213,4 +213,4 @@ GONIO_INLINE double mean_silhouette(const point_matrix_view& points, const Eigen
   return sum / static_cast<double>(n);
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

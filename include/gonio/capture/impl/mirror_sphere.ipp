@@ -15,7 +15,7 @@
 #include <optional>
 #include <string>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE mirror_sphere::mirror_sphere(double distance) : distance_(distance) {
   if (!(distance > 1.0))
@@ -72,9 +72,9 @@ GONIO_INLINE int unwrap_options::samples_for(std::size_t pixels) const noexcept 
   return std::clamp(static_cast<int>(std::ceil(needed)), 2, 32);
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE void require_unwrappable(const image& probe, const unwrap_options& options) {
   const std::size_t pixels = probe.shape(0);
@@ -107,9 +107,9 @@ GONIO_INLINE rgb read_probe(const image& probe, const Eigen::Vector2d& place) no
   return sum / weights;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options,
                           thread_count threads) {
@@ -145,4 +145,4 @@ GONIO_INLINE image unwrap(const image& probe, const mirror_sphere& sphere, const
   return map;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE bool sample_disc::contains(const Eigen::Vector3d& point) const noexcept {
   return (point.head<2>() - centre).norm() <= radius;
@@ -54,9 +54,9 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
   refuse_unless(setup.block > 0, "a block needs at least one pixel a side");
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE std::optional<direction> view_of_pixel(const near_field_setup& setup, std::size_t row,
                                                     std::size_t column) {
@@ -93,9 +93,9 @@ GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& in
                 size(intrinsics.columns, intrinsics.rows));
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& setup) {
   require_usable(setup);
@@ -140,4 +140,4 @@ GONIO_INLINE picture_samples near_field_pairs(const image& picture, const near_f
   return samples;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <string>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE double pixel_solid_angle(double focal_length, double f_number, double distance) {
   for (const double number : {focal_length, f_number, distance})
@@ -50,4 +50,4 @@ GONIO_INLINE void reference_light::require_usable(const illumination& at) {
     throw error("the distance to the lamp must be positive, not " + std::to_string(at.distance));
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

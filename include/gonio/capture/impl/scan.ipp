@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::capture::detail {
 
 GONIO_INLINE std::string fault_of(const reading& taken, std::uint16_t largest_count) {
   if (taken.frames.empty()) return "the camera gave no frame";
@@ -33,4 +33,4 @@ GONIO_INLINE std::string fault_of(const reading& taken, std::uint16_t largest_co
   return {};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::capture::detail

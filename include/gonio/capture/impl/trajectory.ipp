@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::capture {
 
 GONIO_INLINE Eigen::Quaterniond camera_pose::orientation() const {
   return Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY());
@@ -88,4 +88,4 @@ GONIO_INLINE double duration_of_scan(double length_of_way, std::size_t stops, st
   return length_of_way / pace.radians_per_second + static_cast<double>(stops) * each;
 }
 
-}  // namespace gonio
+}  // namespace gonio::capture

@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE bool capture_constraint::is_none() const noexcept {
   const polar_range all;
@@ -40,4 +40,4 @@ GONIO_INLINE std::optional<direction_pair> capture_constraint::pose_of(const hal
   return {};
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

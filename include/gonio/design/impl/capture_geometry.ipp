@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE direction_pair point_geometry::centre(std::size_t cell) const {
   const half_difference angles = cells_.angles(cell);
@@ -39,4 +39,4 @@ GONIO_INLINE std::optional<std::size_t> point_geometry::stepped(std::size_t from
   return cell;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const cell_matrix& components,
                                               expected_error criterion, capture_constraint constraint,
@@ -99,4 +99,4 @@ GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> own
   return Eigen::Map<const Eigen::ArrayXd>(own_etas.data(), std::ssize(own_etas)).cast<float>();
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

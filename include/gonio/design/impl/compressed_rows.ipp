@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 GONIO_INLINE std::vector<std::pair<std::size_t, double>> cells_next_to(std::span<const half_difference> directions,
                                                                        const valid_cells& cells) {
@@ -55,9 +55,9 @@ GONIO_INLINE std::vector<std::pair<std::size_t, double>> cells_next_to(std::span
   return few;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE component_rows compressed(const component_rows& rows, double negligible) {
   const Eigen::MatrixXd& r = rows.components;
@@ -71,4 +71,4 @@ GONIO_INLINE component_rows compressed(const component_rows& rows, double neglig
   return tall ? detail::scaled(vectors, values.last(kept), rows) : detail::turned(vectors, rows);
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& components) const {
   if (components.rows() == 1) return 1.0 / components.norm();
@@ -25,9 +25,9 @@ GONIO_INLINE double condition_number::operator()(const Eigen::MatrixXd& componen
   return smallest > rounding ? largest / smallest : std::numeric_limits<double>::infinity();
 }
 
-}  // namespace gonio
+}  // namespace gonio::design
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 /// The Cholesky factors of I + R R' / eta.
 [[nodiscard]] GONIO_INLINE cholesky certainty(const Eigen::MatrixXd& components, double eta) {
@@ -41,9 +41,9 @@ GONIO_INLINE void require_positive_eta(double eta) {
   if (!(eta > 0.0 && std::isfinite(eta))) throw error("eta must be positive, not " + std::to_string(eta));
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE double d_optimality::operator()(const Eigen::MatrixXd& components) const {
   return -0.5 * detail::certainty(components, eta_).log_determinant();
@@ -65,4 +65,4 @@ GONIO_INLINE double a_optimality::operator()(const Eigen::MatrixXd& components) 
   return 1.0 - sum / (eta_ * energies_.sum());
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

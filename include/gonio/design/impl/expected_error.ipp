@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 /// The rows and columns of a symmetric 3 x 3 matrix that `expected_error::blocks` keeps.
 inline constexpr int block_rows[6] = {0, 1, 2, 0, 0, 1}, block_columns[6] = {0, 1, 2, 1, 2, 2};
@@ -34,9 +34,9 @@ inline void left_out_squares(const Scalar (&x)[6], const Scalar (&l)[6], Scalar 
   squares[2] = square(a02, a12, a22);
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients, const expected_error_options& options,
                                             const Eigen::MatrixXd& norm)
@@ -236,4 +236,4 @@ Scalar extended_error<Scalar>::own_growth(const knowledge& known, Eigen::Index c
   return squares * r / (d * d) - Scalar(2) * products / d;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

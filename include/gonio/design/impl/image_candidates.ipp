@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 GONIO_INLINE expected_error::rows joined(std::span<const expected_error::rows* const> parts, Eigen::Index m) {
   Eigen::Index n = 0;
@@ -34,4 +34,4 @@ GONIO_INLINE expected_error::rows joined(std::span<const expected_error::rows* c
   return all;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels) {
   // The disc is inside a ball of its radius, which spans its arcsine to all sides at distance 1.
@@ -92,4 +92,4 @@ GONIO_INLINE std::optional<std::size_t> near_field_geometry::stepped(std::size_t
   return number(at);
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

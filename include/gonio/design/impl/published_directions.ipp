@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 GONIO_INLINE const std::vector<std::vector<printed_direction>>& nielsen_table_1() {
   static const std::vector<std::vector<printed_direction>> table{
@@ -34,9 +34,9 @@ GONIO_INLINE const std::vector<std::vector<printed_direction>>& nielsen_table_1(
   return table;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE std::vector<half_difference> nielsen_directions(std::size_t n) {
   for (const auto& set : detail::nielsen_table_1()) {
@@ -57,4 +57,4 @@ GONIO_INLINE std::vector<half_difference> westlund_meyer_directions() {
   return directions;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

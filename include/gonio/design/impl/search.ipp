@@ -19,11 +19,11 @@
 #include <string>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::design::detail {
 
 GONIO_INLINE std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position) {
   candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
   return candidates;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::design::detail

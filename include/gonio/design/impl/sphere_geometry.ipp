@@ -7,7 +7,7 @@
 
 #include <numeric>
 
-namespace gonio {
+namespace gonio::design {
 
 GONIO_INLINE std::vector<half_difference> sphere_geometry::directions(std::size_t slice) const {
   std::vector<half_difference> seen;
@@ -34,4 +34,4 @@ GONIO_INLINE std::vector<std::size_t> sphere_geometry::cells_of(std::size_t slic
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::design

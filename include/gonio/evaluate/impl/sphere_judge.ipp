@@ -13,7 +13,7 @@
 namespace gonio {
 
 GONIO_INLINE sphere_appearance sphere_judge::expose(const brdf_table& truth, thread_count threads) const {
-  const sphere_colours colours = visible_colours(truth, threads);
+  const render::sphere_colours colours = visible_colours(truth, threads);
   double sum = 0.0;
   for (Eigen::Index point = 0; point < colours.rows(); ++point) sum += luminance(colours.row(point).transpose());
   const double mean = sum / static_cast<double>(colours.rows());
@@ -37,11 +37,12 @@ GONIO_INLINE double sphere_judge::difference(const sphere_appearance& a, const s
 }
 
 GONIO_INLINE image sphere_judge::difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                                  const false_colour_range& range, const rgb& background) const {
+                                                  const render::false_colour_range& range,
+                                                  const rgb& background) const {
   const Eigen::ArrayXd values = differences(a, b);
-  sphere_colours colours(values.size(), 3);
+  render::sphere_colours colours(values.size(), 3);
   for (Eigen::Index point = 0; point < values.size(); ++point)
-    colours.row(point) = false_colour(values[point], range).transpose();
+    colours.row(point) = render::false_colour(values[point], range).transpose();
   return sphere_.to_image(colours, background);
 }
 
@@ -52,7 +53,7 @@ GONIO_INLINE double sphere_judge::checked(double mean_luminance) {
   return mean_luminance;
 }
 
-GONIO_INLINE sphere_colours sphere_judge::visible_colours(const brdf_table& table, thread_count threads) const {
+GONIO_INLINE render::sphere_colours sphere_judge::visible_colours(const brdf_table& table, thread_count threads) const {
   const auto negative = [](float value) { return value < 0.0f; };
   if (std::ranges::none_of(table.values(), negative)) return sphere_.apply(table, threads);
   brdf_table clamped = table;
@@ -60,8 +61,8 @@ GONIO_INLINE sphere_colours sphere_judge::visible_colours(const brdf_table& tabl
   return sphere_.apply(clamped, threads);
 }
 
-GONIO_INLINE sphere_appearance sphere_judge::seen_at(double exposure, const sphere_colours& colours) {
-  sphere_appearance seen{sphere_colours(colours.rows(), 3), exposure};
+GONIO_INLINE sphere_appearance sphere_judge::seen_at(double exposure, const render::sphere_colours& colours) {
+  sphere_appearance seen{render::sphere_colours(colours.rows(), 3), exposure};
   for (Eigen::Index point = 0; point < colours.rows(); ++point)
     seen.lab.row(point) = to_lab(exposure * colours.row(point).transpose()).transpose();
   return seen;

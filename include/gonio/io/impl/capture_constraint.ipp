@@ -12,14 +12,14 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
+GONIO_INLINE design::polar_range parse_polar_range(const text_rule& rule, std::size_t first, const text_place& place) {
   const double smallest = rule.numbers[first], largest = rule.numbers[first + 1];
   if (!(smallest >= 0.0 && smallest <= largest && largest <= 90.0))
     place.refuse("a range of polar angles is two numbers from 0 to 90, the smaller one first");
   return {radians(smallest), radians(largest)};
 }
 
-GONIO_INLINE void apply_rule(const text_rule& rule, capture_constraint& constraint, const text_place& place) {
+GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place) {
   if (rule.name == "light" || rule.name == "viewer") {
     require_numbers(rule, {2}, place);
     (rule.name == "light" ? constraint.light : constraint.viewer) = parse_polar_range(rule, 0, place);
@@ -48,8 +48,8 @@ GONIO_INLINE void apply_rule(const text_rule& rule, capture_constraint& constrai
 
 namespace gonio::io {
 
-GONIO_INLINE capture_constraint parse_capture_constraint(std::string_view text, const std::string& name) {
-  capture_constraint constraint;
+GONIO_INLINE design::capture_constraint parse_capture_constraint(std::string_view text, const std::string& name) {
+  design::capture_constraint constraint;
   detail::text_place place{name};
   detail::for_each_line(text, place, [&](std::string_view line) {
     detail::apply_rule(detail::parse_rule(line, place), constraint, place);
@@ -57,7 +57,7 @@ GONIO_INLINE capture_constraint parse_capture_constraint(std::string_view text, 
   return constraint;
 }
 
-GONIO_INLINE capture_constraint read_capture_constraint(const std::filesystem::path& path) {
+GONIO_INLINE design::capture_constraint read_capture_constraint(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   return parse_capture_constraint(detail::as_text(bytes), path.string());
 }

@@ -37,7 +37,7 @@ enum class mesh_format { ply, obj };
 }
 
 /// What is asked of a mesh that is read or written; whether it is a surface, `mesh_topology` checks.
-GONIO_INLINE void check_mesh(const triangle_mesh& mesh, const std::filesystem::path& path) {
+GONIO_INLINE void check_mesh(const shape::triangle_mesh& mesh, const std::filesystem::path& path) {
   const Eigen::Index vertices = mesh.vertices.cols();
   if (vertices > mesh_vertex_limit) refuse_file(path, "has 2^31 or more vertices, which are counted in int");
   if (mesh.triangles.cols() == 0)
@@ -58,7 +58,7 @@ GONIO_INLINE void check_mesh(const triangle_mesh& mesh, const std::filesystem::p
 }
 
 /// Of no colours where there are none to write.
-GONIO_INLINE void write_ply(const std::filesystem::path& path, const triangle_mesh& mesh,
+GONIO_INLINE void write_ply(const std::filesystem::path& path, const shape::triangle_mesh& mesh,
                             std::span<const rgb> colours) {
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.cols()) +
                        "\nproperty double x\nproperty double y\nproperty double z\n";
@@ -80,7 +80,7 @@ GONIO_INLINE void write_ply(const std::filesystem::path& path, const triangle_me
   });
 }
 
-GONIO_INLINE void write_obj(const std::filesystem::path& path, const triangle_mesh& mesh) {
+GONIO_INLINE void write_obj(const std::filesystem::path& path, const shape::triangle_mesh& mesh) {
   std::string text;
   for (const auto& point : mesh.vertices.colwise())
     text += "v " + shortest(point[0]) + ' ' + shortest(point[1]) + ' ' + shortest(point[2]) + '\n';
@@ -94,7 +94,7 @@ GONIO_INLINE void write_obj(const std::filesystem::path& path, const triangle_me
 
 namespace gonio::io {
 
-GONIO_INLINE triangle_mesh read_mesh(const std::filesystem::path& path) {
+GONIO_INLINE shape::triangle_mesh read_mesh(const std::filesystem::path& path) {
   const detail::mesh_format format = detail::mesh_format_of(path);
   const std::vector<std::byte> bytes = read_bytes(path);
   if (bytes.empty()) detail::refuse_file(path, "is empty, expected a mesh");
@@ -104,13 +104,13 @@ GONIO_INLINE triangle_mesh read_mesh(const std::filesystem::path& path) {
       format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::parse_obj(text, name);
   const auto vertices = static_cast<Eigen::Index>(parts.vertices()),
              triangles = static_cast<Eigen::Index>(parts.corners.size() / 3);
-  const triangle_mesh mesh{Eigen::Map<const point_columns>(parts.coordinates.data(), 3, vertices),
-                           Eigen::Map<const triangle_columns>(parts.corners.data(), 3, triangles)};
+  const shape::triangle_mesh mesh{Eigen::Map<const shape::point_columns>(parts.coordinates.data(), 3, vertices),
+                                  Eigen::Map<const shape::triangle_columns>(parts.corners.data(), 3, triangles)};
   detail::check_mesh(mesh, path);
   return mesh;
 }
 
-GONIO_INLINE void write_mesh(const std::filesystem::path& path, const triangle_mesh& mesh) {
+GONIO_INLINE void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh) {
   const detail::mesh_format format = detail::mesh_format_of(path);
   detail::check_mesh(mesh, path);
   if (format == detail::mesh_format::ply)
@@ -119,7 +119,7 @@ GONIO_INLINE void write_mesh(const std::filesystem::path& path, const triangle_m
     detail::write_obj(path, mesh);
 }
 
-GONIO_INLINE void write_mesh(const std::filesystem::path& path, const triangle_mesh& mesh,
+GONIO_INLINE void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& mesh,
                              std::span<const rgb> colours) {
   if (detail::mesh_format_of(path) != detail::mesh_format::ply)
     detail::refuse_file(path, "an OBJ file holds no colours of vertices, expected .ply");

@@ -92,8 +92,8 @@ GONIO_INLINE pinhole_camera setup_camera(const setup_text& text) {
   return text.naming_file([&] { return pinhole_camera::look_at(intrinsics, position, target, up); });
 }
 
-GONIO_INLINE distant_light setup_light(const setup_text& text) {
-  distant_light light;
+GONIO_INLINE capture::distant_light setup_light(const setup_text& text) {
+  capture::distant_light light;
   text.require({"light", "light_angles"});
   text.require_one_of("light", "light_angles", "where the light is");
   if (text.has("light")) {
@@ -115,17 +115,17 @@ GONIO_INLINE distant_light setup_light(const setup_text& text) {
   return light;
 }
 
-GONIO_INLINE near_field_setup make_setup(const setup_text& text) {
-  near_field_setup setup{.camera = setup_camera(text), .light = setup_light(text)};
+GONIO_INLINE capture::near_field_setup make_setup(const setup_text& text) {
+  capture::near_field_setup setup{.camera = setup_camera(text), .light = setup_light(text)};
   text.require({"region", "window"});
   if (text.has("region")) {
     const auto& region = text.numbers("region");
-    setup.disc = sample_disc{region[0]};
+    setup.disc = capture::sample_disc{region[0]};
     if (region.size() == 3) setup.disc->centre = {region[1], region[2]};
   }
   if (text.has("window"))
-    setup.window = pixel_window{text.count("window", 0, 0), text.count("window", 1, 0), text.count("window", 2, 1),
-                                text.count("window", 3, 1)};
+    setup.window = capture::pixel_window{text.count("window", 0, 0), text.count("window", 1, 0),
+                                         text.count("window", 2, 1), text.count("window", 3, 1)};
   if (text.has("saturation")) setup.saturation = text.numbers("saturation")[0];
   if (text.has("block")) setup.block = text.count("block", 0, 1);
   return setup;
@@ -135,14 +135,14 @@ GONIO_INLINE near_field_setup make_setup(const setup_text& text) {
 
 namespace gonio::io {
 
-GONIO_INLINE near_field_setup parse_near_field_setup(std::string_view text, const std::string& name) {
+GONIO_INLINE capture::near_field_setup parse_near_field_setup(std::string_view text, const std::string& name) {
   const detail::setup_text entries(text, name);
-  near_field_setup setup = detail::make_setup(entries);
+  capture::near_field_setup setup = detail::make_setup(entries);
   entries.naming_file([&] { require_usable(setup); });
   return setup;
 }
 
-GONIO_INLINE near_field_setup read_near_field_setup(const std::filesystem::path& path) {
+GONIO_INLINE capture::near_field_setup read_near_field_setup(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   return parse_near_field_setup(detail::as_text(bytes), path.string());
 }

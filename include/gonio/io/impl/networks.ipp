@@ -37,12 +37,13 @@ GONIO_INLINE std::vector<std::string> read_names(const std::filesystem::path& pa
   return names;
 }
 
-GONIO_INLINE named_networks read_networks(const std::filesystem::path& path, const std::filesystem::path& names_path) {
+GONIO_INLINE model::named_networks read_networks(const std::filesystem::path& path,
+                                                 const std::filesystem::path& names_path) {
   const xt::xtensor<float, 2> rows = read_npy<float, 2>(path);
-  constexpr std::size_t columns = network_brdf::parameter_count;
+  constexpr std::size_t columns = model::network_brdf::parameter_count;
   if (rows.shape(1) != columns) throw error{path.string(), ": has ", rows.shape(1), " columns, expected ", columns};
   if (rows.shape(0) == 0) throw error{path.string(), ": holds no network, expected at least one"};
-  named_networks materials{read_names(names_path), {}};
+  model::named_networks materials{read_names(names_path), {}};
   if (materials.names.size() != rows.shape(0))
     throw error{names_path.string(),          ": has ",     materials.names.size(), " names, expected ", rows.shape(0),
                 " as there are networks in ", path.string()};

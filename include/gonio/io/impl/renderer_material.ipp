@@ -21,16 +21,16 @@ GONIO_INLINE double rough_surface::refractive_index() const {
 
 GONIO_INLINE bool rough_surface::metal() const { return (diffuse == 0.0).all(); }
 
-GONIO_INLINE rough_surface as_rough_surface(const analytic_brdf& model) {
+GONIO_INLINE rough_surface as_rough_surface(const model::analytic_brdf& model) {
   rough_surface found;
   std::size_t rough = 0;
-  for (const analytic_lobe& lobe : model.lobes()) {
-    if (lobe.kind() == lobe_kind::of<lambert_shape>()) {
+  for (const model::analytic_lobe& lobe : model.lobes()) {
+    if (lobe.kind() == model::lobe_kind::of<model::lambert_shape>()) {
       found.diffuse += lobe.colour();
       continue;
     }
-    found.beckmann = lobe.kind() == lobe_kind::of<torrance_sparrow_shape>();
-    if (!found.beckmann && !(lobe.kind() == lobe_kind::of<ggx_shape>()))
+    found.beckmann = lobe.kind() == model::lobe_kind::of<model::torrance_sparrow_shape>();
+    if (!found.beckmann && !(lobe.kind() == model::lobe_kind::of<model::ggx_shape>()))
       throw error{"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
                   std::string(lobe.kind().name())};
     found.specular = lobe.colour();
@@ -46,7 +46,7 @@ GONIO_INLINE rough_surface as_rough_surface(const analytic_brdf& model) {
 
 namespace gonio::io {
 
-GONIO_INLINE std::string pbrt_material(const analytic_brdf& model) {
+GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_rough_surface(model);
   if (surface.beckmann) throw error("pbrt has no Beckmann distribution: fit ggx instead of torrance-sparrow");
   const std::string roughness =
@@ -58,7 +58,7 @@ GONIO_INLINE std::string pbrt_material(const analytic_brdf& model) {
          " ]\n" + roughness + "  \"float eta\" [ " + detail::shortest(surface.refractive_index()) + " ]\n";
 }
 
-GONIO_INLINE std::string mitsuba_material(const analytic_brdf& model) {
+GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_rough_surface(model);
   const auto colour = [](const char* name, const rgb& value) {
     return "  <rgb name=\"" + std::string(name) + "\" value=\"" + detail::three_numbers(value, ", ") + "\"/>\n";

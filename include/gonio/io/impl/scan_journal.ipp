@@ -65,11 +65,11 @@ GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::sp
          std::to_string(checksum(pose_lines)) + '\n' + pose_lines;
 }
 
-GONIO_INLINE std::string format_reading(std::size_t pose, const reading& taken) {
+GONIO_INLINE std::string format_reading(std::size_t pose, const capture::reading& taken) {
   std::string fields = "reading " + std::to_string(pose) + ' ' + std::to_string(taken.frames.size());
   for (const double time : taken.times) fields += ' ' + shortest(time);
   fields += ' ' + std::to_string(taken.frames.front().rows());
-  for (const camera_frame& each : taken.frames)
+  for (const capture::camera_frame& each : taken.frames)
     for (const std::uint16_t count : each.reshaped()) fields += ' ' + std::to_string(count);
   return with_checksum(std::move(fields));
 }
@@ -86,8 +86,9 @@ GONIO_INLINE std::size_t number_reader::next_whole(double most, const std::strin
   return static_cast<std::size_t>(value);
 }
 
-GONIO_INLINE reading parse_reading(number_reader& numbers, std::uint16_t largest_count, const text_place& place) {
-  reading taken;
+GONIO_INLINE capture::reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
+                                            const text_place& place) {
+  capture::reading taken;
   const std::size_t frames = numbers.next_whole(1000, "the number of frames");
   for (std::size_t i = 0; i < frames; ++i) {
     taken.times.push_back(numbers.next());
@@ -99,7 +100,7 @@ GONIO_INLINE reading parse_reading(number_reader& numbers, std::uint16_t largest
     place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
                  " counts, expected " + std::to_string(frames * pixels * 3));
   for (std::size_t i = 0; i < frames; ++i) {
-    camera_frame each(static_cast<Eigen::Index>(pixels), 3);
+    capture::camera_frame each(static_cast<Eigen::Index>(pixels), 3);
     for (std::uint16_t& count : each.reshaped())
       count = static_cast<std::uint16_t>(numbers.next_whole(largest_count, "a count"));
     taken.frames.push_back(std::move(each));
@@ -234,7 +235,7 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
   if (::ftruncate(file_.get(), static_cast<off_t>(detail::whole_lines(text).size())) != 0) fail();
 }
 
-GONIO_INLINE void scan_journal::add(std::size_t pose, const reading& taken) {
+GONIO_INLINE void scan_journal::add(std::size_t pose, const capture::reading& taken) {
   if (has(pose)) throw error{path_.string(), ": pose ", pose, " is read already"};
   write(detail::format_reading(pose, taken));
   scan_.readings[pose] = taken;

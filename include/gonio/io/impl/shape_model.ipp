@@ -17,8 +17,8 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void put_shape_model(byte_writer& out, const shape_model& model) {
-  const shape_basis& basis = model.basis();
+GONIO_INLINE void put_shape_model(byte_writer& out, const shape::shape_model& model) {
+  const shape::shape_basis& basis = model.basis();
   out.put(static_cast<std::uint32_t>(model.vertices()));
   out.put(static_cast<std::uint32_t>(model.triangles().cols()));
   out.put(static_cast<std::uint32_t>(basis.size()));
@@ -52,7 +52,7 @@ template <class Matrix>
          12.0 * vertices * (1.0 + components);
 }
 
-[[nodiscard]] GONIO_INLINE shape_model take_shape_model(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE shape::shape_model take_shape_model(byte_reader& in, const std::string& name) {
   const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
                     components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
@@ -70,7 +70,7 @@ template <class Matrix>
   std::string source = in.take_text();
   std::vector<std::string> names(shapes);
   for (std::string& shape : names) shape = in.take_text();
-  auto corners = take_matrix<triangle_columns>(in, 3, triangles);
+  auto corners = take_matrix<shape::triangle_columns>(in, 3, triangles);
   const auto singular_values = take_matrix<Eigen::VectorXd>(in, components, 1);
   const auto coefficients = take_matrix<Eigen::MatrixXf>(in, shapes, components);
   auto mean = in.take_all<float>(3 * vertices);
@@ -81,15 +81,15 @@ template <class Matrix>
                       std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
   if (!finite) throw error(name + ": a value of the shape model is not finite");
   try {
-    return {shape_basis({{vertices},
-                         lin{},
-                         std::move(names),
-                         singular_values,
-                         std::move(functions),
-                         std::move(mean),
-                         coefficients,
-                         explained_variance,
-                         std::move(source)}),
+    return {shape::shape_basis({{vertices},
+                                lin{},
+                                std::move(names),
+                                singular_values,
+                                std::move(functions),
+                                std::move(mean),
+                                coefficients,
+                                explained_variance,
+                                std::move(source)}),
             std::move(corners)};
   } catch (const error& refusal) {
     throw error(name + ": " + refusal.what());
@@ -100,23 +100,23 @@ template <class Matrix>
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> encode_shape_model(const shape_model& model) {
+GONIO_INLINE std::vector<std::byte> encode_shape_model(const shape::shape_model& model) {
   byte_writer payload;
   detail::put_shape_model(payload, model);
   return encode_checked(detail::shape_model_kind, payload.bytes());
 }
 
-GONIO_INLINE shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE shape::shape_model decode_shape_model(std::span<const std::byte> bytes, const std::string& name) {
   const auto payload = decode_checked(detail::shape_model_kind, bytes, name);
   byte_reader in(payload, name);
   return detail::take_shape_model(in, name);
 }
 
-GONIO_INLINE void write_shape_model(const std::filesystem::path& path, const shape_model& model) {
+GONIO_INLINE void write_shape_model(const std::filesystem::path& path, const shape::shape_model& model) {
   write_atomically(path, encode_shape_model(model));
 }
 
-GONIO_INLINE shape_model read_shape_model(const std::filesystem::path& path) {
+GONIO_INLINE shape::shape_model read_shape_model(const std::filesystem::path& path) {
   return decode_shape_model(read_bytes(path), path.string());
 }
 

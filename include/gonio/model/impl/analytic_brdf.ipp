@@ -19,7 +19,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE std::span<const lobe_kind* const> lobe_kinds() {
   static const std::array all{&lobe_kind::of<lambert_shape>(),
@@ -54,4 +54,4 @@ GONIO_INLINE analytic_lobe::analytic_lobe(const lobe_kind& kind, const rgb& colo
     require_within_bounds(kind.name(), kind.parameters()[i], parameters_[i]);
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

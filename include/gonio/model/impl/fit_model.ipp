@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds) {
   std::vector<lobe_kind::values> shapes;
@@ -101,4 +101,4 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
   return {loss.model(best), end.value, evaluations, end.converged, end.promised_gain};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail

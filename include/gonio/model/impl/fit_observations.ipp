@@ -14,7 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE double detail::solid_angle_of_pairs(const grid& of, const cell_index& cell) {
   constexpr double right_angle = std::numbers::pi / 2.0;
@@ -55,4 +55,4 @@ GONIO_INLINE std::vector<fit_observation> fit_observations(const brdf_table& tab
   return all;
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE std::vector<std::pair<std::string, formula_brdf>> formula_library() {
   const auto diffuse_and_gloss = [](const rgb& albedo, double alpha, double f0) {
@@ -26,9 +26,9 @@ GONIO_INLINE std::vector<std::pair<std::string, formula_brdf>> formula_library()
           {"grey-lambertian", formula_brdf(lambertian{rgb::Constant(0.18)})}};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE std::vector<std::string> formula_material_names() {
   std::vector<std::string> names;
@@ -45,4 +45,4 @@ GONIO_INLINE formula_brdf formula_material(std::string_view name) {
   throw error("there is no formula material named '" + std::string(name) + "'; the names are " + known);
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

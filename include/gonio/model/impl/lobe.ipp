@@ -16,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE void require_within_bounds(std::string_view shape, const shape_parameter& parameter, double value) {
   if (value >= parameter.lowest && value <= parameter.highest) return;
@@ -30,4 +30,4 @@ GONIO_INLINE void require_usable_colour(std::string_view shape, const rgb& colou
   throw error(std::string(shape) + ": the colour must be finite and not negative");
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes) {
   by_viewer sum{};
@@ -40,4 +40,4 @@ GONIO_INLINE direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes
   return mixture;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 /// Some rows and columns of a matrix.
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd entries(const Eigen::MatrixXd& of, const std::vector<Eigen::Index>& rows,
@@ -276,4 +276,4 @@ GONIO_INLINE model_loss::norm_value model_loss::norm_of(double residual) const {
   return {0.5 * residual * residual, 1.0};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail

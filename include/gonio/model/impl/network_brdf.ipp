@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE network_block::network_block(const valid_cells& all, block range) : count_(range.size()) {
   for (std::size_t i = 0; i < count_; ++i) {
@@ -43,9 +43,9 @@ GONIO_INLINE void network_block::evaluate(const network_brdf& network, float* ou
     for (std::size_t channel = 0; channel < 3; ++channel) out[i * stride + channel] = outputs_[channel][i];
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE void tabulate_networks(std::span<const network_brdf> networks, const valid_cells& cells, cell_matrix& out,
                                     thread_count threads, const progress& listener) {
@@ -73,4 +73,4 @@ GONIO_INLINE material_set tabulate_networks(const named_networks& materials, con
   return tables;
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

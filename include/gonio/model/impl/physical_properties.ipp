@@ -9,11 +9,11 @@
 #include <cmath>
 #include <numbers>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE double relative_difference(const rgb& a, const rgb& b) {
   const double size = std::max(a.abs().maxCoeff(), b.abs().maxCoeff());
   return size > 0.0 ? (a - b).abs().maxCoeff() / size : 0.0;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail

@@ -13,16 +13,16 @@
 #include <variant>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::model::detail {
 
 GONIO_INLINE sampling_techniques with_cosine_if_wide(const sampling_technique::density_type& density, double exponent) {
   const double share = 1.0 / (1.0 + exponent);
   return {{density, 1.0 - share}, {cosine_directions{}, share}};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::model::detail
 
-namespace gonio {
+namespace gonio::model {
 
 GONIO_INLINE sampling_techniques techniques_of(const phong_blinn::shape_type& shape) {
   const double cosine_share = std::max(detail::defensive_share, 1.0 / (1.0 + shape.shininess)),
@@ -47,4 +47,4 @@ GONIO_INLINE sampling_techniques techniques_of(const analytic_lobe& f) {
       lafortune_shape, torrance_sparrow_shape, ggx_shape>(f);
 }
 
-}  // namespace gonio
+}  // namespace gonio::model

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE environment_map::environment_map(image latitude_longitude) : picture_(std::move(latitude_longitude)) {
   check_shape();
@@ -63,9 +63,9 @@ GONIO_INLINE directional_lighting all_lights(const environment_map& map) {
   return directional_lighting(std::move(lights));
 }
 
-}  // namespace gonio
+}  // namespace gonio::render
 
-namespace gonio::detail {
+namespace gonio::render::detail {
 
 GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -76,9 +76,9 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
   return draws;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::render::detail
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed) {
   if (count == 0) throw error("cannot stand for an environment map with 0 lights: at least one is needed");
@@ -104,4 +104,4 @@ GONIO_INLINE directional_lighting important_lights(const environment_map& map, s
   return directional_lighting(std::move(lights));
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE environment_sampler::environment_sampler(environment_map map) : map_(std::move(map)) {
   reached_.reserve(map_.rows() * map_.columns() + 1);
@@ -25,4 +25,4 @@ GONIO_INLINE environment_sampler::environment_sampler(environment_map map) : map
   reached_.push_back(sum);
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

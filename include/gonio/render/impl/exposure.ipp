@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
   if (picture.shape(0) != picture.shape(1))
@@ -35,4 +35,4 @@ GONIO_INLINE void expose(image& picture, double exposure) {
   for (float& value : picture) value = static_cast<float>(exposure * value);
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE horizon_index::horizon_index(const gonio::grid& cells)
     : grid_(cells), rows_(unsigned_of(cells.extents().theta_d)), columns_(unsigned_of(cells.extents().phi_d)) {
@@ -40,4 +40,4 @@ GONIO_INLINE std::string horizon_index::sentence(std::size_t column) const {
          std::to_string(column % columns_) + ": it needs more cells along theta_h";
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

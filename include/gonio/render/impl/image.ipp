@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <span>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE void paste(image& canvas, const image& picture, std::size_t row, std::size_t column) {
   GONIO_ASSERT(row + picture.shape(0) <= canvas.shape(0) && column + picture.shape(1) <= canvas.shape(1));
@@ -47,4 +47,4 @@ GONIO_INLINE image stacked(std::span<const image> pictures, std::size_t margin, 
   return canvas;
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

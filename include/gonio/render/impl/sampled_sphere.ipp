@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::render::detail {
 
 GONIO_INLINE even_pairs::even_pairs(std::size_t count, std::uint64_t seed, std::uint64_t stream)
     : generator_(seed * 0x9E3779B97F4A7C15u + stream), all_(count) {
@@ -35,4 +35,4 @@ GONIO_INLINE even_pairs::even_pairs(std::size_t count, std::uint64_t seed, std::
   }
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::render::detail

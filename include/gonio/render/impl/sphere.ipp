@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gonio {
+namespace gonio::render {
 
 GONIO_INLINE std::vector<sphere_point> sphere_points(int size) {
   GONIO_ASSERT(size >= 1);
@@ -58,4 +58,4 @@ GONIO_INLINE image sphere_operator::to_image(const sphere_colours& colours, cons
   return picture;
 }
 
-}  // namespace gonio
+}  // namespace gonio::render

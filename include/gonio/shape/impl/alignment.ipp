@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE Eigen::Vector3d similarity_transform::moved_point(const Eigen::Vector3d& point) const {
   const Eigen::Matrix3d turn = scale * rotation;
@@ -42,9 +42,9 @@ GONIO_INLINE similarity_transform similarity_transform::after(const similarity_t
   return {scale * first.scale, rotation * first.rotation, moved_point(first.translation)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Points without their weighted centroid, each times the root of its share of the weights.
 struct centred_points {
@@ -94,9 +94,9 @@ GONIO_INLINE double centroid_size(const point_columns& points) {
   return std::sqrt(sum);
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE similarity_transform align(const point_columns& from, const point_columns& onto, alignment_kind kind,
                                         const Eigen::VectorXd& weights) {
@@ -127,9 +127,9 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes, const procrustes_options& options) {
   if (shapes.empty()) throw error("a Procrustes mean needs at least one shape");
@@ -154,9 +154,9 @@ GONIO_INLINE void rescale(point_columns& shape, double size) {
     for (Eigen::Index i = 0; i < 3; ++i) shape(i, v) = centroid[i] + factor * (shape(i, v) - centroid[i]);
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& shapes,
                                             const procrustes_options& options) {
@@ -182,4 +182,4 @@ GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& sh
               " iterations"};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// 2^40 steps between the least and the largest cost, of opposite sign as dlib maximises, with rows or columns of zeros
 /// to make a square: whoever is assigned there is left over, and all pay the same for it.
@@ -32,9 +32,9 @@ namespace gonio::detail {
   return gains;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs) {
   for (Eigen::Index j = 0; j < costs.cols(); ++j)
@@ -48,4 +48,4 @@ GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd&
   return columns;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

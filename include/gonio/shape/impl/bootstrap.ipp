@@ -15,15 +15,15 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE std::size_t bootstrap_result::accepted() const {
   return static_cast<std::size_t>(std::ranges::count_if(outcomes, &bootstrap_outcome::accepted));
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Shapes and their names, which a model is learned from again and again.
 class growing_model {
@@ -82,9 +82,9 @@ GONIO_INLINE void growing_model::add(std::string name, point_columns shape) {
   return outcome;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE bootstrap_result bootstrap_shape_model(std::vector<point_columns> shapes, std::vector<std::string> names,
                                                     triangle_columns triangles, std::span<const named_scan> scans,
@@ -111,4 +111,4 @@ GONIO_INLINE bootstrap_result bootstrap_shape_model(std::vector<point_columns> s
   return {growing.model(), std::move(outcomes)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <unsupported/Eigen/SpecialFunctions>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Where an increasing function of a positive number reaches a share, to 1e-12 of that number.
 template <class Distribution>
@@ -23,9 +23,9 @@ template <class Distribution>
   return high;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE double chi_square_quantile(double share, double degrees_of_freedom) {
   return detail::quantile(share, [=](double x) { return Eigen::numext::igamma(0.5 * degrees_of_freedom, 0.5 * x); });
@@ -39,4 +39,4 @@ GONIO_INLINE double f_quantile(double share, double numerator_degrees, double de
   });
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

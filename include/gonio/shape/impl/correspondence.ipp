@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE surface_point posed_scan::closest(const Eigen::Vector3d& point) const {
   return placed(surface.closest(pose.inverse()(point)));
@@ -82,4 +82,4 @@ GONIO_INLINE known_vertices closest_places(const posed_scan& scan, const triangl
   return known;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 inline constexpr std::size_t least_trials = 10;
 
@@ -110,9 +110,9 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   return errors;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shape_model& model,
                                                                       const surface_index& scan,
@@ -158,4 +158,4 @@ GONIO_INLINE void cross_validated_uncertainty::add_vertex(const std::vector<poin
   }
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE point_columns fit_to_scan_result::shape() const {
   Eigen::VectorXd still = fit.weights();
@@ -49,9 +49,9 @@ GONIO_INLINE void require_shown(const known_vertices& places, const shape_model&
                 ": is its pose right?"};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement) {
   std::vector<double> distances;
@@ -106,9 +106,9 @@ GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_
   return places;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surface_index& scan,
                                             const similarity_transform& pose, const fit_to_scan_options& options,
@@ -135,4 +135,4 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
   }
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

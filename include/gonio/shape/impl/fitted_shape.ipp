@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE known_vertices known_vertices::marked(const point_columns& shape, const std::vector<bool>& known) {
   known_vertices found;
@@ -32,9 +32,9 @@ GONIO_INLINE std::vector<bool> marks_of(const known_vertices& known, Eigen::Inde
   return marks;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// x, y and z of a vertex as an estimator reads them, one in each direction; `axes` has a unit vector in each column.
 GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex, std::vector<location>& at) {
@@ -81,9 +81,9 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const kno
   }
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinates, const known_vertices& known,
                                             thread_count /*threads*/) {
@@ -125,4 +125,4 @@ GONIO_INLINE Eigen::Vector3d fitted_shape::vertex(Eigen::Index number) const {
   return position;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

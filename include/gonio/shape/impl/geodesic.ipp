@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Calls `arrive(vertex, distance)` once for each vertex that can be reached from the source, in the order of
 /// distances, until it returns false.
@@ -45,9 +45,9 @@ GONIO_INLINE void walk_edges(const triangle_mesh& mesh, const mesh_topology& top
   }
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const mesh_topology& topology,
                                                 Eigen::Index source) {
@@ -78,4 +78,4 @@ GONIO_INLINE std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh
   return nearest;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// The neighbours along the border of a vertex on it: there are two. All its neighbours if that does not come out,
 /// where three edges are a ring but no triangle.
@@ -118,9 +118,9 @@ struct filling_system {
   return system;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_columns points,
                                          const std::vector<bool>& known, smoothness kind) {
@@ -150,4 +150,4 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
   return points;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// The corners of triangles, three for each, in groups that are one vertex: those that an edge of two triangles joins.
 class joined_corners {
@@ -49,9 +49,9 @@ GONIO_INLINE std::size_t joined_corners::group_of(std::size_t corner) const {
   return corner;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked) {
   if (marked.size() != static_cast<std::size_t>(mesh.vertices.cols()))
@@ -78,4 +78,4 @@ GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<
   return part;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

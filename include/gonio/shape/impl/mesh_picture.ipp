@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vector3d& towards,
                                      const Eigen::Vector3d& up) {
@@ -41,9 +41,9 @@ GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vec
   return view;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// A picture and how near what it shows is.
 struct depth_picture {
@@ -78,9 +78,9 @@ GONIO_INLINE void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corn
     }
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
   if (static_cast<Eigen::Index>(colours.size()) != mesh.vertices.cols())
@@ -114,4 +114,4 @@ GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> co
   return std::move(drawn.picture);
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE mesh_topology::mesh_topology(const triangle_columns& triangles, Eigen::Index vertices) {
   require_triangles(triangles, vertices);
@@ -109,4 +109,4 @@ GONIO_INLINE bool mesh_topology::is_one_chain(const std::vector<half_edge>& edge
   return length == edges.size();
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Throws gonio::error if the shape that was fitted to a scan is too far from the mean.
 GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_model& model, double confidence) {
@@ -39,9 +39,9 @@ GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_m
               " shapes"};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_index& scan,
                                      const similarity_transform& pose, const recovery_options& options,
@@ -53,9 +53,9 @@ GONIO_INLINE recovered_shape recover(const shape_model& model, const surface_ind
   return {std::move(surface), fit.places, fit.pose, fit};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Every vertex predicted from the known ones nearest to it along the mean shape.
 [[nodiscard]] GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
@@ -93,9 +93,9 @@ GONIO_INLINE double explained_variance_in(int round, const published_recovery_op
   return std::lerp(options.first_explained_variance, options.last_explained_variance, std::min(progress, 1.0));
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE recovered_shape recover_as_published(const shape_model& model, const surface_index& scan,
                                                   const similarity_transform& pose,
@@ -129,4 +129,4 @@ GONIO_INLINE recovered_shape recover_as_published(const shape_model& model, cons
   return {std::move(shape), std::move(known), posed.pose, std::move(begin)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double share) {
   std::vector<double> smallest;
@@ -31,9 +31,9 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
   return smallest[static_cast<std::size_t>(place)];
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Where lines along the smoothed normals of a shape meet the scan.
 [[nodiscard]] GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
@@ -81,9 +81,9 @@ namespace gonio::detail {
   return {};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE registration register_scan(const shape_model& model, const surface_index& scan,
                                         const similarity_transform& pose, const registration_options& options,
@@ -115,4 +115,4 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE shape_set shape_set::of(const std::vector<point_columns>& shapes, std::vector<std::string> names) {
   if (shapes.empty() || shapes.size() != names.size() || shapes[0].cols() == 0)
@@ -102,4 +102,4 @@ GONIO_INLINE shape_basis with_motion(const shape_basis& basis, const point_colum
                       basis.mean(), std::move(coefficients), basis.explained_variance(), basis.source()});
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -25,7 +25,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 GONIO_INLINE void require_context(const shape_context_options& options) {
   if (options.radial_bins < 1 || options.polar_bins < 1 || options.azimuthal_bins < 1)
@@ -100,9 +100,9 @@ GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const E
   return numbers;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE std::optional<Eigen::Matrix3d> context_frame(const Eigen::Vector3d& normal,
                                                           const shape_context_options& options) {
@@ -235,4 +235,4 @@ GONIO_INLINE std::vector<shape_match> match(const shape_descriptors& from, const
   return matches;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 GONIO_INLINE Eigen::VectorXd matched_points::squared_distances(const similarity_transform& pose) const {
   Eigen::VectorXd squares(from.cols());
@@ -102,9 +102,9 @@ GONIO_INLINE void require_points(const shape_descriptors& descriptors, const cha
                 " points that can be described, not three: are all normals along the vertical axis?"};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 struct shape_context_matcher::described_model {
   described_model(const triangle_mesh& mesh, detail::described_points some)
@@ -153,4 +153,4 @@ GONIO_INLINE pre_alignment align_by_shape_context(const triangle_mesh& scan, con
   return shape_context_matcher(model, options, threads).align(scan, threads);
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -15,11 +15,11 @@
 #include <utility>
 #include <vector>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE shape_model shape_model::explaining(double share) const {
   shape_model fewer(*this);
-  fewer.basis_ = gonio::explaining(basis_, share);
+  fewer.basis_ = gonio::shape::explaining(basis_, share);
   return fewer;
 }
 
@@ -33,4 +33,4 @@ GONIO_INLINE shape_model learn_shape_model(const std::vector<point_columns>& sha
   return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

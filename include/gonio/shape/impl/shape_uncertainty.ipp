@@ -14,7 +14,7 @@
 
 #include <algorithm>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE shape_uncertainty::shape_uncertainty(const fitted_shape& fit, const known_vertices& known,
                                                   const any_solver& solver)
@@ -46,4 +46,4 @@ GONIO_INLINE Eigen::Matrix3d shape_uncertainty::unscaled(Eigen::Index vertex) co
   return covariance;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

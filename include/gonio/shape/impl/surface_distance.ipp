@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE Eigen::VectorXd signed_distances(const surface_index& surface, const point_columns& points,
                                               thread_count threads) {
@@ -55,4 +55,4 @@ GONIO_INLINE surface_distance distance_to(const surface_index& surface, const po
   return surface_distance::of(signed_distances(surface, points, threads));
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 /// Shares of a triangle's corners below which a point is on the opposite side.
 inline constexpr double on_side = 1e-9;
@@ -261,9 +261,9 @@ GONIO_INLINE void require_finite_vector(const Eigen::Vector3d& vector, const cha
   if (!vector.allFinite()) throw error{what, " is not finite"};
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 struct surface_index::built_surface {
   explicit built_surface(triangle_mesh of)
@@ -375,4 +375,4 @@ GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surf
   return found;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

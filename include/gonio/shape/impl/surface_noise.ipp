@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace gonio::detail {
+namespace gonio::shape::detail {
 
 template <class Matrix>
 [[nodiscard]] Matrix column_means_over_neighbours(const mesh_topology& topology, const Matrix& values) {
@@ -25,9 +25,9 @@ template <class Matrix>
   return means;
 }
 
-}  // namespace gonio::detail
+}  // namespace gonio::shape::detail
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE point_columns averaged_over_neighbours(const mesh_topology& topology, const point_columns& values) {
   return detail::column_means_over_neighbours(topology, values);
@@ -51,4 +51,4 @@ GONIO_INLINE Eigen::RowVectorXd noise_variances(const triangle_mesh& mesh, const
   return variances;
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape

@@ -12,7 +12,7 @@
 #include <span>
 #include <utility>
 
-namespace gonio {
+namespace gonio::shape {
 
 GONIO_INLINE Eigen::Matrix3d triangle_mesh::corners(Eigen::Index triangle) const {
   Eigen::Matrix3d all;
@@ -73,4 +73,4 @@ GONIO_INLINE point_columns vertex_normals(const triangle_mesh& mesh) {
   return unit_columns(std::move(sums));
 }
 
-}  // namespace gonio
+}  // namespace gonio::shape
