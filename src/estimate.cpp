@@ -1,6 +1,8 @@
 // The bodies of estimate/, but for what estimate_iterations.cpp has.
 
-#include <gonio/estimate/impl/left_out_error.ipp>
+#include <gonio/estimate/impl/angular_error.ipp>
+#include <gonio/estimate/impl/highlight_contrast.ipp>
+#include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>
 #include <gonio/estimate/impl/nearest_material.ipp>

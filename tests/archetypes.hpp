@@ -54,7 +54,7 @@ static_assert(gonio::computed_basis<theta_d_polynomial> && !gonio::tabulated_bas
 struct ordinary_least_squares {
   gonio::solution solve(const gonio::least_squares_problem& problem) const {
     const gonio::normal_equations& normal = problem.normal();
-    const Eigen::MatrixXd x = gonio::solve_semidefinite(normal.gram(), normal.moment());
+    const Eigen::MatrixXd x = gonio::solve_semidefinite(normal.gram(), normal.rhs());
     return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
   }
 };

@@ -34,8 +34,8 @@ const gonio::correction& corrections() {
 gonio::located_samples samples(std::int64_t step) {
   const auto truth = materials().table(materials().find("blue-acrylic"));
   const std::size_t count = truth.cells().size() / static_cast<std::size_t>(step);
-  return gonio::locate_samples(
-      truth.cells(), gonio::measure(truth, gonio::random_cells(truth.cells(), count, 1), {.outlier_ratio = 0.2}, 1));
+  return gonio::locate_samples(truth.cells(), gonio::sample_table(truth, gonio::random_cells(truth.cells(), count, 1),
+                                                                  {.outlier_ratio = 0.2}, 1));
 }
 
 /// Multiplications and additions of the normal equations of three channels.

@@ -27,7 +27,7 @@ const gonio::valid_cells& cells() {
 const gonio::sample_set& samples() {
   static const auto measured = [] {
     const auto truth = gonio::tabulate(gonio::model::formula_material("red-paint"), cells());
-    return gonio::measure(truth, gonio::cells_at(cells(), gonio::design::nielsen_directions(20)));
+    return gonio::sample_table(truth, gonio::cells_at(cells(), gonio::design::nielsen_directions(20)));
   }();
   return measured;
 }

@@ -94,7 +94,7 @@ int main() {
   const auto k = static_cast<std::size_t>(count - 1);
   save(folder / "rows.npy", rows.data(), static_cast<std::size_t>(rows.rows()), k);
   save(folder / "gram.npy", normal.gram().data(), k, k);
-  save(folder / "moment.npy", normal.moment().data(), k, 1);
+  save(folder / "moment.npy", normal.rhs().data(), k, 1);
 
   const auto path = [&] { return gonio::solve_lasso_path(normal, gonio::lambda_sequence(normal, 50, 1e-3)); };
   std::map<std::string, double> ours;
@@ -113,7 +113,7 @@ int main() {
   }
   ours["Lasso path of 50"] = best_of(50, [&] { (void)path(); });
   double worst = 0.0;
-  for (const auto& found : path().solutions) worst = std::max(worst, found.certificate[0]);
+  for (const auto& found : path().solutions) worst = std::max(worst, found.kkt_residual[0]);
 
   std::printf("%td rows of %zu columns, microseconds (least of several runs)\n\n", rows.rows(), k);
   std::printf("| task | gonio | rival | rival's | rival / gonio |\n|---|---|---|---|---|\n");
@@ -131,7 +131,7 @@ int main() {
     print_row("Lasso path of 50", ours["Lasso path of 50"], "sklearn.linear_model.lasso_path on the Gram matrix",
               theirs["lasso_path"]);
     std::printf("\nworst KKT violation along the path: gonio %.1e, scikit-learn %.1e. numpy's BLAS: %s\n", worst,
-                theirs["lasso_certificate"].get<double>(), theirs["blas"].get<std::string>().c_str());
+                theirs["lasso_kkt_residual"].get<double>(), theirs["blas"].get<std::string>().c_str());
   }
   std::filesystem::remove_all(folder);
 }

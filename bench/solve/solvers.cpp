@@ -1,5 +1,5 @@
 /// All solvers on the same problem: one material from the 99 others, every cell of it or a tenth. And larger ones:
-/// 50 to 800 columns. Counters: objective over that of NNLS, certificate, weights that are not zero.
+/// 50 to 800 columns. Counters: objective over that of NNLS, KKT residual, weights that are not zero.
 
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
@@ -61,7 +61,7 @@ template <class Problem>
 void report(benchmark::State& state, const gonio::solution& found, const Problem& solved) {
   const gonio::normal_equations& normal = solved.normal();
   state.counters["objective"] = normal.objective(found.weights)[0] / gonio::nnls().solve(normal).objective[0];
-  state.counters["certificate"] = found.certificate[0];
+  state.counters["kkt_residual"] = found.kkt_residual[0];
   state.counters["non-zero"] = static_cast<double>((found.weights.array() != 0.0).count());
   state.counters["iterations"] = found.iterations;
 }
@@ -86,12 +86,11 @@ void from_rows(benchmark::State& state, const Solver& solver) {
 
 void assembly(benchmark::State& state) {
   (void)materials();  // made once, and not to be timed
-  for (auto _ : state)
-    benchmark::DoNotOptimize(problem(static_cast<std::size_t>(state.range(0))).normal().moment().sum());
+  for (auto _ : state) benchmark::DoNotOptimize(problem(static_cast<std::size_t>(state.range(0))).normal().rhs().sum());
 }
 
 /// Made-up data of k columns that are alike, as reflectance is, plus noise.
-const gonio::normal_equations& made_up(Eigen::Index k) {
+const gonio::normal_equations& synthetic(Eigen::Index k) {
   static std::map<Eigen::Index, gonio::normal_equations> made;
   const auto found = made.find(k);
   if (found != made.end()) return found->second;
@@ -100,13 +99,13 @@ const gonio::normal_equations& made_up(Eigen::Index k) {
   Eigen::MatrixXd a(4 * k, k), b(4 * k, 1);
   for (double& entry : a.reshaped()) entry = value(engine);
   for (double& entry : b.reshaped()) entry = value(engine);
-  const Eigen::MatrixXd gram = a.transpose() * a, moment = a.transpose() * b;
-  return made.emplace(k, gonio::normal_equations(gram, moment, b.colwise().squaredNorm())).first->second;
+  const Eigen::MatrixXd gram = a.transpose() * a, rhs = a.transpose() * b;
+  return made.emplace(k, gonio::normal_equations(gram, rhs, b.colwise().squaredNorm())).first->second;
 }
 
 template <class Solver>
 void scaling(benchmark::State& state, const Solver& solver) {
-  const gonio::normal_equations& normal = made_up(state.range(0));
+  const gonio::normal_equations& normal = synthetic(state.range(0));
   gonio::solution found;
   for (auto _ : state) benchmark::DoNotOptimize(found = solver.solve(normal));
   report(state, found, normal);

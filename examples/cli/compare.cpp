@@ -5,7 +5,7 @@
 #include "command_line/prior_option.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
@@ -39,7 +39,7 @@ void compare_tables(const compare_options& options) {
   const auto truth = gonio::io::read_merl_any(options.truth);
   const auto estimate = gonio::io::read_merl_any(options.estimate);
   const auto prior = gonio::io::read_prior(options.prior);
-  const gonio::appearance_judge judge(truth.cells(), 36, options.threads);
+  const gonio::appearance_metric judge(truth.cells(), 36, options.threads);
   const auto errors = gonio::compare(estimate, truth, prior.metric(), judge, options.threads);
   if (options.print_json)
     std::cout << to_json(errors).dump(2) << '\n';

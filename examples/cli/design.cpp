@@ -21,7 +21,7 @@ namespace {
 struct design_command {
   std::filesystem::path prior, constraint, start, output;
   design_options design;
-  double field_of_view = 25.0, step = 5.0, misplacement = 0.0;
+  double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
   bool print_json = false;
 };
 
@@ -30,7 +30,7 @@ void run(design_command command) {
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
-  command.design.misplacement = gonio::radians(command.misplacement);
+  command.design.angular_error = gonio::radians(command.angular_error);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
@@ -66,10 +66,9 @@ void add_design(command& app) {
   add_prior_option(command, options->prior);
   command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
   command
-      .add_option(
-          "--geometry", design.geometry,
-          "point: a goniometer's samples; sphere: pictures of a sphere; near-field: pictures of a flat sample by "
-          "a close camera; fixed-camera, fixed-light: such pictures with one camera, or one light")
+      .add_option("--geometry", design.geometry,
+                  "point: a goniometer's samples; sphere: images of a sphere; near-field: images of a flat sample by "
+                  "a close camera; fixed-camera, fixed-light: such images with one camera, or one light")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
   command
@@ -101,7 +100,7 @@ void add_design(command& app) {
   command.add_flag("--in-sample", design.in_sample,
                    "Expect the error of materials that the prior has seen, as Xu et al. do, instead of each left out");
   command
-      .add_option("--misplaced", options->misplacement,
+      .add_option("--misplaced", options->angular_error,
                   "Points: degrees by which light and viewer may each be off their directions")
       .capture_default_str();
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
@@ -114,7 +113,7 @@ void add_design(command& app) {
   add_threads_option(command, design.threads);
   command
       .add_output("-o,--output", options->output, {".csv"},
-                  "Directions to write; of pictures, those of the centre (.csv)")
+                  "Directions to write; of images, those of the centre (.csv)")
       .required();
   command.callback([options] { run(*options); });
 }

@@ -7,7 +7,7 @@
 #include "command_line/model_choice.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
-#include "pictures.hpp"
+#include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/renderer_material.hpp>
 
@@ -24,7 +24,7 @@ struct fit_command_options {
   std::string model = "ggx", metric = "lin";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool fresnel = false, print_json = false;
-  picture_options how;
+  image_options how;
   gonio::model::model_fit_options fit;
 };
 
@@ -67,8 +67,8 @@ void fit(const fit_command_options& options) {
     if (!options.output.empty()) write_table(options.output, fitted);
     if (!options.picture.empty()) {
       std::vector<gonio::image> pictures;
-      if (table) pictures.push_back(sphere_picture(*table, options.how, options.fit.threads));
-      pictures.push_back(sphere_picture(fitted, options.how, options.fit.threads));
+      if (table) pictures.push_back(sphere_image(*table, options.how, options.fit.threads));
+      pictures.push_back(sphere_image(fitted, options.how, options.fit.threads));
       expose_spheres(pictures, std::span(pictures).first(1), options.how);  // by what was measured
       gonio::io::write_png(options.picture, gonio::render::side_by_side(pictures, 8));
     }

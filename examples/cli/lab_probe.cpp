@@ -1,4 +1,4 @@
-/// gonio lab probe, gonio lab unwrap: an environment's picture in a mirror sphere, and back.
+/// gonio lab probe, gonio lab unwrap: an environment's image in a mirror sphere, and back.
 
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
@@ -37,11 +37,11 @@ void photograph(const probe_command& options) {
   gonio::io::write_hdr(options.output, lab::photograph(sphere_of(options), radiance, options.pixels));
 }
 
-/// A picture of fewer rows, each pixel the mean of those that it stands for.
+/// An image of fewer rows, each pixel the mean of those that it stands for.
 gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::filesystem::path& file) {
   const std::size_t factor = picture.shape(0) / rows;
   if (factor * rows != picture.shape(0) || picture.shape(1) % factor != 0)
-    throw gonio::error(file.string() + ": a picture of " + std::to_string(picture.shape(0)) + " rows and " +
+    throw gonio::error(file.string() + ": an image of " + std::to_string(picture.shape(0)) + " rows and " +
                        std::to_string(picture.shape(1)) + " columns cannot be shown in, or compared with, one of " +
                        std::to_string(rows) + " rows");
   gonio::image means = gonio::uniform_image(rows, picture.shape(1) / factor);
@@ -55,7 +55,7 @@ gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::
 }
 
 /// The probe beside the map, exposed so that the map's mean is a middle grey; highlights are clipped.
-gonio::image picture_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
+gonio::image image_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
   const std::array both{averaged(probe, map.shape(0), file), map};
   gonio::image picture = gonio::render::side_by_side(both, 4);
   const double mean = std::accumulate(map.data(), map.data() + map.size(), 0.0) / static_cast<double>(map.size());
@@ -93,7 +93,7 @@ void unwrap(const probe_command& options) {
     }
   }();
   gonio::io::write_hdr(options.output, map);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, picture_of(probe, map, options.input));
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, image_of(probe, map, options.input));
   if (options.truth.empty()) return;
   const gonio::render::environment_map truth(
       averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
@@ -114,18 +114,18 @@ void add_lab_probe(command& lab) {
   const auto options = std::make_shared<probe_command>();
   command.add_input("environment", options->input, "Light all around, latitude-longitude (.hdr)").required();
   add_distance_option(command, options->distance);
-  command.add_option("--size", options->pixels, "Pixels of the picture each way")
+  command.add_option("--size", options->pixels, "Pixels of the image each way")
       .check(check::range(8, 8192))
       .capture_default_str();
-  command.add_output("-o,--output", options->output, {".hdr"}, "Picture to write, filled by the sphere (.hdr)")
+  command.add_output("-o,--output", options->output, {".hdr"}, "Image to write, filled by the sphere (.hdr)")
       .required();
   command.callback([options] { photograph(*options); });
 }
 
 void add_lab_unwrap(command& lab) {
-  auto command = lab.add_subcommand("unwrap", "Turn a picture of a mirror sphere into the light all around");
+  auto command = lab.add_subcommand("unwrap", "Turn an image of a mirror sphere into the light all around");
   const auto options = std::make_shared<probe_command>();
-  command.add_input("picture", options->input, "Square picture that the sphere fills, of linear radiance (.hdr)")
+  command.add_input("image", options->input, "Square image that the sphere fills, of linear radiance (.hdr)")
       .required();
   add_distance_option(command, options->distance);
   command.add_option("--rows", options->unwrapping.rows, "Of the map, which is twice as wide")
@@ -133,7 +133,7 @@ void add_lab_unwrap(command& lab) {
       .capture_default_str();
   command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
   command.add_input("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
-  command.add_output("--image", options->picture, {".png"}, "The picture beside the map, to look at (.png)");
+  command.add_output("--image", options->picture, {".png"}, "The image beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
   command.add_output("-o,--output", options->output, {".hdr"}, "Map to write, latitude-longitude (.hdr)").required();
   command.callback([options] { unwrap(*options); });

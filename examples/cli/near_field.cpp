@@ -1,4 +1,4 @@
-/// gonio near-field: pictures of a flat sample, taken from close by, as measurements: of one material, or of each of
+/// gonio near-field: images of a flat sample, taken from close by, as measurements: of one material, or of each of
 /// several that clusters of colours tell apart.
 
 #include "command_line/fixed.hpp"
@@ -28,30 +28,30 @@ struct near_field_command {
   std::vector<std::pair<std::string, std::string>> pictures;  ///< each with its set-up
   std::string clusters;                                       ///< a number, auto, or empty: one material
   std::filesystem::path labels, prior, output;
-  double misplacement = 0.0;  ///< degrees; 0: light and cameras are in their places
+  double angular_error = 0.0;  ///< degrees; 0: light and cameras are in their places
   bool reference_in_place = false;
   std::uint64_t seed = 0;
   gonio::thread_count threads;
 };
 
-/// A picture and how it was taken.
-struct taken_picture {
+/// An image and how it was taken.
+struct taken_image {
   std::string file, setup_file;
   gonio::image pixels;
   gonio::capture::near_field_setup setup;
 };
 
-std::vector<taken_picture> read_pictures(const near_field_command& options) {
-  std::vector<taken_picture> taken;
+std::vector<taken_image> read_images(const near_field_command& options) {
+  std::vector<taken_image> taken;
   for (const auto& [picture, setup] : options.pictures) {
-    if (setup.empty()) throw gonio::error("pictures: " + picture + " is not followed by its set-up");
+    if (setup.empty()) throw gonio::error("images: " + picture + " is not followed by its set-up");
     gonio::capture::near_field_setup read = gonio::io::read_near_field_setup(setup);
     taken.push_back({picture, setup, gonio::io::read_hdr(picture), std::move(read)});
   }
   return taken;
 }
 
-gonio::picture_samples samples_of(const taken_picture& picture) {
+gonio::image_samples samples_of(const taken_image& picture) {
   try {
     return gonio::capture::near_field_pairs(picture.pixels, picture.setup);
   } catch (const gonio::error& refusal) {
@@ -61,16 +61,16 @@ gonio::picture_samples samples_of(const taken_picture& picture) {
 
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
 
-/// The samples of each picture, for each of some materials.
-using samples_of_materials = std::vector<std::vector<gonio::picture_samples>>;
+/// The samples of each image, for each of some materials.
+using samples_of_materials = std::vector<std::vector<gonio::image_samples>>;
 
 /// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
 /// were off.
-std::vector<gonio::sample_set> refined(const std::vector<taken_picture>& pictures, samples_of_materials samples,
+std::vector<gonio::sample_set> refined(const std::vector<taken_image>& pictures, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
       gonio::io::read_prior(options.prior), std::move(samples),
-      {.deviation = gonio::radians(options.misplacement),
+      {.deviation = gonio::radians(options.angular_error),
        .calibrated_by = options.reference_in_place ? gonio::light_calibration::reference_in_place
                                                    : gonio::light_calibration::irradiance,
        .threads = options.threads});
@@ -83,31 +83,31 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_picture>& picture
   return all;
 }
 
-/// Each material's samples of all pictures.
-std::vector<gonio::sample_set> joined(const std::vector<taken_picture>& pictures, samples_of_materials samples,
+/// Each material's samples of all images.
+std::vector<gonio::sample_set> joined(const std::vector<taken_image>& pictures, samples_of_materials samples,
                                       const near_field_command& options) {
-  if (options.misplacement != 0.0) return refined(pictures, std::move(samples), options);
+  if (options.angular_error != 0.0) return refined(pictures, std::move(samples), options);
   std::vector<gonio::sample_set> all(samples.size());
   for (std::size_t m = 0; m < samples.size(); ++m)
-    for (const gonio::picture_samples& picture : samples[m]) {
+    for (const gonio::image_samples& picture : samples[m]) {
       const gonio::sample_set own = gonio::as_sample_set(picture);
       all[m].insert(all[m].end(), own.begin(), own.end());
     }
   return all;
 }
 
-/// How many samples each picture has, a line each.
-std::string counts_of(const std::vector<taken_picture>& pictures, const std::vector<gonio::picture_samples>& samples) {
+/// How many samples each image has, a line each.
+std::string counts_of(const std::vector<taken_image>& pictures, const std::vector<gonio::image_samples>& samples) {
   std::string lines;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     lines += pictures[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
   return lines;
 }
 
-/// All pictures' samples in one file; prints how many each has.
-void write_samples_of_one(const std::vector<taken_picture>& pictures, const near_field_command& options) {
-  std::vector<gonio::picture_samples> samples;
-  for (const taken_picture& picture : pictures) samples.push_back(samples_of(picture));
+/// All images' samples in one file; prints how many each has.
+void write_samples_of_one(const std::vector<taken_image>& pictures, const near_field_command& options) {
+  std::vector<gonio::image_samples> samples;
+  for (const taken_image& picture : pictures) samples.push_back(samples_of(picture));
   const std::string counts = counts_of(pictures, samples);
   gonio::io::write_samples(options.output, joined(pictures, {std::move(samples)}, options).front());
   std::cout << counts;
@@ -116,9 +116,9 @@ void write_samples_of_one(const std::vector<taken_picture>& pictures, const near
 // ---- several materials -------------------------------------------------------------------------
 
 /// Pixels are the same points of the sample only if the camera stood still.
-void require_fixed_camera(const std::vector<taken_picture>& pictures) {
+void require_fixed_camera(const std::vector<taken_image>& pictures) {
   const gonio::pinhole_camera& first = pictures.front().setup.camera;
-  for (const taken_picture& picture : pictures) {
+  for (const taken_image& picture : pictures) {
     const gonio::pinhole_camera& camera = picture.setup.camera;
     if (camera.intrinsics().rows != first.intrinsics().rows ||
         camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
@@ -129,10 +129,10 @@ void require_fixed_camera(const std::vector<taken_picture>& pictures) {
   }
 }
 
-/// Clusters of the pixels of a picture's region by their reflectance.
-gonio::capture::colour_clusters clusters_of(const taken_picture& picture, const std::vector<std::size_t>& region,
+/// Clusters of the pixels of an image's region by their reflectance.
+gonio::capture::colour_clusters clusters_of(const taken_image& picture, const std::vector<std::size_t>& region,
                                             const near_field_command& options) {
-  static_cast<void>(samples_of(picture));  // refuses what is no picture of the sample
+  static_cast<void>(samples_of(picture));  // refuses what is no image of the sample
   const std::size_t columns = picture.setup.camera.intrinsics().columns;
   gonio::capture::point_matrix colours(std::ssize(region), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i) {
@@ -171,11 +171,10 @@ gonio::image label_map(const gonio::capture::colour_clusters& clusters, const st
   return map;
 }
 
-/// A file of samples for each material. Its pixels are those of its cluster in the last picture.
-void write_samples_of_each(std::vector<taken_picture> pictures, const command& given,
-                           const near_field_command& options) {
+/// A file of samples for each material. Its pixels are those of its cluster in the last image.
+void write_samples_of_each(std::vector<taken_image> pictures, const command& given, const near_field_command& options) {
   require_fixed_camera(pictures);
-  const taken_picture& diffuse = pictures.back();
+  const taken_image& diffuse = pictures.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
   const std::vector<std::size_t> region = gonio::capture::pixels_of_region(diffuse.setup);
   const gonio::capture::colour_clusters clusters = clusters_of(diffuse, region, options);
@@ -188,7 +187,7 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const command& g
     std::vector<bool> mask(size.rows * size.columns, false);
     for (const std::size_t pixel : clusters.pixels(material)) mask[region[pixel]] = true;
     auto& own = samples.emplace_back();
-    for (taken_picture& picture : pictures) {
+    for (taken_image& picture : pictures) {
       picture.setup.mask = mask;
       own.push_back(samples_of(picture));
     }
@@ -203,10 +202,10 @@ void write_samples_of_each(std::vector<taken_picture> pictures, const command& g
 }
 
 void run(const command& given, const near_field_command& options) {
-  if (options.reference_in_place && options.misplacement == 0.0)
+  if (options.reference_in_place && options.angular_error == 0.0)
     throw gonio::error("--reference-in-place needs --misplaced");
   if (options.clusters.empty() && !options.labels.empty()) throw gonio::error("--labels is of --clusters alone");
-  std::vector<taken_picture> pictures = read_pictures(options);
+  std::vector<taken_image> pictures = read_images(options);
   if (options.clusters.empty())
     write_samples_of_one(pictures, options);
   else
@@ -216,20 +215,20 @@ void run(const command& given, const near_field_command& options) {
 }  // namespace
 
 void add_near_field(command& app) {
-  auto command = app.add_subcommand("near-field", "Turn pictures of a flat sample into samples for gonio reconstruct");
+  auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   command
-      .add_input("pictures", options->pictures,
-                 "Pictures of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
+      .add_input("images", options->pictures,
+                 "Images of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
                  "light and region of interest")
       .type_name("PICTURE SETUP")
       .required();
   command.add_option("--clusters", options->clusters,
-                     "Several materials: how many, or auto; told apart by colour in the last picture, which should "
+                     "Several materials: how many, or auto; told apart by colour in the last image, which should "
                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
-  command.add_output("--labels", options->labels, {".png"}, "Picture of which pixels are which material (.png)");
+  command.add_output("--labels", options->labels, {".png"}, "Image of which pixels are which material (.png)");
   command
-      .add_option("--misplaced", options->misplacement,
+      .add_option("--misplaced", options->angular_error,
                   "Degrees by which light and cameras may be off where the set-ups say: where they were is found with "
                   "the help of --prior")
       .capture_default_str();

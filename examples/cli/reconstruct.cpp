@@ -7,7 +7,7 @@
 #include "command_line/reconstruct_methods.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
-#include "pictures.hpp"
+#include "images.hpp"
 #include <gonio/core/finite.hpp>
 #include <gonio/io/file.hpp>
 
@@ -48,7 +48,7 @@ const std::vector<method>& methods() {
        "such a combination, corrected again and again, for samples with outliers (Noell et al. 2014)",
        reconstruct_by_corrections,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--iterations", "--history",
-        "--story", "--truth", "--seed"}},
+        "--iteration-figure", "--truth", "--seed"}},
       {"rbf",
        "radial basis functions (a rival of Noell et al. 2014)",
        reconstruct_by_radial_functions,
@@ -73,8 +73,8 @@ void require_taken(const command& given, const method& chosen) {
       throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
                          names);
     }
-  if (given.count("--truth") > 0 && given.count("--story") == 0)
-    throw gonio::error("--truth is only for the picture of --story, which is not asked for");
+  if (given.count("--truth") > 0 && given.count("--iteration-figure") == 0)
+    throw gonio::error("--truth is only for the image of --iteration-figure, which is not asked for");
 }
 
 /// A line for each round; docs/formats.md has the columns.
@@ -104,8 +104,8 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
   std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
 }
 
-void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const picture_options& how) {
-  std::array spheres{sphere_picture(table, how, options.threads)};
+void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
+  std::array spheres{sphere_image(table, how, options.threads)};
   expose_spheres(spheres, how);
   gonio::io::write_png(options.picture, spheres.front());
 }
@@ -122,16 +122,16 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
                      " sr^-1, complete to a table that is not finite by the method ", options.method};
 }
 
-void reconstruct(const reconstruct_options& options, const picture_options& how, const method& chosen) {
+void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
   const reconstruction result = chosen.reconstruct(options, samples);
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.picture.empty()) write_sphere(options, result.table, how);
   if (!options.history.empty()) write_history(options.history, result.history);
-  if (result.story) {
-    gonio::io::write_png(options.story / "story.png", *result.story);
-    write_history(options.story / "history.csv", result.history);
+  if (result.iteration_figure) {
+    gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
+    write_history(options.iteration_figure / "history.csv", result.history);
   }
   print(result, samples.size(), options.print_json);
 }
@@ -155,9 +155,9 @@ void add_correction_options(command& to, reconstruct_options& options) {
       .check(check::range(1, 10'000))
       .capture_default_str();
   to.add_output("--history", options.history, {".csv"}, "What each round of correction did, to write (.csv)");
-  to.add_output_folder("--story", options.story, {"story.png", "history.csv"},
-                       "Folder for a picture of the first rounds of correction and the last, and their history");
-  to.add_input("--truth", options.truth, "Table that --story compares with (.binary or .binary.gz)");
+  to.add_output_folder("--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
+                       "Folder for an image of the first rounds of correction and the last, and their history");
+  to.add_input("--truth", options.truth, "Table that --iteration-figure compares with (.binary or .binary.gz)");
   to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
       .capture_default_str();
 }
@@ -167,7 +167,7 @@ void add_correction_options(command& to, reconstruct_options& options) {
 void add_reconstruct(command& app) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
-  const auto how = std::make_shared<picture_options>();
+  const auto how = std::make_shared<image_options>();
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
@@ -184,12 +184,12 @@ void add_reconstruct(command& app) {
       "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
   add_correction_options(command, *options);
   command
-      .add_option("--misplaced", options->misplacement,
+      .add_option("--misplaced", options->angular_error,
                   "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
-                  "of highlights count less then (for pictures: gonio near-field --misplaced)")
+                  "of highlights count less then (for images: gonio near-field --misplaced)")
       .capture_default_str();
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
-  auto image = command.add_output("--image", options->picture, {".png"}, "Picture of a sphere to write (.png)");
+  auto image = command.add_output("--image", options->picture, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);

@@ -1,9 +1,9 @@
-/// gonio render: pictures of tables, side by side.
+/// gonio render: images of tables, side by side.
 
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
-#include "pictures.hpp"
+#include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
@@ -24,7 +24,7 @@ struct render_options {
   std::filesystem::path output, environment;
   bool slices = false;
   int quality = 64;
-  picture_options picture;
+  image_options picture;
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -34,9 +34,9 @@ void render(const render_options& options) {
   if (!options.environment.empty())
     light.emplace(gonio::render::environment_map(gonio::io::read_hdr(options.environment)));
   progress_bar bar;
-  const auto picture_of = [&](const gonio::brdf_table& table) {
-    if (options.slices) return slice_picture(table, options.picture, options.threads);
-    if (!light) return sphere_picture(table, options.picture, options.threads);
+  const auto image_of = [&](const gonio::brdf_table& table) {
+    if (options.slices) return slice_image(table, options.picture, options.threads);
+    if (!light) return sphere_image(table, options.picture, options.threads);
     const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
     const gonio::render::sampled_sphere_view view{.size = options.picture.size,
                                                   .samples = options.quality,
@@ -45,7 +45,7 @@ void render(const render_options& options) {
     return gonio::render::render_sphere(material, *light, view, options.threads, bar.listener());
   };
   std::vector<gonio::image> pictures;
-  for (const auto& path : options.tables) pictures.push_back(picture_of(gonio::io::read_merl_any(path)));
+  for (const auto& path : options.tables) pictures.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(pictures, options.picture);
   gonio::io::write_png(options.output, gonio::render::side_by_side(pictures, 8));
 }
@@ -57,20 +57,20 @@ void add_render(command& app) {
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
   command.add_input("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
-  command.add_output("-o,--output", options->output, {".png"}, "Picture to write (.png)").required();
+  command.add_output("-o,--output", options->output, {".png"}, "Image to write (.png)").required();
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
   auto environment = command.add_input("--environment", options->environment,
-                                       "Light from all around: a latitude-longitude picture (.hdr)");
+                                       "Light from all around: a latitude-longitude image (.hdr)");
   environment.excludes(slices);
   command
       .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
-  add_picture_options(command, options->picture,
-                      "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
-                      "percentile")
+  add_image_options_to(command, options->picture,
+                       "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
+                       "percentile")
       .second.excludes(slices);
   command.add_option("--seed", options->seed, "Seed of the samples").needs(environment).capture_default_str();
   add_threads_option(command, options->threads);

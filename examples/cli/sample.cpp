@@ -45,7 +45,7 @@ void add_sample(command& app) {
   command.callback([options] {
     const gonio::brdf_table table = gonio::io::read_merl_any(options->table);
     const auto cells = chosen_cells(*options, table.cells());
-    gonio::io::write_samples(options->output, gonio::measure(table, cells, options->defects, options->seed));
+    gonio::io::write_samples(options->output, gonio::sample_table(table, cells, options->defects, options->seed));
   });
 }
 

@@ -1,12 +1,12 @@
 #include "design_search.hpp"
 
-#include <gonio/basis/misplacement.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/sphere_geometry.hpp>
+#include <gonio/estimate/angular_error.hpp>
 #include <gonio/evaluate/perceived_norm.hpp>
 
 namespace cli {
@@ -79,11 +79,11 @@ designed by_expected_error(const prior_t& prior, const Geometry& geometry, const
                            const gonio::progress& listener) {
   gonio::design::expected_error criterion = criterion_of(prior, options);
   if constexpr (std::is_same_v<Geometry, gonio::design::point_geometry>) {
-    const std::vector<double> own_etas = options.misplacement > 0.0
-                                             ? gonio::misplacement_etas(prior, options.misplacement, options.threads)
-                                             : std::vector<double>{};
+    const std::vector<double> sample_noise_penalties =
+        options.angular_error > 0.0 ? gonio::angular_error_penalties(prior, options.angular_error, options.threads)
+                                    : std::vector<double>{};
     const gonio::design::cell_candidates candidates(prior, std::move(criterion), options.near_field.constraint,
-                                                    options.threads, own_etas);
+                                                    options.threads, sample_noise_penalties);
     return finished(geometry, options.search == "descent" ? slide(candidates, options, listener)
                                                           : sweep(candidates, options, listener));
   } else {
@@ -131,16 +131,16 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
-  if (options.misplacement != 0.0 && !(options.geometry == "point" && expects_errors))
+  if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
     throw gonio::error("directions that are not quite met are expected of points alone, by the expected error");
   if (!expects_errors && (options.common_shift != 0.0 || options.in_sample))
     throw gonio::error("--common-shift and --in-sample are of --criterion expected-error or perceived, not of " +
                        options.criterion);
   if (options.criterion == "condition" && options.noise != 0.0)
     throw gonio::error("--noise means nothing to --criterion condition, which knows of no noise");
-  if (!(options.misplacement >= 0.0 && options.misplacement < gonio::radians(45.0)))
+  if (!(options.angular_error >= 0.0 && options.angular_error < gonio::radians(45.0)))
     throw gonio::error("directions may be off by 0 to 45 degrees, not by " +
-                       std::to_string(gonio::degrees(options.misplacement)));
+                       std::to_string(gonio::degrees(options.angular_error)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
     return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener);

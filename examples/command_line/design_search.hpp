@@ -20,7 +20,7 @@ struct design_options {
   double eta = gonio::default_eta;
   double noise = 0.0, common_shift = 0.0;        ///< of every measurement's logarithm: independent, and shared by all
   bool in_sample = false;                        ///< is the error expected of materials that the prior has seen?
-  double misplacement = 0.0;                     ///< radians by which light and viewer may be off: of points
+  double angular_error = 0.0;                    ///< radians by which light and viewer may be off: of points
   gonio::design::near_field_options near_field;  ///< its constraint holds for points, too
   std::vector<gonio::direction_pair> start;      ///< above the horizon
   std::uint64_t seed = 0;
@@ -29,7 +29,7 @@ struct design_options {
 
 /// What to measure.
 struct designed {
-  std::vector<gonio::direction_pair> poses;     ///< light and viewer of each measurement; of a picture, its centre
+  std::vector<gonio::direction_pair> poses;     ///< light and viewer of each measurement; of an image, its centre
   std::vector<gonio::half_difference> samples;  ///< of all measurements, one for each pixel
   double value = 0.0;                           ///< of the criterion
 };

@@ -1,10 +1,10 @@
 /// gonio reconstruct --method correction.
 
 #include "fixed.hpp"
+#include "iteration_figure.hpp"
 #include "materials.hpp"
 #include "progress_bar.hpp"
 #include "reconstruct_methods.hpp"
-#include "story.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -48,14 +48,15 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
                     ", relative error before the last " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
-  const double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).good_share;
+  const double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
   result.details["outliers"] = outliers;
   result.sentence += ", about " + fixed(100.0 * outliers, 1) + " % outliers";
 }
 
 /// Steps until the run ends, for a story to watch if there is one.
 template <class Run>
-reconstruction iterate(Run run, const reconstruct_options& options, bool automatic, story* watcher, progress_bar& bar) {
+reconstruction iterate(Run run, const reconstruct_options& options, bool automatic, iteration_figure* watcher,
+                       progress_bar& bar) {
   if (watcher) watcher->look(run);
   while (!run.converged()) {
     bar.draw("correcting", static_cast<double>(run.history().size()) / options.iterations);
@@ -73,30 +74,30 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
   const auto gamma = gamma_of(options);
   const gonio::thread_count threads = options.threads;
   const gonio::correction_limits limits{.rounds = options.iterations};
-  if (!options.story.empty()) make_folder(options.story);
+  if (!options.iteration_figure.empty()) make_folder(options.iteration_figure);
   bar.draw("making correction functions", 0.0);
   const gonio::correction corrections{materials, {}, gonio::nnls{}, threads};
-  std::optional<story> watched;
-  if (!options.story.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
-  story* watcher = watched ? &*watched : nullptr;
+  std::optional<iteration_figure> watched;
+  if (!options.iteration_figure.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
+  iteration_figure* watcher = watched ? &*watched : nullptr;
 
   const auto as_published = [&] {
     const gonio::decomposition initial{materials, gonio::nnls{}, threads};
     const gonio::relative_deviation_weights weighting{*gamma};
     const gonio::correction_iteration method{initial, corrections, weighting, gonio::nnls{}, limits, threads};
-    return iterate(method.start(samples), options, false, watcher, bar);
+    return iterate(method.initialise(samples), options, false, watcher, bar);
   };
   const auto automatic = [&] {
     const gonio::robust_start start{.seed = options.seed};
     const gonio::robust_reconstruction robust{materials, corrections, limits, start, threads};
-    return iterate(robust.start(samples), options, true, watcher, bar);
+    return iterate(robust.initialise(samples), options, true, watcher, bar);
   };
   reconstruction result = gamma ? as_published() : automatic();
   if (!watched) return result;
 
   bar.draw("drawing", 1.0);
   auto [picture, differences] = watched->draw();
-  result.story = std::move(picture);
+  result.iteration_figure = std::move(picture);
   for (const auto& [round, difference] : differences)
     result.details["delta_e_env"].push_back({{"round", round}, {"mean", difference}});
   if (!differences.empty())

@@ -10,8 +10,8 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -28,7 +28,7 @@ void describe(const gonio::solution& found, std::size_t samples, reconstruction&
   gonio::rgb used;
   for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((found.weights.col(c).array() != 0.0).count());
   result.details = {{"mapped_residual_rms", per_channel(residual)},
-                    {"certificate", per_channel(found.certificate.array())},
+                    {"kkt_residual", per_channel(found.kkt_residual.array())},
                     {"non_zero_weights", per_channel(used)},
                     {"iterations", found.iterations}};
   result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
@@ -58,7 +58,8 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
     throw gonio::error("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
   const double eta = stated.empty() ? gonio::eta_of_noise(prior, samples, options.noise.value_or(0.0), options.threads)
                                     : number_of_eta(stated);
-  const gonio::misplaced_decomposition estimator{prior, eta, gonio::radians(options.misplacement), options.threads};
+  const gonio::errors_in_variables_decomposition estimator{prior, eta, gonio::radians(options.angular_error),
+                                                           options.threads};
   reconstruction result = described(estimator.fit(samples), samples.size(), options.threads);
   result.details["eta"] = eta;
   return result;
@@ -83,7 +84,7 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
   const auto prior = gonio::io::read_prior(options.materials.prior);
-  if (options.misplacement != 0.0) return reconstruct_misplaced(options, prior, samples);
+  if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
   if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);
   const double eta = options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
                                    : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);

@@ -16,9 +16,9 @@
 namespace cli {
 
 struct reconstruct_options {
-  std::filesystem::path samples, output, picture, history, story, truth;
+  std::filesystem::path samples, output, picture, history, iteration_figure, truth;
   std::string method = "pca", metric, gamma = "auto";
-  double root = 2.0, misplacement = 0.0;
+  double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;
   int iterations = 10;
   std::uint64_t seed = 0;
@@ -34,7 +34,7 @@ struct reconstruction {
   json details = json::object();  ///< what --json prints beside the number of samples
   std::string sentence{};         ///< the same for people
   std::vector<gonio::correction_round> history{};
-  std::optional<gonio::image> story{};
+  std::optional<gonio::image> iteration_figure{};
 };
 
 /// Principal components under the metric that they were learned with.

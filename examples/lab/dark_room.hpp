@@ -24,7 +24,7 @@ struct defects {
   double misalignment = 0.0;  ///< radians by which all lamps, the camera and the sample are turned, each about an axis
   double lamp_radius = 0.0;   ///< mm; the lamp is a disc that faces the sample
   double field = 0.0;         ///< mm from the middle of the sample to the edge of what the camera sees
-  double vignetting = 0.0;    ///< share of the light that is lost in the picture's corners
+  double vignetting = 0.0;    ///< share of the light that is lost in the image's corners
   double stray = 0.0;         ///< light from the room's walls, as a share of what a white sample would send
   double flicker = 0.0;       ///< relative deviation of each exposure, of lamp and shutter
   double outliers = 0.0;      ///< share of the poses at which the light is up to 10 times more, or less, than it should
@@ -122,7 +122,7 @@ class dark_room {
     gonio::capture::camera_frame counts(chip_.side * chip_.side, 3);
     for (int row = 0; row < chip_.side; ++row)
       for (int column = 0; column < chip_.side; ++column) {
-        // Places across the picture, from -1 to 1.
+        // Places across the image, from -1 to 1.
         const double x = (2.0 * column + 1.0) / chip_.side - 1.0, y = (2.0 * row + 1.0) / chip_.side - 1.0;
         const double vignette = 1.0 - wrong_.vignetting * (x * x + y * y) / 2.0;
         const gonio::rgb light = is_lit_ ? gonio::rgb(vignette * radiance(x, y)) : gonio::rgb::Zero();
@@ -133,7 +133,7 @@ class dark_room {
   }
 
  private:
-  /// The radiance at a place of the picture; 1 / pi of a perfect white under a lamp right above at its usual distance.
+  /// The radiance at a place of the image; 1 / pi of a perfect white under a lamp right above at its usual distance.
   [[nodiscard]] gonio::rgb radiance(double x, double y) const {
     // In the sample's own axes, where all that is turned is turned back.
     const Eigen::Vector3d camera = turn_sample_.transpose() * turn_camera_ * camera_;

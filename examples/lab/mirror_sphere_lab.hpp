@@ -1,11 +1,11 @@
 #pragma once
-/// A simulated light probe: the picture of a mirror sphere in an environment.
+/// A simulated light probe: the image of a mirror sphere in an environment.
 
 #include <gonio/capture/mirror_sphere.hpp>
 
 namespace lab {
 
-/// A square picture that the sphere fills, black beside it. `radiance(direction)` is the light from a direction;
+/// A square image that the sphere fills, black beside it. `radiance(direction)` is the light from a direction;
 /// `samples` rays across each pixel see it, of which those beside the sphere are black.
 template <class Radiance>
 [[nodiscard]] gonio::image photograph(const gonio::capture::mirror_sphere& sphere, const Radiance& radiance,

@@ -1,5 +1,5 @@
 #pragma once
-/// A simulated laboratory for pictures from close by: a flat disc of a known material, a distant light and a pinhole
+/// A simulated laboratory for images from close by: a flat disc of a known material, a distant light and a pinhole
 /// camera, with noise, and with light and camera not quite where they are said to be.
 
 #include "random_turn.hpp"
@@ -21,7 +21,7 @@ struct near_field_defects {
   double misalignment = 0.0;
 };
 
-/// A picture of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
+/// An image of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
 /// below the horizon. The defects come from the seed alone; the set-up is what the experimenter believes.
 template <gonio::brdf Brdf>
 [[nodiscard]] gonio::image photograph(const Brdf& material, const gonio::capture::sample_disc& disc,

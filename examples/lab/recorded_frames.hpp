@@ -149,7 +149,7 @@ class recorded_frames {
     const gonio::io::stored_codes codes = gonio::io::read_png_codes(file);
     const window seen = window_.value_or(window{0, 0, codes.columns, codes.rows});
     if (seen.column + seen.columns > codes.columns || seen.row + seen.rows > codes.rows)
-      throw gonio::capture::device_failure(file.string() + ": the window ends outside the picture of " +
+      throw gonio::capture::device_failure(file.string() + ": the window ends outside the image of " +
                                            std::to_string(codes.columns) + " x " + std::to_string(codes.rows) +
                                            " pixels");
     gonio::capture::camera_frame counts(static_cast<Eigen::Index>(seen.rows * seen.columns), 3);

@@ -5,11 +5,9 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/correction.hpp>
 #include <gonio/basis/expand_materials.hpp>
-#include <gonio/basis/highlight_contrast.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
-#include <gonio/basis/misplacement.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>

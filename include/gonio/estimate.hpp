@@ -1,19 +1,21 @@
 #pragma once
 /// All of `estimate/`: from samples to a BRDF.
 
+#include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/highlight_contrast.hpp>
+#include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/leave_one_out.hpp>
-#include <gonio/estimate/left_out_error.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
-#include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/nearest_material.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>

@@ -1,9 +1,9 @@
 #pragma once
 /// All of `evaluate/`: how good an estimate is.
 
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/perceived_norm.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/evaluate/test_materials.hpp>

@@ -17,8 +17,8 @@
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/geodesic.hpp>
 #include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/mesh_image.hpp>
 #include <gonio/shape/mesh_part.hpp>
-#include <gonio/shape/mesh_picture.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/registration.hpp>

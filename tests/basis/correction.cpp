@@ -1,5 +1,5 @@
 #include "../golden_noell.hpp"
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/correction.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/log_relative.hpp>
@@ -97,7 +97,7 @@ TEST_CASE("golden: the corrections of eleven measured materials as printed") {
 }
 
 TEST_CASE("a correction times the approximation by the others is the material, with any metric and both rules") {
-  const auto set = made_up_materials(small_cells(), 7);
+  const auto set = synthetic_materials(small_cells(), 7);
   for (const correction_rule& rule : {correction_rule{}, correction_rule::as_printed()}) {
     check_that_materials_come_back(set, gonio::log{}, rule);
     check_that_materials_come_back(set, gonio::lin{}, rule);
@@ -108,7 +108,7 @@ TEST_CASE("a correction times the approximation by the others is the material, w
 }
 
 TEST_CASE("the constant function is the last one of each channel, if the rule has it") {
-  const gonio::measured basis{made_up_materials(small_cells(), 4), gonio::log{}};
+  const gonio::measured basis{synthetic_materials(small_cells(), 4), gonio::log{}};
   const correction with{basis}, printed{basis, correction_rule::as_printed()};
   REQUIRE(with.size() == 5);
   CHECK(with.names().size() == 4);
@@ -123,7 +123,7 @@ TEST_CASE("the constant function is the last one of each channel, if the rule ha
 }
 
 TEST_CASE("a material that the basis leaves out is in no approximation") {
-  auto set = made_up_materials(small_cells(), 5);
+  auto set = synthetic_materials(small_cells(), 5);
   const gonio::measured basis{set, gonio::log{}};
   const correction fewer{basis.without({"material-1"})}, all{basis};
   // The same without ever having had it.
@@ -152,7 +152,7 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
 }
 
 TEST_CASE("leaving materials out one by one, all at once or before is the same") {
-  const gonio::measured basis{made_up_materials(small_cells(), 9), gonio::log{}};
+  const gonio::measured basis{synthetic_materials(small_cells(), 9), gonio::log{}};
   const correction all{basis};
   CHECK(rc::check([&] {
     std::vector<std::string> out;
@@ -179,7 +179,7 @@ TEST_CASE("leaving materials out one by one, all at once or before is the same")
 }
 
 TEST_CASE("leaving out is refused for unknown names, and below two materials") {
-  const gonio::measured basis{made_up_materials(small_cells(), 4), gonio::log{}};
+  const gonio::measured basis{synthetic_materials(small_cells(), 4), gonio::log{}};
   const correction all{basis};
   const correction fewer = all.without({"material-2", "material-0"});
   CHECK(std::ranges::equal(fewer.columns(), std::vector<Eigen::Index>{1, 3, 4}));
@@ -192,7 +192,7 @@ TEST_CASE("leaving out is refused for unknown names, and below two materials") {
 }
 
 TEST_CASE("zeros stay finite: 0/0 needs no correction, and x/0 is bounded by the offset") {
-  auto set = made_up_materials(small_cells(), 4);
+  auto set = synthetic_materials(small_cells(), 4);
   set.values.row(3).setZero();  // all materials: 0/0
   set.values.row(5).setZero();  // all but one: x/0
   set.values.block(5, 0, 1, 3).setConstant(2);
@@ -237,16 +237,16 @@ TEST_CASE("correction factors: correcting an estimate by its quotient gives the 
 }
 
 TEST_CASE("corrections are the same for any number of threads") {
-  const auto set = made_up_materials(gonio::valid_cells(gonio::grid({12, 10, 12})), 6);
+  const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({12, 10, 12})), 6);
   const gonio::measured basis{set, gonio::log{}};
   const correction one{basis, {}, gonio::nnls{}, {1}}, three{basis, {}, gonio::nnls{}, {3}};
   for (std::size_t f = 0; f < one.size(); ++f) CHECK(function_values(one, f) == function_values(three, f));
 }
 
 TEST_CASE("fewer than two materials have no corrections") {
-  const gonio::measured alone{made_up_materials(small_cells(), 1), gonio::log{}};
+  const gonio::measured alone{synthetic_materials(small_cells(), 1), gonio::log{}};
   CHECK_THROWS_WITH_AS(correction{alone}, doctest::Contains("at least two materials"), gonio::error);
-  const gonio::measured pair{made_up_materials(small_cells(), 2), gonio::log{}};
+  const gonio::measured pair{synthetic_materials(small_cells(), 2), gonio::log{}};
   CHECK(correction{pair}.size() == 3);
   CHECK_THROWS_AS(correction{pair.without({"material-0"})}, gonio::error);
 }

@@ -1,5 +1,5 @@
 #include "../dense_reference.hpp"
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/project.hpp>
 
@@ -9,7 +9,7 @@
 using gonio::valid_cells;
 
 TEST_CASE("components are those of a dense singular value decomposition") {
-  const auto set = made_up_materials(small_cells(), 6);
+  const auto set = synthetic_materials(small_cells(), 6);
   const auto prior = learn(set, 18);
   Eigen::MatrixXd x(set.values.rows(), set.values.cols());
   for (Eigen::Index cell = 0; cell < x.rows(); ++cell)
@@ -34,7 +34,7 @@ TEST_CASE("components are those of a dense singular value decomposition") {
 }
 
 TEST_CASE("the stored coefficients expand to the materials, and projection finds them") {
-  const auto set = made_up_materials(small_cells(), 6);
+  const auto set = synthetic_materials(small_cells(), 6);
   const auto prior = learn(set, 18);
   for (std::size_t m = 0; m < 6; ++m) {
     const Eigen::MatrixXd weights = prior.weights_of(m);
@@ -53,7 +53,7 @@ TEST_CASE("the stored coefficients expand to the materials, and projection finds
 }
 
 TEST_CASE("learning gives the same bytes for any number of threads") {
-  const auto set = made_up_materials(small_cells(), 5);
+  const auto set = synthetic_materials(small_cells(), 5);
   const auto one = learn(set, 6, {1}), three = learn(set, 6, {3});
   CHECK(one.components() == three.components());
   CHECK(one.mean() == three.mean());
@@ -63,7 +63,7 @@ TEST_CASE("learning gives the same bytes for any number of threads") {
 TEST_CASE("a thinned prior keeps its values where nodes coincide and stays close between them") {
   // Three cells of the fine grid make one of the coarse: the middle one's node is the coarse cell's.
   const valid_cells fine(gonio::grid({18, 27, 36})), coarse(gonio::grid({18, 9, 12}));
-  const auto prior = learn(made_up_materials(fine, 6), 6);
+  const auto prior = learn(synthetic_materials(fine, 6), 6);
   const auto thinned = gonio::thin(prior, coarse);
   CHECK(thinned.size() == prior.size());
   CHECK(thinned.names() == prior.names());
@@ -85,7 +85,7 @@ TEST_CASE("a thinned prior keeps its values where nodes coincide and stays close
 }
 
 TEST_CASE("unusable material sets are refused") {
-  auto set = made_up_materials(small_cells(), 2);
+  auto set = synthetic_materials(small_cells(), 2);
   CHECK_THROWS_AS(static_cast<void>(learn(set, 0)), gonio::error);
   auto same = set;
   same.values.setConstant(0.25f);

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>

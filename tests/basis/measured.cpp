@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/metric/lin.hpp>
@@ -24,7 +24,7 @@ static_assert(gonio::colour_basis<measured<gonio::log_relative>> && gonio::colou
 static_assert(gonio::has_arbitrary_sign<gonio::log_relative_pca> && !gonio::has_arbitrary_sign<measured<gonio::log>>);
 
 TEST_CASE("function i of a channel is that channel of material i, mapped") {
-  const auto materials = made_up_materials(small_cells(), 5);
+  const auto materials = synthetic_materials(small_cells(), 5);
   const measured basis{materials, gonio::log{}};
   CHECK(basis.size() == 5);
   CHECK(basis.names() == materials.names);
@@ -40,18 +40,18 @@ TEST_CASE("function i of a channel is that channel of material i, mapped") {
 }
 
 TEST_CASE("the products of a channel are its Gram matrix over all cells") {
-  const measured basis{made_up_materials(small_cells(), 4), gonio::lin{}};
+  const measured basis{synthetic_materials(small_cells(), 4), gonio::lin{}};
   const auto channel = basis.channel(1);
   double sum = 0.0;
   for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
     sum += double{channel.row(cell)[2]} * double{channel.row(cell)[3]};
   CHECK(channel.products()(2, 3) == doctest::Approx(sum).epsilon(1e-12));
-  const measured again{made_up_materials(small_cells(), 4), gonio::lin{}};
+  const measured again{synthetic_materials(small_cells(), 4), gonio::lin{}};
   CHECK(channel.products({1}) == again.channel(1).products({3}));
 }
 
 TEST_CASE("materials are left out without copying: the rows stay where they are") {
-  const measured basis{made_up_materials(small_cells(), 5), gonio::log{}};
+  const measured basis{synthetic_materials(small_cells(), 5), gonio::log{}};
   const auto fewer = basis.without({"material-1", "material-4"}), fewest = fewer.without({"material-0"});
   CHECK(std::ranges::equal(basis.columns(), std::vector<Eigen::Index>{0, 1, 2, 3, 4}));
   CHECK(std::ranges::equal(fewer.columns(), std::vector<Eigen::Index>{0, 2, 3}));
@@ -63,7 +63,7 @@ TEST_CASE("materials are left out without copying: the rows stay where they are"
 }
 
 TEST_CASE("a basis from what a prior remembers is that from the materials") {
-  const auto materials = made_up_materials(small_cells(), 6);
+  const auto materials = synthetic_materials(small_cells(), 6);
   const auto remembered = gonio::expand(learn(materials, 18));
   CHECK(remembered.names == materials.names);
   REQUIRE(remembered.values.rows() == materials.values.rows());
@@ -76,18 +76,18 @@ TEST_CASE("a basis from what a prior remembers is that from the materials") {
 }
 
 TEST_CASE("materials that cannot be used are refused by name") {
-  auto broken = made_up_materials(small_cells(), 3);
+  auto broken = synthetic_materials(small_cells(), 3);
   broken.values(5, 7) = std::nanf("");
   CHECK_THROWS_WITH_AS((measured{broken, gonio::log{}}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
-  const auto reference = gonio::log_relative::to_median_of(made_up_materials(small_cells(), 3));
+  const auto reference = gonio::log_relative::to_median_of(synthetic_materials(small_cells(), 3));
   broken.values(5, 7) = -std::numeric_limits<float>::infinity();  // which counts as zero there
   CHECK_THROWS_WITH_AS((measured{broken, reference}), doctest::Contains("'material-2' is not finite at cell 5"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS((measured{made_up_materials(small_cells(), 3), overflowing_metric{}}),
+  CHECK_THROWS_WITH_AS((measured{synthetic_materials(small_cells(), 3), overflowing_metric{}}),
                        doctest::Contains("'material-0' is not finite at cell 0"), gonio::error);
   CHECK_THROWS_AS((measured{gonio::material_set{small_cells(), {}, {}}, gonio::log{}}), gonio::error);
-  auto short_set = made_up_materials(small_cells(), 3);
+  auto short_set = synthetic_materials(small_cells(), 3);
   short_set.names.pop_back();
   CHECK_THROWS_AS((measured{short_set, gonio::log{}}), gonio::error);
 }

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/pca.hpp>
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@ static_assert(gonio::basis<gonio::log_relative_pca>);
 namespace {
 
 gonio::log_relative_pca small_prior() {
-  return learn(made_up_materials(gonio::valid_cells(gonio::grid({12, 6, 8})), 4), 6);
+  return learn(synthetic_materials(gonio::valid_cells(gonio::grid({12, 6, 8})), 4), 6);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/project.hpp>
 
 #include <doctest/doctest.h>
 
 TEST_CASE("no weights come closer to a table in the mapped domain than its projection") {
   const gonio::valid_cells cells(gonio::grid({12, 6, 8}));
-  const auto prior = learn(made_up_materials(cells, 6), 4);
-  const auto unseen = made_up_materials(cells, 1, 99).table(0);
+  const auto prior = learn(synthetic_materials(cells, 6), 4);
+  const auto unseen = synthetic_materials(cells, 1, 99).table(0);
   const Eigen::MatrixXd best = gonio::project(prior, unseen);
   const auto misfit = [&](const Eigen::MatrixXd& weights) {
     double sum = 0;
@@ -29,7 +29,7 @@ TEST_CASE("no weights come closer to a table in the mapped domain than its proje
 }
 
 TEST_CASE("a table over other cells is refused") {
-  const auto prior = learn(made_up_materials(gonio::valid_cells(gonio::grid({12, 6, 8})), 3), 4);
+  const auto prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({12, 6, 8})), 3), 4);
   const gonio::brdf_table other(gonio::valid_cells(gonio::grid({12, 6, 9})));
   CHECK_THROWS_AS(static_cast<void>(gonio::project(prior, other)), gonio::error);
 }

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/metric/lin.hpp>
@@ -56,7 +56,7 @@ gonio::rgb value_at(const Fit& fit, const gonio::half_difference& angles) {
 
 /// A smooth table with a highlight, over the small cells.
 const gonio::brdf_table& smooth_table() {
-  static const auto table = made_up_materials(small_cells(), 3).table(1);
+  static const auto table = synthetic_materials(small_cells(), 3).table(1);
   return table;
 }
 
@@ -147,7 +147,7 @@ TEST_CASE("measured at its centres alone, a fit interpolates the values there") 
     samples.push_back({centres[i], gonio::rgb(1.0, 0.4, 0.5) + 0.3 * std::sin(17.0 * static_cast<double>(i))});
   const auto fit = gonio::decomposition{rbf{small_cells(), gonio::log{}, centres}, gonio::tikhonov{1e-10}}.fit(samples);
   for (const gonio::sample& s : samples) CHECK((value_at(fit, s.angles) - s.value).abs().maxCoeff() < 1e-6);
-  CHECK(fit.found().certificate.maxCoeff() < 1e-9);
+  CHECK(fit.found().kkt_residual.maxCoeff() < 1e-9);
 }
 
 TEST_CASE("each farthest-point centre is farther from those before it than any cell is from all of them") {
@@ -184,7 +184,7 @@ TEST_CASE("a table is approximated, expanded at any cells as evaluated, by any n
   const auto fit = gonio::decomposition{functions, gonio::tikhonov{1e-6}, {1}}.fit(smooth_table());
   const auto threaded = gonio::decomposition{functions, gonio::tikhonov{1e-6}, {3}}.fit(smooth_table());
   CHECK(fit.found().weights == threaded.found().weights);
-  CHECK(fit.found().certificate.maxCoeff() < 1e-9);
+  CHECK(fit.found().kkt_residual.maxCoeff() < 1e-9);
   for (const auto& over : {small_cells(), gonio::valid_cells(gonio::grid({7, 5, 12}))}) {
     const auto table = fit.tabulate(over, {1});
     CHECK(std::ranges::equal(table.values(), fit.tabulate(over, {3}).values()));
@@ -206,7 +206,7 @@ TEST_CASE("a table is approximated, expanded at any cells as evaluated, by any n
 }
 
 TEST_CASE("a metric with a reference: weights of zero give the reference, tabulated or evaluated") {
-  const auto metric = gonio::log_relative::to_median_of(made_up_materials(small_cells(), 3));
+  const auto metric = gonio::log_relative::to_median_of(synthetic_materials(small_cells(), 3));
   const rbf functions{small_cells(), metric, five_centres};
   const auto fit = gonio::decomposition{functions, gonio::tikhonov{1e12}}.fit(smooth_table());
   const auto table = fit.tabulate(small_cells());

@@ -14,7 +14,7 @@ namespace {
 
 const std::array<rgb, 3> paints{rgb(0.6, 0.6, 0.55), rgb(0.1, 0.4, 0.1), rgb(0.5, 0.1, 0.05)};
 
-/// Which paint a made-up greeting card has at a pixel: half, a third and a sixth of it.
+/// Which paint a synthetic greeting card has at a pixel: half, a third and a sixth of it.
 std::size_t paint_at(Eigen::Index pixel) {
   constexpr std::array<std::size_t, 6> pattern{0, 1, 0, 2, 0, 1};
   return pattern[static_cast<std::size_t>(pixel % 6)];
@@ -22,7 +22,7 @@ std::size_t paint_at(Eigen::Index pixel) {
 
 /// Pixels coloured by `colour(i, normal, uniform)`, random numbers at hand.
 template <class Colour>
-point_matrix made_up_picture(Eigen::Index pixels, unsigned seed, Colour&& colour) {
+point_matrix synthetic_picture(Eigen::Index pixels, unsigned seed, Colour&& colour) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -36,7 +36,7 @@ point_matrix made_up_picture(Eigen::Index pixels, unsigned seed, Colour&& colour
 
 /// The card in uneven light, with noise.
 point_matrix greeting_card(Eigen::Index pixels, unsigned seed) {
-  return made_up_picture(pixels, seed, [](Eigen::Index i, auto&& normal, auto&& uniform) {
+  return synthetic_picture(pixels, seed, [](Eigen::Index i, auto&& normal, auto&& uniform) {
     const rgb noise(normal(), normal(), normal());
     return rgb(paints[paint_at(i)] * (0.7 + 0.3 * uniform()) + 0.01 * noise);
   });
@@ -92,24 +92,25 @@ TEST_CASE("one material is one cluster, noisy, shaded or both") {
     CHECK(largest > least);
     CHECK(largest < 0.645);
   };
-  alone(made_up_picture(
+  alone(synthetic_picture(
             6000, 5,
             [](pixel, auto&& normal, auto&&) { return rgb(paints[0] + 0.03 * rgb(normal(), normal(), normal())); }),
         0.35);
-  alone(
-      made_up_picture(6000, 6, [](pixel, auto&& normal, auto&&) { return rgb(paints[2] * std::exp(0.3 * normal())); }),
-      0.5);
-  alone(
-      made_up_picture(6000, 7, [](pixel, auto&&, auto&& uniform) { return rgb(paints[2] * (0.5 + 0.5 * uniform())); }),
-      0.6);
-  alone(made_up_picture(6000, 8, [](pixel, auto&&, auto&& uniform) { return rgb(paints[0] * std::pow(uniform(), 2)); }),
+  alone(synthetic_picture(6000, 6,
+                          [](pixel, auto&& normal, auto&&) { return rgb(paints[2] * std::exp(0.3 * normal())); }),
         0.5);
+  alone(synthetic_picture(6000, 7,
+                          [](pixel, auto&&, auto&& uniform) { return rgb(paints[2] * (0.5 + 0.5 * uniform())); }),
+        0.6);
+  alone(
+      synthetic_picture(6000, 8, [](pixel, auto&&, auto&& uniform) { return rgb(paints[0] * std::pow(uniform(), 2)); }),
+      0.5);
 }
 
 TEST_CASE("two clouds eight deviations apart are two clusters, by their lightness alone") {
   // L* is 116 cbrt(Y) - 16.
   const auto grey = [](double lightness) { return rgb(rgb::Constant(std::pow((lightness + 16.0) / 116.0, 3))); };
-  const auto colours = made_up_picture(6000, 9, [&](Eigen::Index i, auto&& normal, auto&&) {
+  const auto colours = synthetic_picture(6000, 9, [&](Eigen::Index i, auto&& normal, auto&&) {
     if (i % 50 == 0) return grey(100.0);  // which sets the exposure
     return grey((i % 3 == 0 ? 30.0 : 54.0) + 3.0 * normal());
   });
@@ -120,7 +121,7 @@ TEST_CASE("two clouds eight deviations apart are two clusters, by their lightnes
   CHECK(cluster_colours(colours, cluster_count_choice{.most = 1}, 4).count() == 1);
 }
 
-TEST_CASE("a picture of one colour, of one pixel, and of few colours") {
+TEST_CASE("an image of one colour, of one pixel, and of few colours") {
   const point_matrix same = point_matrix::Constant(50, 3, 0.2);
   CHECK(cluster_colours(same, cluster_count_choice{}, 0).count() == 1);
   CHECK(cluster_colours(same.topRows(1), cluster_count_choice{}, 0).labels[0] == 0);
@@ -167,7 +168,7 @@ TEST_CASE("coordinates are CIELAB, exposed to the brightest but for one in a hun
   CHECK(lab.row(9).norm() < 1e-12);
 }
 
-TEST_CASE("pictures that have no colours to cluster by are refused") {
+TEST_CASE("images that have no colours to cluster by are refused") {
   point_matrix colours = point_matrix::Constant(50, 3, 0.2);
   CHECK_THROWS_WITH_AS((void)cluster_colours(colours, 0, 0), doctest::Contains("at least one"), gonio::error);
   CHECK_THROWS_WITH_AS((void)cluster_colours(colours, cluster_count_choice{.most = 0}, 0),

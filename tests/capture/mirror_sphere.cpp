@@ -72,7 +72,7 @@ TEST_CASE("mirror sphere: what it shows and hides") {
   CHECK(mirror_sphere::spanning(gonio::radians(60.0)).distance() == doctest::Approx(2.0));
 }
 
-TEST_CASE("mirror sphere: a map, its picture in the sphere, and back") {
+TEST_CASE("mirror sphere: a map, its image in the sphere, and back") {
   const auto truth = gonio::render::environment_map::of(gonio::render::formula_environment{}, 64);
   for (const mirror_sphere& sphere : {mirror_sphere(), mirror_sphere(4.0), mirror_sphere(20.0)}) {
     const auto probe = lab::photograph(sphere, truth, 512);

@@ -133,7 +133,7 @@ TEST_CASE("blocks average their pixels, and count by their share") {
   auto setup = ordinary_setup();
   const image picture = lab::photograph(paint, *setup.disc, setup);
   const auto pixels = near_field_samples(picture, setup);
-  setup.block = 7;  // does not divide the picture
+  setup.block = 7;  // does not divide the image
   const auto blocks = near_field_samples(picture, setup);
   CHECK(blocks.size() < pixels.size() / 30);
   rgb sum_of_pixels = rgb::Zero(), sum_of_blocks = rgb::Zero();
@@ -186,7 +186,7 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
   const std::size_t all = near_field_samples(picture, setup).size();
   gonio::set_pixel(picture, 29, 41, {0.1, 0.9, 0.1});
   gonio::set_pixel(picture, 29, 42, {0.1, 0.1, infinity});
-  setup.saturation = 0.9;  // which is more than what the picture holds, 0.9f
+  setup.saturation = 0.9;  // which is more than what the image holds, 0.9f
   const auto is_saturated = [&](std::size_t row, std::size_t column) -> std::size_t {
     return (gonio::pixel(picture, row, column) > 0.8999999).any() ? 1 : 0;
   };
@@ -208,17 +208,17 @@ TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if 
 
 TEST_CASE("pixels that are not finite are refused by their place if they see the region; negative ones are kept") {
   const auto setup = ordinary_setup();
-  const auto picture_with = [&](std::size_t row, std::size_t column, double value) {
+  const auto image_with = [&](std::size_t row, std::size_t column, double value) {
     image picture = lab::photograph(paint, *setup.disc, setup);
     gonio::set_pixel(picture, row, column, {0.1, value, 0.1});
     return picture;
   };
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
-    CHECK_THROWS_WITH_AS(near_field_samples(picture_with(28, 40, bad), setup),
+    CHECK_THROWS_WITH_AS(near_field_samples(image_with(28, 40, bad), setup),
                          doctest::Contains("pixel (row 28, column 40) is not finite"), gonio::error);
-    CHECK_NOTHROW(near_field_samples(picture_with(0, 0, bad), setup));
+    CHECK_NOTHROW(near_field_samples(image_with(0, 0, bad), setup));
   }
-  const auto samples = near_field_samples(picture_with(28, 40, -0.01), setup);
+  const auto samples = near_field_samples(image_with(28, 40, -0.01), setup);
   CHECK(std::ranges::count_if(samples, [](const auto& s) { return s.value.y() < 0.0; }) == 1);
 }
 
@@ -251,7 +251,7 @@ TEST_CASE("what cannot be measured is refused") {
   refused([](auto& s) { s.block = 0; }, "block");
   const auto setup = ordinary_setup();
   CHECK_THROWS_WITH_AS(near_field_samples(gonio::uniform_image(80, 60), setup),
-                       doctest::Contains("the picture has 60 x 80 pixels, its camera 80 x 60"), gonio::error);
+                       doctest::Contains("the image has 60 x 80 pixels, its camera 80 x 60"), gonio::error);
   CHECK_THROWS_WITH_AS(near_field_samples(image({60, 80, 4}, 0.0f), setup), doctest::Contains("4 channels"),
                        gonio::error);
 }

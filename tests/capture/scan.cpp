@@ -1,4 +1,4 @@
-#include "made_up_machine.hpp"
+#include "synthetic_machine.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,10 +8,10 @@ using gonio::direction_pair;
 using gonio::spherical_direction;
 
 TEST_CASE("scan: a plan has all that can be reached, by a short way, and names the rest") {
-  std::vector<direction_pair> pairs = made_up_poses(12);
+  std::vector<direction_pair> pairs = synthetic_poses(12);
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(0.2, 1.0)});  // by reciprocity
   pairs.push_back({spherical_direction(1.3, 0.0), spherical_direction(1.3, 1.0)});  // not at all
-  const made_up_machine machine;
+  const synthetic_machine machine;
   const gonio::capture::scan_plan plan = gonio::capture::plan_scan(machine, pairs);
   CHECK(plan.poses.size() == 13u);
   REQUIRE(plan.unreachable.size() == 1u);
@@ -26,9 +26,9 @@ TEST_CASE("scan: a plan has all that can be reached, by a short way, and names t
 }
 
 TEST_CASE("scan: what is kept is not measured again") {
-  made_up_machine machine;
-  made_up_record record;
-  const auto poses = made_up_poses(5);
+  synthetic_machine machine;
+  synthetic_record record;
+  const auto poses = synthetic_poses(5);
   record.add(1, {});
   record.add(4, {});
   const auto outcome = gonio::capture::scan(machine, poses, record);
@@ -42,14 +42,14 @@ TEST_CASE("scan: what is kept is not measured again") {
 }
 
 TEST_CASE("scan: a device that fails once is tried again, one that fails twice is left for another time") {
-  made_up_machine machine;
-  made_up_record record;
+  synthetic_machine machine;
+  synthetic_record record;
   int calls = 0;
   machine.fault = [&](gonio::capture::reading&) {
     ++calls;
     if (calls == 2 || calls == 4 || calls == 5) throw gonio::capture::device_failure("the shutter is stuck");
   };
-  const auto outcome = gonio::capture::scan(machine, made_up_poses(5), record);
+  const auto outcome = gonio::capture::scan(machine, synthetic_poses(5), record);
   CHECK(outcome.measured == 4u);
   REQUIRE(outcome.missing.size() == 1u);
   CHECK(outcome.missing[0].number == 2u);
@@ -57,16 +57,16 @@ TEST_CASE("scan: a device that fails once is tried again, one that fails twice i
   CHECK(!outcome.is_broken_off);
   CHECK(!outcome.is_complete());
   machine.fault = [](gonio::capture::reading&) {};
-  CHECK(gonio::capture::scan(machine, made_up_poses(5), record).measured == 1u);
+  CHECK(gonio::capture::scan(machine, synthetic_poses(5), record).measured == 1u);
 }
 
 TEST_CASE("scan: a machine that keeps failing is given up, and what was measured is kept") {
-  made_up_machine machine;
-  made_up_record record;
+  synthetic_machine machine;
+  synthetic_record record;
   machine.fault = [&](gonio::capture::reading&) {
     if (machine.measured.size() > 2) throw gonio::capture::device_failure("no power");
   };
-  const auto outcome = gonio::capture::scan(machine, made_up_poses(20), record);
+  const auto outcome = gonio::capture::scan(machine, synthetic_poses(20), record);
   CHECK(outcome.measured == 2u);
   CHECK(outcome.missing.size() == 3u);
   CHECK(outcome.is_broken_off);
@@ -75,12 +75,12 @@ TEST_CASE("scan: a machine that keeps failing is given up, and what was measured
 }
 
 TEST_CASE("scan: another exception passes, and what was measured is kept") {
-  made_up_machine machine;
-  made_up_record record;
+  synthetic_machine machine;
+  synthetic_record record;
   machine.fault = [&](gonio::capture::reading&) {
     if (machine.measured.size() == 3) throw std::logic_error("a bug in the driver");
   };
-  CHECK_THROWS_AS(gonio::capture::scan(machine, made_up_poses(5), record), std::logic_error);
+  CHECK_THROWS_AS(gonio::capture::scan(machine, synthetic_poses(5), record), std::logic_error);
   CHECK(record.kept.size() == 2u);
 }
 
@@ -93,9 +93,9 @@ TEST_CASE("scan: a reading that is none is not kept") {
        "a frame has 1 pixels, the first 2"},
       {[](gonio::capture::reading& taken) { taken.frames[0](1, 2) = 101; }, "101 counts"}};
   for (const auto& [fault, message] : faults) {
-    made_up_machine machine{fault};
-    made_up_record record;
-    const auto outcome = gonio::capture::scan(machine, made_up_poses(1), record);
+    synthetic_machine machine{fault};
+    synthetic_record record;
+    const auto outcome = gonio::capture::scan(machine, synthetic_poses(1), record);
     CHECK(record.kept.empty());
     REQUIRE(outcome.missing.size() == 1u);
     CHECK(outcome.missing[0].reason.find(message) != std::string::npos);
@@ -104,9 +104,9 @@ TEST_CASE("scan: a reading that is none is not kept") {
 }
 
 TEST_CASE("scan: a pose that cannot be reached is missing, and the machine does not move") {
-  made_up_machine machine;
-  made_up_record record;
-  std::vector<direction_pair> poses = made_up_poses(3);
+  synthetic_machine machine;
+  synthetic_record record;
+  std::vector<direction_pair> poses = synthetic_poses(3);
   poses[1].wi = spherical_direction(1.3, 0.0);
   const auto outcome = gonio::capture::scan(machine, poses, record);
   CHECK(outcome.measured == 2u);

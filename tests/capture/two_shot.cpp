@@ -1,4 +1,4 @@
-/// From one or two pictures to a whole BRDF: Xu et al. 2016, sections 6 and 7, with a simulated laboratory.
+/// From one or two images to a whole BRDF: Xu et al. 2016, sections 6 and 7, with a simulated laboratory.
 
 #include "lab/near_field_lab.hpp"
 #include <gonio/estimate/decomposition.hpp>
@@ -26,7 +26,7 @@ gonio::capture::near_field_setup shot_at(double theta_h, double theta_d, double 
           .block = 2};
 }
 
-/// Pictures of a material, each with a seed of its own, as samples.
+/// Images of a material, each with a seed of its own, as samples.
 gonio::sample_set measured(const gonio::model::formula_brdf& material,
                            const std::vector<gonio::capture::near_field_setup>& shots,
                            const lab::near_field_defects& defects = {}) {
@@ -54,7 +54,7 @@ double error_of(const gonio::brdf_table& estimate, const gonio::model::formula_b
 
 }  // namespace
 
-TEST_CASE("one picture tells much, two tell more, noise and a slight misalignment harm little") {
+TEST_CASE("one image tells much, two tell more, noise and a slight misalignment harm little") {
   const auto prior = gonio::io::read_prior(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior");
   const gonio::decomposition estimator{prior, gonio::tikhonov{40.0}};
   const auto first = shot_at(3.0, 50.0, 0.0), second = shot_at(8.0, 70.0, 60.0);
@@ -66,7 +66,7 @@ TEST_CASE("one picture tells much, two tell more, noise and a slight misalignmen
     };
     const double one = error(measured(truth, {first})), two = error(measured(truth, {first, second}));
     const double flawed = error(measured(truth, {first, second}, {.noise = 0.05, .misalignment = gonio::radians(1.0)}));
-    // Measured, for red-paint, blue-rubber, gold-metal, grey-lambertian: 0.45, 0.21, 0.51, 0.44 of one picture,
+    // Measured, for red-paint, blue-rubber, gold-metal, grey-lambertian: 0.45, 0.21, 0.51, 0.44 of one image,
     // 0.34, 0.20, 0.30, 0.28 of two.
     CHECK(one < 0.55);
     CHECK(two < one);

@@ -94,7 +94,8 @@ TEST_CASE("options of one method given to another") {
   refuses(start + "linear --gamma 3", {"--gamma", "--method linear", "--method correction"});
   refuses(start + "pca --history h.csv", {"--history", "--method pca", "--method correction"});
   refuses(start + "rbf --iterations 3", {"--iterations", "--method correction"});
-  refuses(start + "pull-push --story " + (folder / "story").string(), {"--story", "--method correction"});
+  refuses(start + "pull-push --iteration-figure " + (folder / "story").string(),
+          {"--iteration-figure", "--method correction"});
   refuses(start + "correction --solver nnls", {"--solver", "pca or linear"});
   refuses(start + "rbf --eta 3", {"--eta", "pca or linear"});
   refuses(start + "rbf --exclude chrome", {"--exclude", "linear"});
@@ -114,10 +115,10 @@ TEST_CASE("bad requests of the correction method") {
     refuses(correction + "--gamma " + gamma, {"--gamma", "auto"});
   for (const char* count : {"0", "-1", "2.5", "many"})
     refuses(correction + "--iterations " + count, {"--iterations", count});
-  refuses(correction + "--truth " + path.string(), {"--truth", "--story"});
-  refuses(correction + "--truth " + path.string() + " --story " + story.string(), {"one.csv", "MERL"});
-  refuses(correction + "--exclude no-such-stone --story " + story.string(), {"no-such-stone"});
-  refuses(correction + "--story " + (path / "below-a-file").string(), {"below-a-file", "cannot be made"});
+  refuses(correction + "--truth " + path.string(), {"--truth", "--iteration-figure"});
+  refuses(correction + "--truth " + path.string() + " --iteration-figure " + story.string(), {"one.csv", "MERL"});
+  refuses(correction + "--exclude no-such-stone --iteration-figure " + story.string(), {"no-such-stone"});
+  refuses(correction + "--iteration-figure " + (path / "below-a-file").string(), {"below-a-file", "cannot be made"});
   CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
 }
 

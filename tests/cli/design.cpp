@@ -1,8 +1,8 @@
-/// What to measure: `gonio design` and `gonio plan` with a prior of few made-up materials.
+/// What to measure: `gonio design` and `gonio plan` with a prior of few synthetic materials.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/prior.hpp>
@@ -20,7 +20,7 @@ namespace {
 /// A folder with a prior, in which designs are made.
 class drawing_board {
  public:
-  drawing_board() { gonio::io::write_prior(folder_ / "p.prior", learn(made_up_materials(small_cells(), 12), 10)); }
+  drawing_board() { gonio::io::write_prior(folder_ / "p.prior", learn(synthetic_materials(small_cells(), 12), 10)); }
 
   [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
   void put(const char* name, const std::string& text) const { scratch::put(folder_ / name, text); }

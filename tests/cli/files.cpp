@@ -60,7 +60,7 @@ TEST_CASE("no command writes over what it reads") {
   refuses("sample t.binary --directions d.csv -o d.csv", "--directions");
   refuses("reconstruct u.npy -o u.npy", "samples");
   refuses("reconstruct s.csv --method correction --history s.csv", "samples");
-  refuses("reconstruct s.csv --method correction --story . --truth story.png", "--truth");
+  refuses("reconstruct s.csv --method correction --iteration-figure . --truth iterations.png", "--truth");
   refuses("reconstruct s.csv --method linear --merl tables -o tables/t.binary", "--merl");
   refuses("reconstruct s.csv --method linear --merl tables -o tables/new.binary", "--merl");
   refuses("reconstruct s.csv --method linear --networks u.npy -o u.npy", "--networks");
@@ -75,7 +75,7 @@ TEST_CASE("no command writes over what it reads") {
   refuses("expand --networks u.npy --name a -o u.npy", "--networks");
   refuses("expand --prior u.npy --name a -o u.npy", "--prior");
   refuses("plan l.png --image l.png", "directions");
-  refuses("near-field e.hdr s.csv -o s.csv", "pictures");
+  refuses("near-field e.hdr s.csv -o s.csv", "images");
   refuses("near-field e.hdr n.txt --labels l.png --prior l.png -o new.csv", "--prior");
   refuses("lab plan d.csv -o d.csv", "directions");
   refuses("lab scan a.scan --white -o a.scan", "plan");
@@ -85,8 +85,8 @@ TEST_CASE("no command writes over what it reads") {
   refuses("lab calibrate a.scan --reference s.csv -o s.csv", "--reference");
   refuses("lab calibrate a.scan --reference s.csv --response s.csv -o new.csv", "--reference");
   refuses("lab probe e.hdr -o e.hdr", "environment");
-  refuses("lab unwrap e.hdr -o e.hdr", "picture");
-  refuses("lab unwrap l.png --image l.png -o new.hdr", "picture");
+  refuses("lab unwrap e.hdr -o e.hdr", "image");
+  refuses("lab unwrap l.png --image l.png -o new.hdr", "image");
   refuses("lab unwrap l.png --truth e.hdr -o e.hdr", "--truth");
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("no command writes two things into one file, be it there or not") {
                 {"--output ./new.csv", "is what --response writes, too"});
   given.refuses("fit s.csv -o new.npy --image new.png --pbrt b.pbrt --mitsuba tables/../new.png",
                 {"--mitsuba", "expected a name that ends in .xml"});
-  given.refuses("reconstruct s.csv --method correction --story tables --history tables/history.csv",
+  given.refuses("reconstruct s.csv --method correction --iteration-figure tables --history tables/history.csv",
                 {"is what ", "writes, too"});
 }
 

@@ -1,4 +1,4 @@
-/// Analytic models fitted to samples and tables, as numbers, pictures and materials of renderers.
+/// Analytic models fitted to samples and tables, as numbers, images and materials of renderers.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
@@ -74,7 +74,7 @@ TEST_CASE("models are named, summed, and multiplied by Fresnel's factor") {
   CHECK(fitted(samples + " --model phong-blinn --fresnel")["lobes"][1]["lobe"] == "phong-blinn-fresnel");
 }
 
-TEST_CASE("a table, a picture beside the measurement, and materials of renderers") {
+TEST_CASE("a table, an image beside the measurement, and materials of renderers") {
   const scratch::folder folder;
   const auto at = [&](const char* name) { return (folder / name).string(); };
   REQUIRE(gonio_tool("expand --formula red-paint -o " + at("paint.binary")).exit_code == 0);

@@ -42,7 +42,7 @@ TEST_CASE("the tool does not wait for a pipe that nobody writes to") {
   refuses("lab replay " + pipe + " -o " + pipe + ".scan", "not a regular file");
 }
 
-TEST_CASE("nested JSON and empty pictures end a replay with one line") {
+TEST_CASE("nested JSON and empty images end a replay with one line") {
   const scratch::folder folder;
   const std::string manifest = (folder / "manifest.json").string(), scan = (folder / "out.scan").string();
   scratch::put(manifest,
@@ -55,7 +55,7 @@ TEST_CASE("nested JSON and empty pictures end a replay with one line") {
   scratch::put(folder / "large.png", crafted::black_png(16384, 1, 0, 2049));
   const auto result = gonio_tool("lab replay " + manifest + " -o " + scan);
   CHECK(result.exit_code != 0);
-  CHECK(result.output.find("large.png: a picture of 16384 x 16384 pixels is not believable") != std::string::npos);
+  CHECK(result.output.find("large.png: an image of 16384 x 16384 pixels is not believable") != std::string::npos);
 }
 
 TEST_CASE("the tool shows what a file says without obeying it") {

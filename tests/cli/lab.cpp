@@ -200,7 +200,7 @@ TEST_CASE("lab: a light probe is photographed and unwrapped") {
   CHECK(map.shape(0) == 16u);
   CHECK(map.shape(1) == 32u);
   refuses("lab unwrap " + at("sky.hdr") + " -o " + at("map.hdr"),
-          "sky.hdr: a picture of a mirror sphere must be square");
+          "sky.hdr: an image of a mirror sphere must be square");
   refuses("lab unwrap " + at("probe.hdr") + " --rows 5 --truth " + at("sky.hdr") + " -o " + at("map.hdr"),
           "compared with, one of 5 rows");
 }

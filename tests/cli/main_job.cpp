@@ -82,7 +82,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   SUBCASE("reconstruct says how the fit went") {
     const auto fit = parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);
-    CHECK(fit["certificate"][0].get<double>() < 1e-9);
+    CHECK(fit["kkt_residual"][0].get<double>() < 1e-9);
     const auto eta = [&](const std::string& noise) {
       const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
@@ -132,7 +132,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
                                    options + " --json -o " + at("estimate.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
     const auto fit = parse_json(result.output);
-    for (const double certificate : fit["certificate"]) CHECK(certificate <= 1e-9);
+    for (const double kkt_residual : fit["kkt_residual"]) CHECK(kkt_residual <= 1e-9);
     return fit;
   };
   for (const char* options :
@@ -239,8 +239,8 @@ TEST_CASE("corrections find the outliers, which the other methods believe") {
 
 TEST_CASE("the story of a correction has a tile for each stage, and the differences to the truth") {
   const corrected_plastic plastic;
-  const auto told = plastic.reconstruct(correction + "--iterations 1 --story " + plastic.at("a/story") + " --truth " +
-                                        plastic.at("truth.binary"));
+  const auto told = plastic.reconstruct(correction + "--iterations 1 --iteration-figure " + plastic.at("a/story") +
+                                        " --truth " + plastic.at("truth.binary"));
   REQUIRE(told["delta_e_env"].size() == 2);
   CHECK(told["delta_e_env"][0]["round"] == 0);
   CHECK(told["delta_e_env"][1]["round"] == 1);
@@ -248,7 +248,7 @@ TEST_CASE("the story of a correction has a tile for each stage, and the differen
   CHECK(scratch::get(plastic.at("a/story/history.csv")).starts_with("round,error,change,down_weighted\n1,"));
 
   // Truth and input, start, correction, corrected: 4 columns and 3 rows of 144 pixels with margins of 6.
-  const auto picture = gonio::io::read_png(plastic.at("a/story/story.png"));
+  const auto picture = gonio::io::read_png(plastic.at("a/story/iterations.png"));
   REQUIRE(picture.shape(0) == 6 + 3 * 150);
   REQUIRE(picture.shape(1) == 6 + 4 * 150);
   const auto mean_of_tile = [&](std::size_t column, std::size_t row) {

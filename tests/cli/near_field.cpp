@@ -1,4 +1,4 @@
-/// Pictures of a flat sample, by the simulated laboratory, become samples, and these a table.
+/// Images of a flat sample, by the simulated laboratory, become samples, and these a table.
 
 #include "../io/scratch.hpp"
 #include "lab/near_field_lab.hpp"
@@ -20,7 +20,7 @@ const std::string camera =
 const std::string first = camera + "light_angles 50 190\nirradiance 3\nregion 0.2\n";
 const std::string second = camera + "light -0.5 1 0.8\nirradiance 3\nregion 0.2\nblock 2\n";
 
-/// Two pictures of red paint and their set-ups in a folder.
+/// Two images of red paint and their set-ups in a folder.
 class two_shots {
  public:
   two_shots() {
@@ -43,7 +43,7 @@ class two_shots {
 
 }  // namespace
 
-TEST_CASE("pictures become samples of the paint, and these a table") {
+TEST_CASE("images become samples of the paint, and these a table") {
   const two_shots shots;
   const auto one = gonio_tool("near-field " + shots.shot("first") + "-o " + shots.at("one.csv"));
   REQUIRE_MESSAGE(one.exit_code == 0, one.output);
@@ -85,7 +85,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK(found.output.find("light off by ") != std::string::npos);
   CHECK(found.output.find("second.hdr: light off by ") != std::string::npos);
 
-  // How well the samples are explained by the paint, whose logarithm is steep where pictures were taken.
+  // How well the samples are explained by the paint, whose logarithm is steep where images were taken.
   const auto misfit = [&](const char* file) {
     double sum = 0.0;
     const auto samples = gonio::io::read_samples(shots.at(file));
@@ -140,7 +140,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
   }
 }
 
-TEST_CASE("two materials in one picture get a file each, and a map of where they are") {
+TEST_CASE("two materials in one image get a file each, and a map of where they are") {
   const two_shots shots;
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
@@ -172,7 +172,7 @@ TEST_CASE("two materials in one picture get a file each, and a map of where they
   CHECK_FALSE(agrees("m-2.csv", shots.paint));
 }
 
-TEST_CASE("two materials in one picture were under one light: one pose for both") {
+TEST_CASE("two materials in one image were under one light: one pose for both") {
   // Blue rubber alone says little of where the light was; the red paint beside it, with a highlight, says it for both.
   const two_shots shots;
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
@@ -203,7 +203,7 @@ TEST_CASE("two materials in one picture were under one light: one pose for both"
   CHECK(occurrences(" samples\n") == 4);
 }
 
-TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
+TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   const two_shots shots;
   const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {
     const auto result = gonio_tool("near-field " + arguments + " -o " + shots.at("out.csv"));
@@ -218,9 +218,9 @@ TEST_CASE("bad pictures and set-ups get exit code 2, one line, and no file") {
     scratch::put(shots.at("bad.txt"), text);
     return shots.at("first.hdr") + " " + shots.at("bad.txt");
   };
-  refused("", {"pictures"});
-  refused(shots.at("first.hdr"), {"pictures"});
-  refused(shots.shot("first") + shots.at("second.hdr"), {"pictures", "second.hdr is not followed by its set-up"});
+  refused("", {"images"});
+  refused(shots.at("first.hdr"), {"images"});
+  refused(shots.shot("first") + shots.at("second.hdr"), {"images", "second.hdr is not followed by its set-up"});
   refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
   refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
   refused(shots.at("first.txt") + " " + shots.at("first.txt"), {"first.txt", "Radiance HDR"});

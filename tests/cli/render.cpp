@@ -40,7 +40,7 @@ TEST_CASE("gonio render --environment: a sphere among its surroundings, the same
   CHECK(one.size() > 50'000u);
 }
 
-TEST_CASE("gonio render: bright spheres are not blown out, and all of a picture are exposed alike") {
+TEST_CASE("gonio render: bright spheres are not blown out, and all of an image are exposed alike") {
   const rendered_folder given;
   REQUIRE(gonio_tool("expand --formula red-paint -o " + given.at("red.binary")).exit_code == 0);
   const auto draw = [&](const std::string& arguments) {
@@ -48,7 +48,7 @@ TEST_CASE("gonio render: bright spheres are not blown out, and all of a picture 
     REQUIRE_MESSAGE(result.exit_code == 0, result.output);
     return gonio::io::read_png(given.folder / "spheres.png");
   };
-  // The share of a picture's pixels, of those within the margin, that are white.
+  // The share of an image's pixels, of those within the margin, that are white.
   const auto blown_out = [](const gonio::image& picture) {
     std::size_t white = 0;
     for (std::size_t row = 8; row < 72; ++row)
@@ -74,7 +74,7 @@ TEST_CASE("a table as an array of numpy") {
   CHECK(array(3, 40, 90, 1) == table.at(table.cells().representative(table.cells().grid().linear({3, 40, 90})))[1]);
 }
 
-TEST_CASE("bad requests of pictures in an environment") {
+TEST_CASE("bad requests of images in an environment") {
   const rendered_folder given;
   const auto refuses = [&](const std::string& arguments, const std::string& word) {
     const auto result = gonio_tool("render " + given.table + " -o " + given.at("x.png") + " " + arguments);

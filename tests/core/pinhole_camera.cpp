@@ -76,7 +76,7 @@ TEST_CASE("look_at is a rotation that puts the target on the axis, right to the 
   CHECK_FALSE(camera.project({3.0, 1.0, 0.0}).has_value());
 }
 
-TEST_CASE("a square picture spans its field of view") {
+TEST_CASE("a square image spans its field of view") {
   const auto intrinsics = camera_intrinsics::square(200, gonio::radians(40));
   const pinhole_camera camera(intrinsics, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
   const auto left = camera.ray_through(0.0, 100.0).towards, right = camera.ray_through(200.0, 100.0).towards;

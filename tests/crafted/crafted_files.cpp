@@ -108,7 +108,7 @@ TEST_CASE("as many members of an object, or frames, as are read are read at once
   reads("recorded_frames", bytes_of(frames + "}"));
 }
 
-TEST_CASE("a small file is no large picture") {
+TEST_CASE("a small file is no large image") {
   refuses("png", crafted::black_png(16384, 1, 0, 2049), "not believable");
   refuses("png", crafted::black_png(8192, 8, 2, 3 * 8192 + 1), "not believable");
   refuses("png", crafted::black_png(16385, 1, 0, 2049), "expected from 1 to 16384");

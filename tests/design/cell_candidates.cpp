@@ -1,4 +1,4 @@
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/cell_candidates.hpp>
 
 #include <doctest/doctest.h>
@@ -7,7 +7,7 @@
 namespace {
 
 /// Some cells have none, others much more than eta.
-std::vector<double> made_up_own_etas() {
+std::vector<double> synthetic_sample_noise_penalties() {
   std::vector<double> etas(small_cells().size());
   for (std::size_t cell = 0; cell < etas.size(); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
   return etas;
@@ -16,13 +16,13 @@ std::vector<double> made_up_own_etas() {
 }  // namespace
 
 TEST_CASE("all additions at once are what each is by itself") {
-  const std::vector<double> none, some = made_up_own_etas();
-  for (const auto& [noise, common_shift, leave_out, own_etas] :
+  const std::vector<double> none, some = synthetic_sample_noise_penalties();
+  for (const auto& [noise, common_shift, leave_out, sample_noise_penalties] :
        {std::tuple{0.0, 0.0, false, none}, std::tuple{0.0, 0.4, false, none}, std::tuple{0.0, 0.0, false, some},
         std::tuple{0.1, 0.4, false, some}, std::tuple{0.0, 0.0, true, none}, std::tuple{0.1, 0.4, true, some}}) {
     // The penalty beside a row of Y as it is for real materials: far below, K is too badly conditioned for floats.
-    const auto candidates = made_up_candidates(
-        {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, own_etas);
+    const auto candidates = synthetic_candidates(
+        {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, sample_noise_penalties);
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
       const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
@@ -44,7 +44,7 @@ TEST_CASE("all additions at once are what each is by itself") {
 TEST_CASE("one more beside some is what all of them are") {
   for (const bool leave_out : {false, true}) {
     const auto candidates =
-        made_up_candidates({.eta = 0.3, .noise = 0.05, .common_shift = 0.1, .leave_out = leave_out});
+        synthetic_candidates({.eta = 0.3, .noise = 0.05, .common_shift = 0.1, .leave_out = leave_out});
     const std::vector<std::size_t> cells{4, 90, 301};
     const auto with = candidates.beside(cells);
     for (std::size_t cell = 0; cell < candidates.size(); cell += 17) {
@@ -56,16 +56,16 @@ TEST_CASE("one more beside some is what all of them are") {
 
 TEST_CASE("the same bytes for any number of threads") {
   const std::vector<std::size_t> cells{4, 90, 301};
-  const auto one = made_up_candidates({.eta = 2.0, .common_shift = 0.1}, {1}),
-             three = made_up_candidates({.eta = 2.0, .common_shift = 0.1}, {3});
+  const auto one = synthetic_candidates({.eta = 2.0, .common_shift = 0.1}, {1}),
+             three = synthetic_candidates({.eta = 2.0, .common_shift = 0.1}, {3});
   CHECK(one.errors_with_each(cells) == three.errors_with_each(cells));
   CHECK(one(cells) == three(cells));
 }
 
 TEST_CASE("errors of their own are those of all cells, and sensible") {
-  std::vector<double> etas = made_up_own_etas();
+  std::vector<double> etas = synthetic_sample_noise_penalties();
   etas.pop_back();
-  CHECK_THROWS_WITH_AS(made_up_candidates({}, {}, etas), doctest::Contains("etas of their own for"), gonio::error);
+  CHECK_THROWS_WITH_AS(synthetic_candidates({}, {}, etas), doctest::Contains("etas of their own for"), gonio::error);
   etas.push_back(-1.0);
-  CHECK_THROWS_WITH_AS(made_up_candidates({}, {}, etas), doctest::Contains("not negative"), gonio::error);
+  CHECK_THROWS_WITH_AS(synthetic_candidates({}, {}, etas), doctest::Contains("not negative"), gonio::error);
 }

@@ -1,4 +1,4 @@
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/compressed_rows.hpp>
 
 #include <doctest/doctest.h>
@@ -6,7 +6,7 @@
 
 namespace {
 
-/// Rows of a few directions with small changes, as a picture has them.
+/// Rows of a few directions with small changes, as an image has them.
 gonio::design::component_rows related_rows(Eigen::Index n, Eigen::Index k, unsigned seed) {
   std::srand(seed);
   const Eigen::MatrixXd rows =

@@ -1,5 +1,5 @@
 #include "../dense_reference.hpp"
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/search.hpp>
 #include <gonio/solve/singular_values.hpp>

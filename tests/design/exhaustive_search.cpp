@@ -1,4 +1,4 @@
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/exhaustive_search.hpp>
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& cand
 }  // namespace
 
 TEST_CASE("the first cell of greedy growth is the best of all; each error is less than the last") {
-  const auto candidates = made_up_candidates();
+  const auto candidates = synthetic_candidates();
   const auto one = gonio::design::grow_greedily(candidates, 1);
   for (std::size_t cell = 0; cell < candidates.size(); ++cell)
     CHECK(one.value <= candidates(std::vector<std::size_t>{cell}) * (1.0 + 1e-6));
@@ -36,7 +36,7 @@ TEST_CASE("the first cell of greedy growth is the best of all; each error is les
 }
 
 TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of all, or next to it") {
-  const auto candidates = made_up_candidates();
+  const auto candidates = synthetic_candidates();
   const auto best = best_pair(candidates);
   const auto greedy = gonio::design::grow_greedily(candidates, 2),
              exchanged = gonio::design::exchange(candidates, greedy);
@@ -50,7 +50,7 @@ TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of al
 }
 
 TEST_CASE("after exchange no single replacement improves") {
-  const auto candidates = made_up_candidates({.eta = 0.1, .common_shift = 0.2});
+  const auto candidates = synthetic_candidates({.eta = 0.1, .common_shift = 0.2});
   const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
   for (std::size_t position = 0; position < 4; ++position)
     for (std::size_t cell = 0; cell < candidates.size(); ++cell) {

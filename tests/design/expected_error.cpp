@@ -1,8 +1,8 @@
 #include "../dense_reference.hpp"
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/design/expected_error.hpp>
-#include <gonio/estimate/left_out_error.hpp>
+#include <gonio/estimate/leave_one_material_out_error.hpp>
 
 #include <doctest/doctest.h>
 
@@ -73,12 +73,12 @@ TEST_CASE("errors of their own: the reconstruction expects them, and they add th
   const double eta = 0.7, m = static_cast<double>(c.rows());
   const expected_error criterion(candidate_basis(), {.eta = eta});
   auto rows = criterion.prepare(measured);
-  rows.own_eta << 0.0, 0.3, 5.0, 1e-3, 40.0;
+  rows.sample_noise_penalty << 0.0, 0.3, 5.0, 1e-3, 40.0;
 
   Eigen::MatrixXd k = measured * measured.transpose();
-  k.diagonal() += (eta + rows.own_eta.array()).matrix();
+  k.diagonal() += (eta + rows.sample_noise_penalty.array()).matrix();
   const Eigen::MatrixXd inverse = measured.transpose() * dense_reference::inverse(k), spread = q * inverse;
-  const double own = (spread.colwise().squaredNorm() * rows.own_eta / m).value();
+  const double own = (spread.colwise().squaredNorm() * rows.sample_noise_penalty / m).value();
   double sum = 0.0;
   for (Eigen::Index i = 0; i < c.rows(); ++i) {
     const Eigen::VectorXd y = c.row(i).transpose();
@@ -174,7 +174,7 @@ TEST_CASE("out of sample it is what eta is chosen by") {
   const std::vector<std::size_t> cells{3, 60, 200, 222, 310};
   std::vector<gonio::location> places;
   for (const std::size_t cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
-  const gonio::left_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
+  const gonio::leave_one_material_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
   for (const double eta : {0.1, 3.0}) {
     const expected_error criterion(candidate_basis(), {.eta = eta, .leave_out = true});
     CHECK(criterion(components_at(cells)) ==
@@ -201,7 +201,7 @@ TEST_CASE("what cannot be is refused") {
                        doctest::Contains("the noise must be finite and not negative"), gonio::error);
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {.common_shift = -1.0}),
                        doctest::Contains("the common shift must be finite and not negative"), gonio::error);
-  const auto one = learn(made_up_materials(small_cells(), 1), 3);
+  const auto one = learn(synthetic_materials(small_cells(), 1), 3);
   CHECK_THROWS_WITH_AS(expected_error(one, {.leave_out = true}), doctest::Contains("can be left out"), gonio::error);
   CHECK_THROWS_AS(expected_error(candidate_basis(), {.eta = std::nan("")}), gonio::error);
   CHECK_THROWS_WITH_AS(expected_error(candidate_basis(), {}, Eigen::MatrixXd::Identity(2, 2)),

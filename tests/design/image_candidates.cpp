@@ -1,4 +1,4 @@
-#include "made_up_candidates.hpp"
+#include "synthetic_candidates.hpp"
 #include <gonio/design/exhaustive_search.hpp>
 #include <gonio/design/image_candidates.hpp>
 #include <gonio/design/near_field_geometry.hpp>
@@ -14,7 +14,7 @@ using gonio::design::sphere_geometry;
 
 constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
 
-/// E of all samples of some pictures, one row each.
+/// E of all samples of some images, one row each.
 template <class Geometry>
 double of_all_samples(const Geometry& geometry, const std::vector<std::size_t>& pictures) {
   std::vector<Eigen::RowVectorXd> rows;
@@ -40,7 +40,7 @@ auto objective_of(const Geometry& geometry) {
 
 }  // namespace
 
-TEST_CASE("compressed pictures are worth what all of their samples are") {
+TEST_CASE("compressed images are worth what all of their samples are") {
   const sphere_geometry spheres(small_cells());
   for (const std::vector<std::size_t>& pictures : {std::vector<std::size_t>{0}, {3}, {1, 5}, {0, 2, 6}})
     CHECK(objective_of(spheres)(pictures) == doctest::Approx(of_all_samples(spheres, pictures)).epsilon(2e-3));
@@ -49,7 +49,7 @@ TEST_CASE("compressed pictures are worth what all of their samples are") {
     CHECK(objective_of(near_field)(pictures) == doctest::Approx(of_all_samples(near_field, pictures)).epsilon(2e-3));
 }
 
-TEST_CASE("prepared pictures, pictures beside others and sweeps agree") {
+TEST_CASE("prepared images, images beside others and sweeps agree") {
   const auto objective = objective_of(coarse_near_field());
   const gonio::design::image_candidates prepared(objective);
   const std::vector<std::size_t> two{30, 170};
@@ -67,7 +67,7 @@ TEST_CASE("prepared pictures, pictures beside others and sweeps agree") {
   CHECK(errors == gonio::design::image_candidates(objective, {1}).errors_with_each(two));
 }
 
-TEST_CASE("two pictures: exchange comes to the best pair of all") {
+TEST_CASE("two images: exchange comes to the best pair of all") {
   const gonio::design::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
   double best = 1e9;
   for (std::size_t a = 0; a < 7; ++a)
@@ -80,7 +80,7 @@ TEST_CASE("two pictures: exchange comes to the best pair of all") {
   CHECK(slid.value >= best * (1.0 - 1e-9));
 }
 
-TEST_CASE("a picture is worth more than its centre") {
+TEST_CASE("an image is worth more than its centre") {
   const auto near_field = coarse_near_field();
   const expected_error criterion(candidate_basis(), {.eta = 0.5});
   const gonio::design::image_objective objective(candidate_basis(), criterion, near_field);

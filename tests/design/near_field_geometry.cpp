@@ -103,7 +103,7 @@ TEST_CASE("a fixed camera or light is where it is fixed") {
     CHECK(degrees(std::acos(light.centre(candidate).wi.z())) == doctest::Approx(33));
 }
 
-TEST_CASE("constraints hold for the centre of the picture") {
+TEST_CASE("constraints hold for the centre of the image") {
   gonio::design::capture_constraint constraint;
   constraint.light_step = radians(15);
   constraint.smallest_separation = radians(20);

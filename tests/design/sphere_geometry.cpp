@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/design/sphere_geometry.hpp>
 
 #include <doctest/doctest.h>

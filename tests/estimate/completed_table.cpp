@@ -1,10 +1,10 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/completed_table.hpp>
 
 #include <doctest/doctest.h>
 
 TEST_CASE("a completed table is its table, without what is negative") {
-  auto table = made_up_materials(small_cells(), 2).table(1);
+  auto table = synthetic_materials(small_cells(), 2).table(1);
   const float positive = table.values()[4];
   table.values()[3] = -0.5f;
   const gonio::completed_table fit(table);

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 
@@ -19,13 +19,13 @@ brdf_table factor_table(const gonio::valid_cells& over, float value) {
 }
 
 corrected_brdf<gonio::completed_table> corrected_by(brdf_table factors, correction_factor rule) {
-  return {gonio::completed_table(made_up_materials(small_cells(), 1).table(0)), std::move(factors), rule, {}, {}};
+  return {gonio::completed_table(synthetic_materials(small_cells(), 1).table(0)), std::move(factors), rule, {}, {}};
 }
 
 }  // namespace
 
 TEST_CASE("the estimate times the correction, with the rule's offset") {
-  const auto estimate = made_up_materials(small_cells(), 1).table(0);
+  const auto estimate = synthetic_materials(small_cells(), 1).table(0);
   auto factors = factor_table(small_cells(), 1.0f);
   for (std::size_t i = 0; i < factors.values().size(); ++i)
     factors.values()[i] = 0.1f * static_cast<float>(i % 37);  // zeros among them
@@ -72,13 +72,13 @@ TEST_CASE("a corrected BRDF is zero below the horizon, and where the correction 
 
 TEST_CASE("it remembers what it was made of") {
   const auto factors = factor_table(small_cells(), 2.0f);
-  const corrected_brdf fit{gonio::completed_table(made_up_materials(small_cells(), 1).table(0)),
+  const corrected_brdf fit{gonio::completed_table(synthetic_materials(small_cells(), 1).table(0)),
                            factors,
                            correction_factor{},
                            {Eigen::MatrixXd::Constant(2, 3, 7.0)},
                            {{0.1, 0.2, 0.3}}};
   CHECK(std::ranges::equal(fit.correction().values(), factors.values()));
-  CHECK(std::ranges::equal(fit.initial().table().values(), made_up_materials(small_cells(), 1).table(0).values()));
+  CHECK(std::ranges::equal(fit.initial().table().values(), synthetic_materials(small_cells(), 1).table(0).values()));
   REQUIRE(fit.weights().size() == 1);
   CHECK(fit.weights()[0](1, 2) == 7.0);
   REQUIRE(fit.history().size() == 1);

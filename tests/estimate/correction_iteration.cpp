@@ -1,5 +1,5 @@
 #include "../golden_noell.hpp"
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -45,7 +45,7 @@ constexpr std::size_t held_out = 4;
 
 /// Materials of which one is held out, which is to be found.
 struct small_world {
-  gonio::material_set set = made_up_materials(small_cells(), 9);
+  gonio::material_set set = synthetic_materials(small_cells(), 9);
   gonio::brdf_table truth = set.table(held_out);
   gonio::measured<gonio::log> all{set, gonio::log{}};
   gonio::measured<gonio::log> others = all.without({set.names[held_out]});
@@ -53,7 +53,7 @@ struct small_world {
 
   [[nodiscard]] gonio::sample_set samples(std::size_t count, const gonio::measurement_defects& defects = {},
                                           std::uint64_t seed = 3) const {
-    return gonio::measure(truth, gonio::random_cells(small_cells(), count, seed), defects, seed);
+    return gonio::sample_table(truth, gonio::random_cells(small_cells(), count, seed), defects, seed);
   }
 };
 
@@ -338,7 +338,8 @@ TEST_CASE("a table is fitted as its cells are, and one over other cells, too") {
   const correction_iteration estimator{combination{world().others}, world().corrections};
   std::vector<std::size_t> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
-  const auto by_table = estimator.fit(world().truth), by_samples = estimator.fit(gonio::measure(world().truth, every));
+  const auto by_table = estimator.fit(world().truth),
+             by_samples = estimator.fit(gonio::sample_table(world().truth, every));
   CHECK(same_bytes(by_table.correction(), by_samples.correction()));
   const gonio::valid_cells finer(gonio::grid({14, 9, 11}));
   const auto elsewhere = gonio::resample(world().truth, finer);

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/project.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
@@ -28,7 +28,7 @@ Eigen::Array3d squared_distance(const gonio::log_relative_pca& prior, const Eige
 }
 
 gonio::sample_set measured_at(const gonio::brdf_table& table, std::span<const std::size_t> cells) {
-  gonio::sample_set samples = gonio::measure(table, cells);
+  gonio::sample_set samples = gonio::sample_table(table, cells);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].weight = 0.5 + static_cast<double>(i % 3);
   return samples;
 }
@@ -49,25 +49,26 @@ double by_learning_again(const gonio::material_set& materials, std::span<const s
   return sum / static_cast<double>(3 * materials.names.size());
 }
 
-gonio::left_out_error error_of(const gonio::log_relative_pca& prior, std::span<const std::size_t> cells, double noise) {
+gonio::leave_one_material_out_error error_of(const gonio::log_relative_pca& prior, std::span<const std::size_t> cells,
+                                             double noise) {
   const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
   const auto located = gonio::locate_samples(prior.cells(), samples);
   return {prior, located.at, located.weights, noise};
 }
 
-double at_one_eta(const gonio::left_out_error& error, double eta) {
+double at_one_eta(const gonio::leave_one_material_out_error& error, double eta) {
   return error(Eigen::VectorXd::Constant(1, eta))[0];
 }
 
 const gonio::log_relative_pca& twelve_materials() {
-  static const auto prior = learn(made_up_materials(small_cells(), 12), 1000);
+  static const auto prior = learn(synthetic_materials(small_cells(), 12), 1000);
   return prior;
 }
 
 }  // namespace
 
 TEST_CASE("leaving a material out is learning again without it") {
-  const auto materials = made_up_materials(small_cells(), 6);
+  const auto materials = synthetic_materials(small_cells(), 6);
   const auto prior = learn(materials, 1000);
   for (const std::size_t count : {1u, 4u, 60u}) {  // fewer and more places than components
     const auto cells = gonio::random_cells(small_cells(), count, count);
@@ -120,7 +121,7 @@ TEST_CASE("the order of the places does not matter, and weights have the units o
     const auto count = *rc::gen::inRange<std::size_t>(1, 60);
     auto cells = gonio::random_cells(small_cells(), count, *rc::gen::arbitrary<std::uint64_t>());
     const double noise = *rc::gen::inRange(0, 50) * 0.01, eta = std::pow(10.0, *rc::gen::inRange(-10, 30) * 0.1);
-    auto located = gonio::locate_samples(prior.cells(), gonio::measure(gonio::brdf_table(prior.cells()), cells));
+    auto located = gonio::locate_samples(prior.cells(), gonio::sample_table(gonio::brdf_table(prior.cells()), cells));
     const double error = at_one_eta({prior, located.at, located.weights, noise}, eta);
     const Eigen::VectorXd tenfold = 10.0 * located.weights;
     RC_ASSERT(std::abs(at_one_eta({prior, located.at, tenfold, noise}, 10.0 * eta) - error) < 1e-6 * error);
@@ -152,10 +153,10 @@ TEST_CASE("the chosen eta is the best of a dense scan, and grows with the noise"
 
 TEST_CASE("without a stated noise eta is what cross-validation chooses among the plausible ones") {
   const auto& prior = twelve_materials();
-  const auto materials = made_up_materials(small_cells(), 3, 99);
+  const auto materials = synthetic_materials(small_cells(), 3, 99);
   for (const std::size_t count : {1u, 4u, 30u}) {
     const auto cells = gonio::random_cells(small_cells(), count, 8);
-    const auto samples = gonio::measure(materials.table(1), cells, {.noise = 0.1}, 2);
+    const auto samples = gonio::sample_table(materials.table(1), cells, {.noise = 0.1}, 2);
     const auto range = gonio::plausible_etas(prior, samples);
     const double eta = gonio::eta_of_unknown_noise(prior, samples);
     CHECK(eta >= range.lowest);
@@ -185,13 +186,13 @@ TEST_CASE("components that are left out are noise of the measurements") {
 
 TEST_CASE("an eta is not chosen from nothing") {
   const auto& prior = twelve_materials();
-  const auto samples = gonio::measure(gonio::brdf_table(prior.cells()), gonio::random_cells(small_cells(), 2, 1));
+  const auto samples = gonio::sample_table(gonio::brdf_table(prior.cells()), gonio::random_cells(small_cells(), 2, 1));
   CHECK_THROWS_WITH_AS(gonio::eta_of_noise(prior, samples, -0.1),
                        "the noise must be finite and not negative, not -0.100000", gonio::error);
   CHECK_THROWS_AS(gonio::eta_of_noise(prior, samples, std::nan("")), gonio::error);
   CHECK_THROWS_AS(gonio::eta_of_noise(prior, gonio::sample_set{}, 0.1), gonio::error);
   const auto located = gonio::locate_samples(prior.cells(), samples);
-  CHECK_THROWS_AS(gonio::left_out_error(prior, located.at, Eigen::VectorXd::Ones(3), 0.1), gonio::error);
-  const auto single = learn(made_up_materials(small_cells(), 1), 2);
+  CHECK_THROWS_AS(gonio::leave_one_material_out_error(prior, located.at, Eigen::VectorXd::Ones(3), 0.1), gonio::error);
+  const auto single = learn(synthetic_materials(small_cells(), 1), 2);
   CHECK_THROWS_AS(gonio::eta_of_noise(single, samples, 0.1), gonio::error);
 }

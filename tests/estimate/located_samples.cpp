@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -19,7 +19,7 @@ struct reading {
 gonio::sample to_sample(const reading& one) { return {{one.theta_h, 0.2, 0.3}, gonio::rgb::Constant(one.value), 0.5}; }
 
 const gonio::brdf_table& some_table() {
-  static const auto table = made_up_materials(small_cells(), 1).table(0);
+  static const auto table = synthetic_materials(small_cells(), 1).table(0);
   return table;
 }
 
@@ -31,7 +31,7 @@ TEST_CASE("samples are placed where they are, with their values and weights") {
     const bool apart = *rc::gen::arbitrary<bool>();
     const auto count = [] { return static_cast<double>(*rc::gen::inRange(0, 3)); };
     auto samples =
-        gonio::measure(some_table(), gonio::random_cells(small_cells(), 12, static_cast<std::uint64_t>(seed)));
+        gonio::sample_table(some_table(), gonio::random_cells(small_cells(), 12, static_cast<std::uint64_t>(seed)));
     for (std::size_t i = 0; i < samples.size(); ++i) {
       samples[i].weight = count();
       if (apart) samples[i].weight = rgb(count(), count(), count());
@@ -73,7 +73,7 @@ TEST_CASE("a view of a laboratory's own struct is taken in place") {
 
 TEST_CASE("a subset has the chosen samples in the order given") {
   const auto all =
-      locate_samples(small_cells(), gonio::measure(some_table(), gonio::random_cells(small_cells(), 9, 1)));
+      locate_samples(small_cells(), gonio::sample_table(some_table(), gonio::random_cells(small_cells(), 9, 1)));
   const auto some = all.subset({7, 0, 7});
   REQUIRE(some.size() == 3);
   CHECK(some.at[0].cell == all.at[7].cell);

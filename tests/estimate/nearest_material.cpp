@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/nearest_material.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/metric/lin.hpp>
@@ -14,7 +14,7 @@ static_assert(gonio::estimator<nearest_material<gonio::log>>);
 namespace {
 
 const gonio::material_set& nine_materials() {
-  static const auto set = made_up_materials(small_cells(), 9);
+  static const auto set = synthetic_materials(small_cells(), 9);
   return set;
 }
 
@@ -30,7 +30,7 @@ gonio::brdf_table scaled_table(std::size_t material, const gonio::rgb& factors) 
 }
 
 gonio::sample_set samples_of(const gonio::brdf_table& table, std::size_t count, double outliers, std::uint64_t seed) {
-  return gonio::measure(table, gonio::random_cells(small_cells(), count, seed), {.outlier_ratio = outliers}, seed);
+  return gonio::sample_table(table, gonio::random_cells(small_cells(), count, seed), {.outlier_ratio = outliers}, seed);
 }
 
 auto choice_for(const nearest_material<gonio::log>& nearest, const gonio::sample_set& samples) {
@@ -100,8 +100,8 @@ TEST_CASE("the metric of the basis does not matter at cells") {
 TEST_CASE("the same seed chooses the same from many samples, for any number of threads") {
   std::vector<std::size_t> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
-  auto samples = gonio::measure(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 1);
-  const auto more = gonio::measure(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 2);
+  auto samples = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 1);
+  const auto more = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 2);
   while (samples.size() <= 20'000) samples.insert(samples.end(), more.begin(), more.end());
   REQUIRE(samples.size() > 20'000);  // else all are looked at, whatever the seed
   const auto one = choice_for(nearest_material{nine_in_log(), 5, {1}}, samples);
@@ -172,10 +172,10 @@ TEST_CASE("one sample, none but zeros, negative ones, equal ones: a finite mater
 }
 
 TEST_CASE("a material that is black at the samples may be near") {
-  auto set = made_up_materials(small_cells(), 3);
+  auto set = synthetic_materials(small_cells(), 3);
   set.values.middleCols(3, 3).setZero();
   const nearest_material nearest{gonio::measured{set, gonio::log{}}};
-  auto samples = gonio::measure(set.table(1), gonio::random_cells(small_cells(), 50, 1));
+  auto samples = gonio::sample_table(set.table(1), gonio::random_cells(small_cells(), 50, 1));
   CHECK(choice_for(nearest, samples)[0].material == 1);
 }
 

@@ -29,18 +29,18 @@ double integral(const Density& density, double low, double high, int steps = 40'
   return sum;
 }
 
-/// Reflectances of a made-up material and an estimate of it: most are diffuse, a few per cent are a highlight; `share`
-/// of the measurements, and no highlights, are those of another place.
-struct made_up_measurement {
+/// Reflectances of a synthetic material and an estimate of it: most are diffuse, a few per cent are a highlight;
+/// `share` of the measurements, and no highlights, are those of another place.
+struct synthetic_measurement {
   channel_values measured, estimated;
   std::vector<bool> outlier;
 };
 
-made_up_measurement made_up_measurement_of(Eigen::Index count, double share, double scale, unsigned seed) {
+synthetic_measurement synthetic_measurement_of(Eigen::Index count, double share, double scale, unsigned seed) {
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform;
   std::normal_distribution<double> normal;
-  made_up_measurement all{channel_values(3, count), channel_values(3, count), {}};
+  synthetic_measurement all{channel_values(3, count), channel_values(3, count), {}};
   const auto reflectance = [&] { return 0.05 * std::exp(3.0 * std::pow(uniform(generator), 2)); };
   for (Eigen::Index i = 0; i < count; ++i) {
     const double truth = reflectance();
@@ -136,7 +136,7 @@ TEST_CASE("expectation-maximisation finds the share and the scale that residuals
       CAPTURE(scale);
       // The number of good ones is known to a few tenths of a per cent; the scale's standard error is 1 / sqrt(n) of
       // itself or 1 %. The last EM step changes them by less than 1e-4 and 1e-3, which may be a tenth of what is left.
-      CHECK(found.good_share == doctest::Approx(share).epsilon(0.01));
+      CHECK(found.inlier_fraction == doctest::Approx(share).epsilon(0.01));
       CHECK(found.scale == doctest::Approx(scale).epsilon(0.04));
     }
 }
@@ -145,21 +145,21 @@ TEST_CASE("the mixture's limits: perfect residuals, none good, and a start at th
   const std::vector<double> outliers(100, 0.2);
   const auto perfect = gonio::estimate_mixture(std::vector<double>(100, 0.0), outliers);
   CHECK(perfect.scale == 0.01);
-  CHECK(perfect.good_share == 0.999);
+  CHECK(perfect.inlier_fraction == 0.999);
   const auto hopeless = gonio::estimate_mixture(uniform_numbers(100, 50.0, 60.0, 3), outliers);
-  CHECK(hopeless.good_share >= 0.02);
+  CHECK(hopeless.inlier_fraction >= 0.02);
   CHECK(std::isfinite(hopeless.scale));
   const auto one = gonio::estimate_mixture({0.7}, {1.0});
   CHECK(std::isfinite(one.scale));
-  CHECK(one.good_share <= 0.999);
+  CHECK(one.inlier_fraction <= 0.999);
 }
 
 TEST_CASE("automatic weights tell outliers from good samples") {
-  const auto made = made_up_measurement_of(4000, 0.3, 0.03, 5);
+  const auto made = synthetic_measurement_of(4000, 0.3, 0.03, 5);
   const auto mixture = automatic_weights{}.mixture(made.measured, made.estimated);
   // 1 - 0.3, with 0.7 % of standard error; some outliers have the right value by chance, a few per cent here.
-  CHECK(mixture.good_share > 0.69);
-  CHECK(mixture.good_share < 0.80);
+  CHECK(mixture.inlier_fraction > 0.69);
+  CHECK(mixture.inlier_fraction < 0.80);
   CHECK(mixture.scale == doctest::Approx(0.03).epsilon(0.25));  // good residuals are Gaussian, not Student's
   const auto weights = automatic_weights{}.weigh(made.measured, made.estimated);
   CHECK(((weights >= 0.0f) && (weights <= 1.0f)).all());
@@ -181,7 +181,7 @@ TEST_CASE("automatic weights tell outliers from good samples") {
 }
 
 TEST_CASE("a highlight is trusted more than the same residual at a common value") {
-  auto made = made_up_measurement_of(2000, 0.3, 0.1, 6);
+  auto made = synthetic_measurement_of(2000, 0.3, 0.1, 6);
   // The last two are off by the same factor; one has a value that nothing else comes near.
   made.measured.col(1998).setConstant(0.05f);
   made.measured.col(1999).setConstant(50.0f);
@@ -228,13 +228,13 @@ TEST_CASE("automatic weights of awkward measurements are from 0 to 1") {
 }
 
 TEST_CASE("more than twenty thousand measurements are judged by some of them") {
-  const auto made = made_up_measurement_of(50'000, 0.3, 0.03, 8);
+  const auto made = synthetic_measurement_of(50'000, 0.3, 0.03, 8);
   const auto weights = automatic_weights{}.weigh(made.measured, made.estimated);
   REQUIRE(weights.cols() == 50'000);
-  const auto few = made_up_measurement_of(20'000, 0.3, 0.03, 9);
+  const auto few = synthetic_measurement_of(20'000, 0.3, 0.03, 9);
   const auto one = automatic_weights{}.mixture(made.measured, made.estimated);
   const auto other = automatic_weights{}.mixture(few.measured, few.estimated);
-  CHECK(one.good_share == doctest::Approx(other.good_share).epsilon(0.03));  // five standard errors of 17,000
+  CHECK(one.inlier_fraction == doctest::Approx(other.inlier_fraction).epsilon(0.03));  // five standard errors of 17,000
   CHECK(one.scale == doctest::Approx(other.scale).epsilon(0.05));
 }
 
@@ -242,7 +242,7 @@ namespace {
 
 /// Four thousand samples, an eighth of which are a highlight that the estimate misses by `factor`; 30 % are outliers.
 struct missed_highlight {
-  made_up_measurement made = made_up_measurement_of(4000, 0.3, 0.03, 12);
+  synthetic_measurement made = synthetic_measurement_of(4000, 0.3, 0.03, 12);
   std::shared_ptr<const gonio::sample_regions> regions;
 
   explicit missed_highlight(float factor) {

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 /// Measurements at cells and between them of a material, the same places for any.
 struct planned_world {
-  gonio::material_set set = made_up_materials(small_cells(), 12, 5);
+  gonio::material_set set = synthetic_materials(small_cells(), 12, 5);
   gonio::sample_set places = [] {
     gonio::sample_set found;
     for (std::size_t cell = 0; cell < small_cells().size(); cell += 3) {

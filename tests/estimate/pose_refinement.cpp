@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -9,24 +9,24 @@
 
 namespace {
 
-using gonio::direction, gonio::picture_samples, gonio::picture_turns, gonio::pose_refinement, gonio::radians;
+using gonio::direction, gonio::image_samples, gonio::pose_correction, gonio::pose_refinement, gonio::radians;
 
 /// Fine enough for a turn to be more than a cell in a highlight.
-const gonio::valid_cells& picture_cells() {
+const gonio::valid_cells& image_cells() {
   static const gonio::valid_cells cells(gonio::grid({24, 16, 18}));
   return cells;
 }
 
-const gonio::log_relative_pca& picture_prior() {
-  static const auto basis = learn(made_up_materials(picture_cells(), 12), 100);
+const gonio::log_relative_pca& image_prior() {
+  static const auto basis = learn(synthetic_materials(image_cells(), 12), 100);
   return basis;
 }
 
 /// One of the materials that the prior was learned from.
 gonio::fitted_brdf<gonio::log_relative_pca> material(std::size_t number) {
   gonio::solution known;
-  known.weights = picture_prior().weights_of(number);
-  return {picture_prior(), known};
+  known.weights = image_prior().weights_of(number);
+  return {image_prior(), known};
 }
 
 Eigen::Matrix3d turn_of(const Eigen::Vector3d& turn) {
@@ -34,15 +34,15 @@ Eigen::Matrix3d turn_of(const Eigen::Vector3d& turn) {
   return angle > 0.0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Eigen::Matrix3d::Identity();
 }
 
-/// A picture by a camera around the mirror direction of a light, both of which are turned, unknown to who takes it: its
+/// An image by a camera around the mirror direction of a light, both of which are turned, unknown to who takes it: its
 /// radiance is divided by the cosine of where the light should be, or by that of where it is if a white reference
 /// lay in place.
 template <class Material>
-picture_samples picture_of(const Material& truth, double theta, const picture_turns& turns = {},
-                           gonio::light_calibration calibrated_by = gonio::light_calibration::irradiance) {
+image_samples image_of(const Material& truth, double theta, const pose_correction& turns = {},
+                       gonio::light_calibration calibrated_by = gonio::light_calibration::irradiance) {
   const direction wi = gonio::spherical_direction(theta, 0.0), turned_wi = turn_of(turns.light) * wi;
   const double cosines = calibrated_by == gonio::light_calibration::irradiance ? turned_wi.z() / wi.z() : 1.0;
-  picture_samples samples;
+  image_samples samples;
   for (double polar = theta - 0.25; polar <= std::min(theta + 0.26, 1.5); polar += 0.05)
     for (double azimuth = -0.4; azimuth <= 0.41; azimuth += 0.1) {
       const direction wo = gonio::spherical_direction(polar, std::numbers::pi + azimuth);
@@ -55,9 +55,9 @@ picture_samples picture_of(const Material& truth, double theta, const picture_tu
 template <class Fit, class Material>
 double mapped_error(const Fit& fit, const Material& truth) {
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < picture_cells().size(); ++cell)
+  for (std::size_t cell = 0; cell < image_cells().size(); ++cell)
     sum += (fit.mapped(cell) - truth.mapped(cell)).square().mean();
-  return std::sqrt(sum / static_cast<double>(picture_cells().size()));
+  return std::sqrt(sum / static_cast<double>(image_cells().size()));
 }
 
 constexpr double eta = 1e-2, slight_eta = 1e-4;
@@ -65,21 +65,21 @@ constexpr double eta = 1e-2, slight_eta = 1e-4;
 }  // namespace
 
 TEST_CASE("where light and camera are is found with the material") {
-  const picture_turns first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
+  const pose_correction first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
   const auto known_places = [&](const auto& truth) {
     gonio::sample_set samples;
     for (const auto& [theta, turns] : {std::pair{0.5, first}, std::pair{0.9, second}})
-      for (const gonio::pair_sample& s : picture_of(truth, theta, turns))
+      for (const gonio::pair_sample& s : image_of(truth, theta, turns))
         samples.push_back(
             {gonio::to_half_difference(turn_of(turns.light) * s.directions.wi, turn_of(turns.camera) * s.directions.wo),
              s.value * s.directions.wi.z() / (turn_of(turns.light) * s.directions.wi).z(), s.weight});
-    return gonio::decomposition{picture_prior(), gonio::tikhonov{slight_eta}}.fit(samples);
+    return gonio::decomposition{image_prior(), gonio::tikhonov{slight_eta}}.fit(samples);
   };
   for (std::size_t number = 0; number < 12; ++number) {
     CAPTURE(number);
     const auto truth = material(number);
-    const std::vector<picture_samples> pictures{picture_of(truth, 0.5, first), picture_of(truth, 0.9, second)};
-    pose_refinement refinement(picture_prior(), pictures, {.eta = slight_eta, .deviation = radians(2.0)});
+    const std::vector<image_samples> pictures{image_of(truth, 0.5, first), image_of(truth, 0.9, second)};
+    pose_refinement refinement(image_prior(), pictures, {.eta = slight_eta, .deviation = radians(2.0)});
     const double before = mapped_error(refinement.fit(), truth), objective = refinement.objective();
     refinement.solve();
     // Measured: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error, 0.92 to 1.16 of that of known places.
@@ -91,14 +91,14 @@ TEST_CASE("where light and camera are is found with the material") {
 
 TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of it is 6 % of all values") {
   using gonio::light_calibration;
-  const picture_turns lower{{0.0, radians(1.0), 0.0}, Eigen::Vector3d::Zero()};
+  const pose_correction lower{{0.0, radians(1.0), 0.0}, Eigen::Vector3d::Zero()};
   for (const auto taken : {light_calibration::irradiance, light_calibration::reference_in_place}) {
     double right = 0.0, wrong = 0.0;
     for (std::size_t number = 0; number < 12; ++number) {
       const auto truth = material(number);
-      const std::vector<picture_samples> pictures{picture_of(truth, radians(75.0), lower, taken)};
+      const std::vector<image_samples> pictures{image_of(truth, radians(75.0), lower, taken)};
       const auto error = [&](light_calibration believed) {
-        pose_refinement refinement(picture_prior(), pictures,
+        pose_refinement refinement(image_prior(), pictures,
                                    {.eta = slight_eta, .deviation = radians(2.0), .calibrated_by = believed});
         refinement.solve();
         return mapped_error(refinement.fit(), truth);
@@ -115,16 +115,16 @@ TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of 
 
 TEST_CASE("without a step it is Tikhonov's solution; in place, light and camera stay there") {
   const auto truth = material(2);
-  const std::vector<picture_samples> pictures{picture_of(truth, 0.5), picture_of(truth, 0.9)};
+  const std::vector<image_samples> pictures{image_of(truth, 0.5), image_of(truth, 0.9)};
   gonio::sample_set all = as_sample_set(pictures[0]);
   const gonio::sample_set more = as_sample_set(pictures[1]);
   all.insert(all.end(), more.begin(), more.end());
-  const auto plain = gonio::decomposition{picture_prior(), gonio::tikhonov{eta}}.fit(all);
+  const auto plain = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(all);
 
-  pose_refinement refinement(picture_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
+  pose_refinement refinement(image_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
   CHECK((refinement.fit().found().weights - plain.found().weights).norm() < 1e-6 * plain.found().weights.norm());
   refinement.solve();
-  for (const picture_turns& turns : refinement.turns()) {
+  for (const pose_correction& turns : refinement.turns()) {
     CHECK(turns.light.norm() < radians(0.2));
     CHECK(turns.camera.norm() < radians(0.2));
   }
@@ -137,8 +137,8 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
       return Eigen::Vector3d(*part, *part, *part) / 1000.0;
     };
     const auto truth = material(*rc::gen::inRange<std::size_t>(0, 12));
-    const std::vector<picture_samples> pictures{picture_of(truth, 0.7, {turn(), turn()})};
-    pose_refinement refinement(picture_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
+    const std::vector<image_samples> pictures{image_of(truth, 0.7, {turn(), turn()})};
+    pose_refinement refinement(image_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
     for (int i = 0; i < 4 && !refinement.converged(); ++i) {
       const double before = refinement.objective();
       refinement.step();
@@ -146,23 +146,23 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
     }
     const auto samples = refinement.samples();
     RC_ASSERT(samples.size() == pictures[0].size());
-    const auto again = gonio::decomposition{picture_prior(), gonio::tikhonov{eta}}.fit(samples);
+    const auto again = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(samples);
     RC_ASSERT((again.found().weights - refinement.fit().found().weights).norm() < 1e-6 * again.found().weights.norm());
   }));
 }
 
-TEST_CASE("several materials in the same pictures: each has its own weights, all of them one pose") {
-  const picture_turns first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
-  const auto pictures_of = [&](std::size_t number, bool half) {
-    std::vector<picture_samples> pictures{picture_of(material(number), 0.5, first),
-                                          picture_of(material(number), 0.9, second)};
-    for (picture_samples& picture : pictures)  // one has the left of each picture, the other the right
+TEST_CASE("several materials in the same images: each has its own weights, all of them one pose") {
+  const pose_correction first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
+  const auto images_of = [&](std::size_t number, bool half) {
+    std::vector<image_samples> pictures{image_of(material(number), 0.5, first),
+                                        image_of(material(number), 0.9, second)};
+    for (image_samples& picture : pictures)  // one has the left of each image, the other the right
       std::erase_if(picture, [&](const gonio::pair_sample& s) { return (s.directions.wo.y() > 0.0) == half; });
     return pictures;
   };
   const gonio::pose_refinement_options options{.eta = slight_eta, .deviation = radians(2.0)};
   // How far samples are from where they were: of turns themselves, those of both about the normal cannot be seen.
-  const auto off = [&](const gonio::sample_set& found, const std::vector<picture_samples>& pictures) {
+  const auto off = [&](const gonio::sample_set& found, const std::vector<image_samples>& pictures) {
     double sum = 0.0;
     std::size_t sample = 0;
     for (const auto& [turns, picture] : {std::pair{first, 0u}, std::pair{second, 1u}})
@@ -176,12 +176,12 @@ TEST_CASE("several materials in the same pictures: each has its own weights, all
   };
   double off_together = 0.0, off_apart = 0.0, error_together = 0.0, error_apart = 0.0;
   for (std::size_t number = 0; number + 1 < 12; ++number) {
-    const std::vector<std::vector<picture_samples>> both{pictures_of(number, false), pictures_of(number + 1, true)};
-    pose_refinement together(picture_prior(), both, options);
+    const std::vector<std::vector<image_samples>> both{images_of(number, false), images_of(number + 1, true)};
+    pose_refinement together(image_prior(), both, options);
     REQUIRE(together.materials() == 2);
     together.solve();
     for (std::size_t m = 0; m < 2; ++m) {
-      pose_refinement apart(picture_prior(), both[m], options);
+      pose_refinement apart(image_prior(), both[m], options);
       apart.solve();
       off_together += off(together.samples(m), both[m]);
       off_apart += off(apart.samples(), both[m]);
@@ -196,9 +196,9 @@ TEST_CASE("several materials in the same pictures: each has its own weights, all
   CHECK(error_together < error_apart);
 }
 
-TEST_CASE("a material alone, and beside one that no picture has, come out the same") {
-  const std::vector<picture_samples> pictures{picture_of(material(3), 0.5, {{0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}})};
-  pose_refinement alone(picture_prior(), pictures), beside(picture_prior(), {pictures, {picture_samples{}}});
+TEST_CASE("a material alone, and beside one that no image has, come out the same") {
+  const std::vector<image_samples> pictures{image_of(material(3), 0.5, {{0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}})};
+  pose_refinement alone(image_prior(), pictures), beside(image_prior(), {pictures, {image_samples{}}});
   alone.solve();
   beside.solve();
   CHECK(beside.objective() == doctest::Approx(alone.objective()).epsilon(1e-12));
@@ -207,19 +207,19 @@ TEST_CASE("a material alone, and beside one that no picture has, come out the sa
   CHECK_THROWS_WITH_AS((void)beside.fit(2), doctest::Contains("no material 2"), gonio::error);
 }
 
-TEST_CASE("pictures that cannot be are refused") {
-  const std::vector<picture_samples> pictures{picture_of(material(0), 0.5)};
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), std::vector<picture_samples>{}),
-                       doctest::Contains("no picture"), gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), {picture_samples{}}), doctest::Contains("no samples"),
+TEST_CASE("images that cannot be are refused") {
+  const std::vector<image_samples> pictures{image_of(material(0), 0.5)};
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), std::vector<image_samples>{}), doctest::Contains("no image"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), pictures, {.eta = 0.0}), doctest::Contains("eta must be"),
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {image_samples{}}), doctest::Contains("no samples"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), pictures, {.deviation = 0.0}),
-                       doctest::Contains("may be off by"), gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), {pictures, {pictures[0], pictures[0]}}),
-                       doctest::Contains("material 2 is in 2 pictures, the first in 1"), gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), pictures, {.eta = 0.0}), doctest::Contains("eta must be"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), pictures, {.deviation = 0.0}), doctest::Contains("may be off by"),
+                       gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {pictures, {pictures[0], pictures[0]}}),
+                       doctest::Contains("material 2 is in 2 images, the first in 1"), gonio::error);
   auto broken = pictures;
   broken[0][3].value[1] = std::nan("");
-  CHECK_THROWS_WITH_AS(pose_refinement(picture_prior(), broken), doctest::Contains("sample 4"), gonio::error);
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), broken), doctest::Contains("sample 4"), gonio::error);
 }

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/pull_push.hpp>
 
 #include <doctest/doctest.h>
@@ -51,7 +51,7 @@ std::vector<double> complete_along_phi_d(int extent, const std::vector<std::pair
 }
 
 const gonio::brdf_table& truth() {
-  static const auto table = made_up_materials(small_cells(), 3).table(1);
+  static const auto table = synthetic_materials(small_cells(), 3).table(1);
   return table;
 }
 

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -19,14 +19,14 @@ namespace {
 /// Forty materials, one of which the estimator does not know.
 struct robust_world {
   static constexpr std::size_t unknown = 3;
-  gonio::material_set set = made_up_materials(small_cells(), 40, 11);
+  gonio::material_set set = synthetic_materials(small_cells(), 40, 11);
   gonio::brdf_table truth = set.table(unknown);
   gonio::measured<gonio::log> others = gonio::measured{set, gonio::log{}}.without({set.names[unknown]});
   robust_reconstruction<gonio::log> estimator{others};
 
   [[nodiscard]] gonio::sample_set samples(std::size_t count, const gonio::measurement_defects& defects = {},
                                           std::uint64_t seed = 3) const {
-    return gonio::measure(truth, gonio::random_cells(small_cells(), count, seed), defects, seed);
+    return gonio::sample_table(truth, gonio::random_cells(small_cells(), count, seed), defects, seed);
   }
 };
 
@@ -147,7 +147,7 @@ TEST_CASE("the same bytes for any number of threads, and the seed matters only w
 TEST_CASE("stepping from the start is what the fit does") {
   for (const double outliers : {0.1, 0.6}) {
     const auto samples = robust().samples(400, {.outlier_ratio = outliers});
-    auto run = robust().estimator.start(samples);
+    auto run = robust().estimator.initialise(samples);
     while (!run.converged()) run.step();
     CHECK(
         std::ranges::equal(run.result().correction().values(), robust().estimator.fit(samples).correction().values()));
@@ -202,7 +202,7 @@ TEST_CASE("a table is fitted as its cells are; samples between cells are fitted"
   std::vector<std::size_t> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
   const auto by_table = robust().estimator.fit(robust().truth);
-  const auto by_samples = robust().estimator.fit(gonio::measure(robust().truth, every));
+  const auto by_samples = robust().estimator.fit(gonio::sample_table(robust().truth, every));
   CHECK(std::ranges::equal(by_table.correction().values(), by_samples.correction().values()));
 
   auto between = robust().samples(200, {.outlier_ratio = 0.3});
@@ -281,7 +281,7 @@ TEST_CASE("reflectances that leave the range of float are refused, or survived")
 }
 
 TEST_CASE("an estimate that is zero where samples are positive: black materials") {
-  auto set = made_up_materials(small_cells(), 3, 5);
+  auto set = synthetic_materials(small_cells(), 3, 5);
   for (Eigen::Index cell = 0; cell < set.values.rows(); cell += 2) set.values.row(cell).setZero();
   const robust_reconstruction estimator{gonio::measured{set, gonio::log{}}};
   const auto fit = estimator.fit(robust().samples(100));
@@ -314,9 +314,9 @@ TEST_CASE("what cannot be used is refused") {
   auto table = robust().truth;
   table.values()[33] = std::nanf("");
   CHECK_THROWS_WITH_AS(robust().estimator.fit(table), doctest::Contains("cell 11"), gonio::error);
-  const gonio::measured elsewhere{made_up_materials(gonio::valid_cells(gonio::grid({5, 5, 5})), 3), gonio::log{}};
+  const gonio::measured elsewhere{synthetic_materials(gonio::valid_cells(gonio::grid({5, 5, 5})), 3), gonio::log{}};
   CHECK_THROWS_WITH_AS((robust_reconstruction{robust().others, gonio::correction{elsewhere}}),
                        doctest::Contains("same cells"), gonio::error);
-  CHECK_THROWS_WITH_AS((robust_reconstruction{gonio::measured{made_up_materials(small_cells(), 1), gonio::log{}}}),
+  CHECK_THROWS_WITH_AS((robust_reconstruction{gonio::measured{synthetic_materials(small_cells(), 1), gonio::log{}}}),
                        doctest::Contains("two materials"), gonio::error);
 }

@@ -1,5 +1,5 @@
 #include "../archetypes.hpp"
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/metric/log.hpp>
@@ -13,7 +13,7 @@ using gonio::sampled_functions;
 namespace {
 
 const gonio::measured<gonio::log>& seven_materials() {
-  static const gonio::measured basis{made_up_materials(small_cells(), 7), gonio::log{}};
+  static const gonio::measured basis{synthetic_materials(small_cells(), 7), gonio::log{}};
   return basis;
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
     RC_ASSERT(functions.unknowns() == 7);
     const gonio::channel_values all_weights = system.weights.transpose().replicate<3, 1>(),
                                 all_values = system.values.transpose().replicate<3, 1>();
-    const Eigen::MatrixXd moments = functions.moments(all_weights, all_values);
+    const Eigen::MatrixXd rhs = functions.rhs(all_weights, all_values);
     const Eigen::MatrixXd x = Eigen::VectorXd::LinSpaced(21, 0.1, 2.0).reshaped(7, 3);
     const gonio::channel_values all_applied = functions.apply(x);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -68,14 +68,14 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
         rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), places[i]);
       const Eigen::VectorXd w = system.weights.matrix().cast<double>(), b = system.values.matrix().cast<double>();
       const Eigen::MatrixXd gram = rows.transpose() * w.asDiagonal() * rows;
-      const Eigen::VectorXd moment = rows.transpose() * w.asDiagonal() * b;
+      const Eigen::VectorXd rhs = rows.transpose() * w.asDiagonal() * b;
       const auto normal = functions.normal(c, system.weights, system.values);
       // Interpolated rows are rounded to float, and all terms are positive.
       const double tolerance = 5e-7;
       RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
-      RC_ASSERT(((normal.moment() - moment).array().abs() <= tolerance * moment.array()).all());
+      RC_ASSERT(((normal.rhs() - rhs).array().abs() <= tolerance * rhs.array()).all());
       RC_ASSERT(std::abs(normal.energy()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.energy()[0]);
-      RC_ASSERT(((moments.col(column) - moment).array().abs() <= tolerance * moment.array()).all());
+      RC_ASSERT(((rhs.col(column) - rhs).array().abs() <= tolerance * rhs.array()).all());
       const Eigen::ArrayXd applied = all_applied.row(column).cast<double>().transpose();
       RC_ASSERT(((applied - (rows * x.col(column)).array()).abs() <= 2e-6 * (rows * x.col(column)).array()).all());
     }
@@ -91,15 +91,15 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
     const sampled_functions functions(seven_materials(), places);
     const auto normal = functions.normal(0, system.weights, system.values);
     Eigen::MatrixXd all(8, 8);
-    all << normal.gram(), normal.moment(), normal.moment().transpose(), normal.energy();
+    all << normal.gram(), normal.rhs(), normal.rhs().transpose(), normal.energy();
     const Eigen::VectorXd scale = all.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
     all = scale.asDiagonal() * all * scale.asDiagonal();
     const Eigen::VectorXd eigenvalues = gonio::decompose_symmetric(all, "samples").values;
     RC_ASSERT(eigenvalues[0] >= -1e-14);
     RC_ASSERT(eigenvalues[7 - std::ssize(places)] <= 1e-14);
-    const Eigen::MatrixXd moments =
-        functions.moments(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>());
-    RC_ASSERT((moments.col(0) - normal.moment()).norm() <= 1e-14 * normal.moment().norm());
+    const Eigen::MatrixXd rhs =
+        functions.rhs(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>());
+    RC_ASSERT((rhs.col(0) - normal.rhs()).norm() <= 1e-14 * normal.rhs().norm());
   }));
 }
 
@@ -122,8 +122,8 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
   REQUIRE(kept.size() < 250);
   const auto with_nan = functions.normal(0, system.weights, system.values);
   CHECK(with_nan.gram() == before.gram());
-  CHECK(with_nan.moment() == before.moment());
-  CHECK(functions.moments(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>())
+  CHECK(with_nan.rhs() == before.rhs());
+  CHECK(functions.rhs(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>())
             .allFinite());
   const auto count = std::ssize(weights);
   const auto without = sampled_functions(seven_materials(), kept)
@@ -131,7 +131,7 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
                                    Eigen::Map<const Eigen::ArrayXf>(values.data(), count));
   // Blocks of 128 rows begin elsewhere.
   CHECK(without.gram().isApprox(before.gram(), 1e-6));
-  CHECK(without.moment().isApprox(before.moment(), 1e-6));
+  CHECK(without.rhs().isApprox(before.rhs(), 1e-6));
   // Nothing at all.
   const Eigen::ArrayXf none = Eigen::ArrayXf::Zero(300);
   CHECK(functions.normal(1, none, none).gram().isZero(0.0));
@@ -144,9 +144,9 @@ TEST_CASE("rows of negligible weight count as rows of weight zero, unless their 
   const auto both = functions.normal(1, weights, Eigen::Array2f(1.0f, 1.0f));
   const auto first = functions.normal(1, Eigen::Array2f(2.0f, 0.0f), Eigen::Array2f(1.0f, 1.0f));
   CHECK(both.gram() == first.gram());
-  CHECK(both.moment() == first.moment());
+  CHECK(both.rhs() == first.rhs());
   const auto large = functions.normal(1, weights, Eigen::Array2f(1.0f, 1e3f));
-  CHECK(large.moment()(0, 0) > first.moment()(0, 0));
+  CHECK(large.rhs()(0, 0) > first.rhs()(0, 0));
 }
 
 TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated one") {
@@ -182,7 +182,7 @@ TEST_CASE("sampled functions outlive their basis, and are the same for any numbe
   const auto places = mixed_places(5000, 11);
   const random_equations system(5000, 12);
   const auto make = [&](unsigned threads) {
-    const gonio::measured basis{made_up_materials(small_cells(), 7), gonio::log{}};
+    const gonio::measured basis{synthetic_materials(small_cells(), 7), gonio::log{}};
     return sampled_functions(basis, places, {threads});
   };
   const auto one = make(1), three = make(3);
@@ -192,7 +192,7 @@ TEST_CASE("sampled functions outlive their basis, and are the same for any numbe
   CHECK((one.apply(x) == three.apply(x)).all());
   const gonio::channel_values weights = system.weights.transpose().replicate<3, 1>(),
                               values = system.values.transpose().replicate<3, 1>();
-  CHECK(one.moments(weights, values) == three.moments(weights, values));
+  CHECK(one.rhs(weights, values) == three.rhs(weights, values));
 }
 
 TEST_CASE("copies do not read the rows of what they were copied from") {
@@ -212,9 +212,9 @@ TEST_CASE("archetype: one function for all channels") {
   const sampled_functions functions(constant, mixed_places(10, 1));
   const Eigen::ArrayXf weights = Eigen::ArrayXf::Constant(10, 0.5f), values = Eigen::ArrayXf::LinSpaced(10, 0, 9);
   CHECK(functions.normal(2, weights, values).gram()(0, 0) == doctest::Approx(5.0));
-  const Eigen::MatrixXd moments =
-      functions.moments(weights.transpose().replicate<3, 1>(), values.transpose().replicate<3, 1>());
-  CHECK(moments.isApprox(Eigen::RowVector3d::Constant(22.5), 1e-6));
+  const Eigen::MatrixXd rhs =
+      functions.rhs(weights.transpose().replicate<3, 1>(), values.transpose().replicate<3, 1>());
+  CHECK(rhs.isApprox(Eigen::RowVector3d::Constant(22.5), 1e-6));
   CHECK((functions.apply(Eigen::RowVector3d::Constant(3.0)) == 3.0f).all());
 }
 
@@ -223,6 +223,6 @@ TEST_CASE("no places: nothing is known") {
   const Eigen::ArrayXf none;
   CHECK(functions.size() == 0);
   CHECK(functions.normal(0, none, none).gram().isZero(0.0));
-  CHECK(functions.moments(gonio::channel_values(3, 0), gonio::channel_values(3, 0)).isZero(0.0));
+  CHECK(functions.rhs(gonio::channel_values(3, 0), gonio::channel_values(3, 0)).isZero(0.0));
   CHECK(functions.apply(Eigen::MatrixXd::Ones(7, 3)).size() == 0);
 }

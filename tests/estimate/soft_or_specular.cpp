@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -35,7 +35,7 @@ static_assert(gonio::estimator<soft_or_specular<soft_or_specular<always, ridge>,
 constexpr gonio::highlight_regions few_cells_regions{0.15, 0.5};
 
 const gonio::material_set& shiny_and_not() {
-  static const auto set = made_up_materials(small_cells(), 14);
+  static const auto set = synthetic_materials(small_cells(), 14);
   return set;
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("property: the fit is that of the estimator chosen, whatever their typ
   const soft_or_specular estimator{soft, specular, switch_reference(), halves.threshold, few_cells_regions};
   rc::check("the one or the other", [&] {
     const auto truth = shiny_and_not().table(*rc::gen::inRange<std::size_t>(0, 14));
-    const auto samples = gonio::measure(truth, gonio::random_cells(small_cells(), 60, *rc::gen::inRange(0u, 99u)));
+    const auto samples = gonio::sample_table(truth, gonio::random_cells(small_cells(), 60, *rc::gen::inRange(0u, 99u)));
     const auto fit = estimator.fit(samples);
     RC_ASSERT(fit.kind() == estimator.choose(samples));
     RC_ASSERT((fit.contrast() < estimator.threshold()) == (fit.kind() == material_kind::soft));
@@ -93,7 +93,7 @@ TEST_CASE("switch: materials measured everywhere go to the half that they came f
   const soft_or_specular estimator{always{1.0}, always{2.0}, switch_reference(), halves.threshold, few_cells_regions};
   for (std::size_t m = 0; m < shiny_and_not().names.size(); ++m) {
     const auto samples =
-        gonio::measure(shiny_and_not().table(m), gonio::random_cells(small_cells(), small_cells().size(), 1));
+        gonio::sample_table(shiny_and_not().table(m), gonio::random_cells(small_cells(), small_cells().size(), 1));
     const bool is_soft = std::ranges::count(halves.soft.names, shiny_and_not().names[m]) > 0;
     CHECK((estimator.choose(samples) == material_kind::soft) == is_soft);
   }

@@ -1,6 +1,6 @@
 /// Every basis x metric x solver that makes sense: fitted, certified, tabulated, evaluated.
 
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -27,13 +27,13 @@ namespace {
 constexpr std::size_t truth_index = 2;
 
 const gonio::material_set& materials() {
-  static const auto made_up = made_up_materials(small_cells(), 6);
-  return made_up;
+  static const auto synthetic = synthetic_materials(small_cells(), 6);
+  return synthetic;
 }
 
 const gonio::sample_set& samples() {
   static const auto measured =
-      gonio::measure(materials().table(truth_index), gonio::random_cells(small_cells(), 80, 5));
+      gonio::sample_table(materials().table(truth_index), gonio::random_cells(small_cells(), 80, 5));
   return measured;
 }
 
@@ -57,7 +57,7 @@ auto non_negative_solvers() {
 template <class Basis>
 void check_fit(const gonio::fitted_brdf<Basis>& fit) {
   const gonio::solution& found = fit.found();
-  CHECK(found.certificate.maxCoeff() <= 1e-9);
+  CHECK(found.kkt_residual.maxCoeff() <= 1e-9);
   CHECK(found.weights.allFinite());
   CHECK(found.weights.rows() == static_cast<Eigen::Index>(fit.functions().size()));
   CHECK(found.weights.cols() == 3);

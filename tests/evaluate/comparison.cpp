@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-using gonio::appearance_judge;
+using gonio::appearance_metric;
 using gonio::brdf_table;
 using gonio::comparison;
 using gonio::log_relative;
@@ -29,8 +29,8 @@ const valid_cells& cells() {
   return result;
 }
 
-const appearance_judge& judge() {
-  static const appearance_judge result(cells(), 12);
+const appearance_metric& judge() {
+  static const appearance_metric result(cells(), 12);
   return result;
 }
 

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/evaluate/perceived_norm.hpp>
 
 #include <doctest/doctest.h>
@@ -8,7 +8,7 @@
 namespace {
 
 const gonio::log_relative_pca& few_materials() {
-  static const gonio::log_relative_pca prior = learn(made_up_materials(small_cells(), 4), 6);
+  static const gonio::log_relative_pca prior = learn(synthetic_materials(small_cells(), 4), 6);
   return prior;
 }
 

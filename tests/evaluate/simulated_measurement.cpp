@@ -1,18 +1,18 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <doctest/doctest.h>
 
 #include <set>
 
-using gonio::measure;
 using gonio::random_cells;
+using gonio::sample_table;
 
 namespace {
 
 const gonio::brdf_table& table() {
-  static const auto made_up = made_up_materials(gonio::valid_cells(gonio::grid({18, 18, 24})), 1).table(0);
-  return made_up;
+  static const auto synthetic = synthetic_materials(gonio::valid_cells(gonio::grid({18, 18, 24})), 1).table(0);
+  return synthetic;
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ TEST_CASE("a share is rounded to a number, at least one") {
 
 TEST_CASE("a clean measurement reads the table") {
   const auto cells = random_cells(table().cells(), 50, 4);
-  const auto samples = measure(table(), cells);
+  const auto samples = sample_table(table(), cells);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CHECK((samples[i].value == table().at(cells[i])).all());
     CHECK(samples[i].angles.theta_h == table().cells().angles(cells[i]).theta_h);
@@ -48,18 +48,18 @@ TEST_CASE("a clean measurement reads the table") {
 
 TEST_CASE("exactly the asked share of samples are outliers, and they are values of the table") {
   const auto cells = random_cells(table().cells(), 400, 4);
-  const auto clean = measure(table(), cells), dirty = measure(table(), cells, {.outlier_ratio = 0.25}, 9);
+  const auto clean = sample_table(table(), cells), dirty = sample_table(table(), cells, {.outlier_ratio = 0.25}, 9);
   std::size_t changed = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) changed += (clean[i].value != dirty[i].value).any() ? 1u : 0u;
   CHECK(changed <= 100);
   CHECK(changed > 90);  // a random other value can happen to be the same
-  const auto again = measure(table(), cells, {.outlier_ratio = 0.25}, 9);
+  const auto again = sample_table(table(), cells, {.outlier_ratio = 0.25}, 9);
   for (std::size_t i = 0; i < cells.size(); ++i) REQUIRE((again[i].value == dirty[i].value).all());
 }
 
 TEST_CASE("noise is relative and has the asked deviation") {
   const auto cells = random_cells(table().cells(), 3000, 4);
-  const auto clean = measure(table(), cells), noisy = measure(table(), cells, {.noise = 0.1}, 9);
+  const auto clean = sample_table(table(), cells), noisy = sample_table(table(), cells, {.noise = 0.1}, 9);
   double sum = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) sum += (noisy[i].value / clean[i].value - 1.0).square().sum();
   // 9000 draws: the deviation is known to 0.75 %; four of those.
@@ -84,8 +84,8 @@ TEST_CASE("a misplaced measurement says the directions that were meant") {
   const std::vector<gonio::direction_pair> pairs{
       {gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.6, 3.0)},
       {gonio::spherical_direction(0.2, 1.0), gonio::spherical_direction(1.2, 0.0)}};
-  const auto exact = gonio::measure_misplaced(table(), pairs, 0.0),
-             off = gonio::measure_misplaced(table(), pairs, 0.05, 3);
+  const auto exact = gonio::sample_table_misplaced(table(), pairs, 0.0),
+             off = gonio::sample_table_misplaced(table(), pairs, 0.05, 3);
   REQUIRE(off.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto angles = gonio::to_half_difference(pairs[i].wi, pairs[i].wo);
@@ -93,32 +93,32 @@ TEST_CASE("a misplaced measurement says the directions that were meant") {
     CHECK((exact[i].value - table()(pairs[i].wi, pairs[i].wo)).abs().maxCoeff() < 1e-6);
   }
   CHECK((off[0].value - exact[0].value).abs().maxCoeff() > 0.0);
-  CHECK((gonio::measure_misplaced(table(), pairs, 0.05, 3)[1].value == off[1].value).all());
+  CHECK((gonio::sample_table_misplaced(table(), pairs, 0.05, 3)[1].value == off[1].value).all());
 }
 
 TEST_CASE("impossible defects and directions are refused") {
   const auto cells = random_cells(table().cells(), 5, 4);
-  CHECK_THROWS_AS(static_cast<void>(measure(table(), cells, {.outlier_ratio = 1.5})), gonio::error);
-  CHECK_THROWS_AS(static_cast<void>(measure(table(), cells, {.noise = -0.1})), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(sample_table(table(), cells, {.outlier_ratio = 1.5})), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(sample_table(table(), cells, {.noise = -0.1})), gonio::error);
   const std::vector<gonio::half_difference> below{{0.1, 0.1, 0.1}, {1.4, 1.4, 0.0}};
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::cells_at(table().cells(), below)), doctest::Contains("direction 2"),
                        gonio::error);
 }
 
-TEST_CASE("samples of no table are spoiled by values that the caller draws") {
+TEST_CASE("samples of no table are corrupted by values that the caller draws") {
   gonio::sample_set samples(40, {{0.1, 0.2, 0.3}, gonio::rgb(1, 2, 3), 2.0});
   const auto five = [](auto&) { return gonio::rgb(5, 5, 5); };
-  const auto spoiled = gonio::spoil(samples, {.outlier_ratio = 0.25}, 3, five);
-  CHECK(std::ranges::count_if(spoiled, [](const auto& s) { return (s.value == 5.0).all(); }) == 10);
-  CHECK(std::ranges::count_if(spoiled, [](const auto& s) { return (s.value == gonio::rgb(1, 2, 3)).all(); }) == 30);
-  CHECK(spoiled[7].weight == 2.0);
-  CHECK_THROWS_AS((void)gonio::spoil(samples, {.outlier_ratio = std::nan("")}, 3, five), gonio::error);
+  const auto corrupted = gonio::corrupt(samples, {.outlier_ratio = 0.25}, 3, five);
+  CHECK(std::ranges::count_if(corrupted, [](const auto& s) { return (s.value == 5.0).all(); }) == 10);
+  CHECK(std::ranges::count_if(corrupted, [](const auto& s) { return (s.value == gonio::rgb(1, 2, 3)).all(); }) == 30);
+  CHECK(corrupted[7].weight == 2.0);
+  CHECK_THROWS_AS((void)gonio::corrupt(samples, {.outlier_ratio = std::nan("")}, 3, five), gonio::error);
 }
 
 TEST_CASE("parting samples: each is in one part, in order, by the seed") {
   gonio::sample_set samples;
   for (int i = 0; i < 50; ++i) samples.push_back({{0.01 * i, 0.2, 0.3}, gonio::rgb::Constant(i), 1.0});
-  const auto [some, others] = gonio::part(samples, 20, 4);
+  const auto [some, others] = gonio::split_samples(samples, 20, 4);
   REQUIRE(some.size() == 20);
   REQUIRE(others.size() == 30);
   const auto value = [](const gonio::sample& s) { return s.value.x(); };
@@ -128,9 +128,9 @@ TEST_CASE("parting samples: each is in one part, in order, by the seed") {
   both.insert(both.end(), others.begin(), others.end());
   std::ranges::sort(both, {}, value);
   for (std::size_t i = 0; i < 50; ++i) CHECK(both[i].value.x() == static_cast<double>(i));
-  CHECK(std::ranges::equal(gonio::part(samples, 20, 4).some, some, {}, value, value));
-  CHECK_FALSE(std::ranges::equal(gonio::part(samples, 20, 5).some, some, {}, value, value));
-  CHECK(gonio::part(samples, 0, 1).some.empty());
-  CHECK(gonio::part(samples, 50, 1).others.empty());
-  CHECK_THROWS_WITH_AS((void)gonio::part(samples, 51, 1), doctest::Contains("51 of 50"), gonio::error);
+  CHECK(std::ranges::equal(gonio::split_samples(samples, 20, 4).some, some, {}, value, value));
+  CHECK_FALSE(std::ranges::equal(gonio::split_samples(samples, 20, 5).some, some, {}, value, value));
+  CHECK(gonio::split_samples(samples, 0, 1).some.empty());
+  CHECK(gonio::split_samples(samples, 50, 1).others.empty());
+  CHECK_THROWS_WITH_AS((void)gonio::split_samples(samples, 51, 1), doctest::Contains("51 of 50"), gonio::error);
 }

@@ -1,4 +1,4 @@
-/// Radiance HDR pictures.
+/// Radiance HDR images.
 
 #include "harness.hpp"
 #include <gonio/io/image.hpp>

@@ -1,4 +1,4 @@
-/// How a near-field picture was taken.
+/// How a near-field image was taken.
 
 #include "harness.hpp"
 #include <gonio/io/near_field_setup.hpp>

@@ -1,4 +1,4 @@
-/// PNG files, as pictures and as codes. Checksums that are wrong are put right, which fuzzers cannot.
+/// PNG files, as images and as codes. Checksums that are wrong are put right, which fuzzers cannot.
 
 #include "harness.hpp"
 #include <gonio/io/image.hpp>

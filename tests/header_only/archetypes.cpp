@@ -33,7 +33,7 @@ template <class Solver>
 void check_constant(const Solver& solver) {
   const auto fit = gonio::decomposition{archetype::constant_basis{cells()}, solver}.fit(grey_samples(0.25));
   CHECK(fit.found().weights(0, 0) == doctest::Approx(0.25).epsilon(1e-6));
-  CHECK(fit.found().certificate.maxCoeff() <= 1e-9);
+  CHECK(fit.found().kkt_residual.maxCoeff() <= 1e-9);
   const gonio::brdf_table table = fit.tabulate(cells());
   CHECK(table.at(0).x() == doctest::Approx(0.25).epsilon(1e-6));
   CHECK(fit({0, 0, 1}, {0.6, 0, 0.8}).y() == doctest::Approx(0.25).epsilon(1e-6));

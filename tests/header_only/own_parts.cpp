@@ -46,7 +46,7 @@ struct relaxation {
     for (int sweep = 0; sweep < 2000; ++sweep)
       for (Eigen::Index column = 0; column < x.cols(); ++column)
         for (Eigen::Index j = 0; j < x.rows(); ++j) {
-          double slope = -normal.moment()(j, column);
+          double slope = -normal.rhs()(j, column);
           for (Eigen::Index i = 0; i < x.rows(); ++i) slope += normal.gram()(j, i) * x(i, column);
           x(j, column) -= slope / normal.gram()(j, j);
         }
@@ -83,7 +83,7 @@ int main() {
   static_assert(gonio::estimator<decltype(estimator)>);
   const auto fit = estimator.fit(samples);
 
-  check(fit.found().certificate.maxCoeff() < 1e-9, "the weights are optimal");
+  check(fit.found().kkt_residual.maxCoeff() < 1e-9, "the weights are optimal");
   check(std::abs(fit.found().weights(2, 0) - 0.9) < 1e-6, "the narrow lobe's weight in red is .9");
   check(std::abs(fit.found().weights(2, 1) - 0.45) < 1e-6, "half of it in green, whose values are an eighth");
   const gonio::rgb above = fit({0, 0, 1}, {0, 0, 1});

@@ -238,12 +238,12 @@ TEST_CASE("bad HDR files are refused") {
     check_refused([&] { return read_hdr(here / "a.hdr"); }, {"a.hdr: "});
     check_refused([&] { return read_hdr(here / "a.hdr"); }, words);
   };
-  // Flat rows (narrow pictures) and rows of runs.
+  // Flat rows (narrow images) and rows of runs.
   for (const std::size_t columns : {3u, 40u}) {
     write_hdr(here / "valid.hdr", gradient(4, columns));
     const std::string valid = scratch::get(here / "valid.hdr");
     CHECK(read_hdr(here / "valid.hdr").shape(1) == columns);
-    // The start of "+X 40" is a smaller picture.
+    // The start of "+X 40" is a smaller image.
     const std::size_t begin = valid.find("+X "), end = valid.find('\n', begin);
     for (std::size_t size = 0; size < valid.size(); ++size)
       refused(valid.substr(0, size), {size < 11      ? "not a Radiance"
@@ -289,7 +289,7 @@ TEST_CASE("damaged HDR files are read or refused") {
   }
 }
 
-TEST_CASE("pictures that a file cannot hold are not written") {
+TEST_CASE("images that a file cannot hold are not written") {
   const scratch::folder here;
   scratch::put(here / "a", "old");
   const auto refused = [&](const image& picture, std::initializer_list<std::string> words) {

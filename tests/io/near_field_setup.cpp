@@ -33,7 +33,7 @@ TEST_CASE("every entry is read") {
   CHECK(intrinsics.principal_x == 310.0);
   CHECK(intrinsics.principal_y == 245.0);
   CHECK(setup.camera.position() == Eigen::Vector3d(0.5, -0.1, 0.3));
-  // The target is on the optical axis, and upwards in the world is upwards in the picture, where rows grow downwards.
+  // The target is on the optical axis, and upwards in the world is upwards in the image, where rows grow downwards.
   const auto target = setup.camera.project({0.01, 0.0, 0.0}), above = setup.camera.project({0.01, 0.1, 0.0});
   CHECK((*target - Eigen::Vector2d(310.0, 245.0)).norm() < 1e-9);
   CHECK(above->y() < 245.0);

@@ -1,4 +1,4 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include "scratch.hpp"
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
@@ -14,8 +14,8 @@ namespace io = gonio::io;
 namespace {
 
 gonio::log_relative_pca small_prior() {
-  return learn(made_up_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5), 8)
-      .with_source("five made-up materials");
+  return learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5), 8)
+      .with_source("five synthetic materials");
 }
 
 std::string refusal(std::span<const std::byte> bytes) {
@@ -49,7 +49,7 @@ TEST_CASE("a prior comes back with the errors of its quantisation and no others"
 }
 
 TEST_CASE("a prior keeps the cosine weight of its metric; the bytes of one with the product are those of before") {
-  const auto set = made_up_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
+  const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 5);
   const auto metric = gonio::log_relative::to_median_of(set);
   const auto encode = [&](gonio::cosine_weighting weighting) {
     return io::encode_prior(gonio::learn_pca(set, metric.weighted_by(weighting), 8));

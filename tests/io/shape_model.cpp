@@ -1,4 +1,4 @@
-#include "../shape/made_up_shapes.hpp"
+#include "../shape/synthetic_shapes.hpp"
 #include "scratch.hpp"
 #include <gonio/io/shape_model.hpp>
 
@@ -25,13 +25,13 @@ gonio::shape::triangle_columns fan_of(int vertices) {
 constexpr int fan_vertices = 5, fan_shapes = 4;
 
 gonio::shape::shape_model learned_fan() {
-  return gonio::shape::learn_shape_model(made_up_shapes(fan_vertices, fan_shapes, 2, 7), made_up_names(fan_shapes),
+  return gonio::shape::learn_shape_model(synthetic_shapes(fan_vertices, fan_shapes, 2, 7), synthetic_names(fan_shapes),
                                          fan_of(fan_vertices));
 }
 
 /// With a source and fewer components than shapes.
 gonio::shape::shape_model fan_model() {
-  return {learned_fan().basis().truncated(2).with_source("four made-up fans"), fan_of(fan_vertices)};
+  return {learned_fan().basis().truncated(2).with_source("four synthetic fans"), fan_of(fan_vertices)};
 }
 
 void check_equal(const gonio::shape::shape_model& back, const gonio::shape::shape_model& model) {
@@ -67,7 +67,7 @@ std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::tr
     payload.put(count);
   payload.put(header.explained_variance);
   payload.put_text("");
-  for (const std::string& name : made_up_names(fan_shapes)) payload.put_text(name);
+  for (const std::string& name : synthetic_names(fan_shapes)) payload.put_text(name);
   payload.put_all(std::span<const int>(triangles.data(), static_cast<std::size_t>(triangles.size())));
   for (int k = 0; k < 2; ++k) payload.put(1.0);
   const int floats = fan_shapes * 2 + 3 * fan_vertices + 3 * fan_vertices * 2;
@@ -83,7 +83,7 @@ TEST_CASE("shape model: what is written comes back exactly") {
   check_equal(io::decode_shape_model(io::encode_shape_model(all), "x"), all);
   check_equal(io::decode_shape_model(io::encode_shape_model(few), "x"), few);
   CHECK(few.basis().size() == 2);
-  CHECK(few.basis().source() == "four made-up fans");
+  CHECK(few.basis().source() == "four synthetic fans");
   CHECK(few.basis().explained_variance() < 1.0);
   const Eigen::VectorXd weights = Eigen::Vector2d(0.5, -2.0);
   CHECK(io::decode_shape_model(io::encode_shape_model(few), "x").shape(weights).vertices ==

@@ -1,5 +1,5 @@
 #include "../io/scratch.hpp"
-#include "made_up_scan.hpp"
+#include "synthetic_scan.hpp"
 #include <gonio/io/scan_journal.hpp>
 
 #include <doctest/doctest.h>

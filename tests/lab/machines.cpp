@@ -1,4 +1,4 @@
-#include "made_up_scan.hpp"
+#include "synthetic_scan.hpp"
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>

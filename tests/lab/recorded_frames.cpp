@@ -1,5 +1,5 @@
 #include "../io/scratch.hpp"
-#include "made_up_scan.hpp"
+#include "synthetic_scan.hpp"
 
 #include <doctest/doctest.h>
 #include <lab/gantry.hpp>
@@ -69,7 +69,7 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
 
   SUBCASE("a frame that is missing is a pose that is missing, and the others are measured") {
     std::filesystem::remove(folder.path() / "2-1.png");
-    write_text(folder.path() / "4-0.png", "no picture");
+    write_text(folder.path() / "4-0.png", "no image");
     lab::scan_in_memory fresh;
     lab::recorded_frames incomplete(manifest_path);
     const auto outcome = gonio::capture::scan(incomplete, poses, fresh);
@@ -79,7 +79,7 @@ TEST_CASE("lab: frames that were recorded are read as they were taken") {
     CHECK(outcome.missing[0].reason.find("2-1.png: cannot be read") != std::string::npos);
     CHECK(outcome.missing[1].reason.find("4-0.png: is not a PNG file") != std::string::npos);
   }
-  SUBCASE("a window beside the picture is a device that fails") {
+  SUBCASE("a window beside the image is a device that fails") {
     manifest["window"]["row"] = 3;
     write_text(manifest_path, manifest.dump());
     CHECK_THROWS_WITH_AS((void)lab::recorded_frames(manifest_path).measure(poses[0]), Contains("ends outside"),

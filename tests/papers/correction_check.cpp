@@ -1,6 +1,6 @@
 #include "papers/noell2014/correction_check.hpp"
 
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/metric/log.hpp>
 #include <gonio/solve/least_squares.hpp>
 
@@ -18,7 +18,7 @@ gonio::correction corrections_of(const gonio::material_set& set, const gonio::co
 }  // namespace
 
 TEST_CASE("deviations are those of a combination computed cell by cell") {
-  const auto functions = corrections_of(made_up_materials(small_cells(), 6));
+  const auto functions = corrections_of(synthetic_materials(small_cells(), 6));
   const auto found = deviations_from_others(functions, gonio::least_squares{});
   REQUIRE(found.size() == 6);
   double sum = 0.0;
@@ -33,7 +33,7 @@ TEST_CASE("deviations are those of a combination computed cell by cell") {
 }
 
 TEST_CASE("non-negative combinations deviate at least as much in the square, and here in the mean") {
-  const auto functions = corrections_of(made_up_materials(small_cells(), 12));
+  const auto functions = corrections_of(synthetic_materials(small_cells(), 12));
   const auto free = deviations_from_others(functions, gonio::least_squares{});
   const auto bounded = deviations_from_others(functions, gonio::nnls{});
   for (std::size_t i = 0; i < 12; ++i) CHECK(bounded[i] > 0.5 * free[i]);
@@ -42,7 +42,7 @@ TEST_CASE("non-negative combinations deviate at least as much in the square, and
 }
 
 TEST_CASE("a material that is there twice is its twin's combination, and one that is left out is not asked for") {
-  auto set = made_up_materials(small_cells(), 6);
+  auto set = synthetic_materials(small_cells(), 6);
   set.names.push_back("twin");
   gonio::cell_matrix values(set.values.rows(), 21);
   values << set.values, set.values.middleCols(3, 3);

@@ -1,8 +1,8 @@
-/// gonio-papers directions on a few made-up materials.
+/// gonio-papers directions on a few synthetic materials.
 
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/samples.hpp>
 
@@ -15,7 +15,7 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   const scratch::folder folder;
   std::vector<std::string> names = gonio::nielsen_test_materials();
   for (const char* name : {"a", "b", "c", "d"}) names.emplace_back(name);
-  write_made_up_networks(folder, names);
+  write_synthetic_networks(folder, names);
   const auto at = [&](const char* name) { return (folder / name).string(); };
   const auto evaluate = [&](const std::string& arguments) {
     return gonio_papers("directions --thin 3 5 --networks " + at("n.npy") + " " + arguments);

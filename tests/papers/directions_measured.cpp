@@ -1,9 +1,9 @@
-/// gonio-papers directions-measured on made-up materials.
+/// gonio-papers directions-measured on synthetic materials.
 
 #include "../io/scratch.hpp"
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/networks.hpp>
 
@@ -16,10 +16,10 @@
 namespace {
 
 /// Networks a to g; a table of a material that they do not have; a paint that was measured at 60 places.
-class made_up_measurements {
+class synthetic_measurements {
  public:
-  made_up_measurements() {
-    write_made_up_networks(folder_, {"a", "b", "c", "d", "e", "f", "g"});
+  synthetic_measurements() {
+    write_synthetic_networks(folder_, {"a", "b", "c", "d", "e", "f", "g"});
     std::filesystem::create_directories(folder_ / "tables");
     const auto networks = gonio::io::read_networks(folder_ / "n.npy");
     gonio::io::write_merl(folder_ / "tables" / "g.binary",
@@ -41,18 +41,18 @@ class made_up_measurements {
 }  // namespace
 
 TEST_CASE("real measurements are reconstructed from published, optimal and random directions") {
-  const made_up_measurements made_up;
-  const std::string arguments = "--tables " + made_up.at("tables") + " --samples " + made_up.at("paint.brdf") +
+  const synthetic_measurements synthetic;
+  const std::string arguments = "--tables " + synthetic.at("tables") + " --samples " + synthetic.at("paint.brdf") +
                                 " -n 5 20 --sets published expected-error random --repetitions 2 --state " +
-                                made_up.at("state");
-  const auto table = made_up.evaluate(arguments);
+                                synthetic.at("state");
+  const auto table = synthetic.evaluate(arguments);
   REQUIRE_MESSAGE(table.exit_code == 0, table.output);
   CHECK(table.output.find("| mean of 1 | 20 | expected-error |") != std::string::npos);
 
   // What is done is kept.
-  const std::string kept = scratch::get(made_up.at("state"));
-  const auto printed = made_up.evaluate(arguments + " --json");
-  const std::string again = scratch::get(made_up.at("state"));
+  const std::string kept = scratch::get(synthetic.at("state"));
+  const auto printed = synthetic.evaluate(arguments + " --json");
+  const std::string again = scratch::get(synthetic.at("state"));
   CHECK(again.starts_with(kept));
   CHECK(again.find_first_not_of('\n', kept.size()) == std::string::npos);
   REQUIRE_MESSAGE(printed.exit_code == 0, printed.output);
@@ -73,15 +73,15 @@ TEST_CASE("real measurements are reconstructed from published, optimal and rando
 }
 
 TEST_CASE("directions-measured: nothing to reconstruct, and nothing left to judge by") {
-  const made_up_measurements made_up;
-  const auto nothing = made_up.evaluate("");
+  const synthetic_measurements synthetic;
+  const auto nothing = synthetic.evaluate("");
   CHECK(nothing.exit_code == 2);
   CHECK(nothing.output.find("give --tables or --samples") != std::string::npos);
-  const auto unknown = made_up.evaluate("--sets beauty -n 5 --samples " + made_up.at("paint.brdf"));
+  const auto unknown = synthetic.evaluate("--sets beauty -n 5 --samples " + synthetic.at("paint.brdf"));
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("no set by beauty") != std::string::npos);
-  CHECK(made_up.evaluate("--eta -1 -n 5 --samples " + made_up.at("paint.brdf")).exit_code == 2);
-  const auto all = made_up.evaluate("-n 60 --sets random --samples " + made_up.at("paint.brdf"));
+  CHECK(synthetic.evaluate("--eta -1 -n 5 --samples " + synthetic.at("paint.brdf")).exit_code == 2);
+  const auto all = synthetic.evaluate("-n 60 --sets random --samples " + synthetic.at("paint.brdf"));
   CHECK(all.exit_code == 2);
   CHECK(all.output.find("no sample is left to judge by") != std::string::npos);
 }

@@ -1,8 +1,8 @@
-/// gonio-papers eta on a few made-up materials.
+/// gonio-papers eta on a few synthetic materials.
 
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -13,7 +13,7 @@ TEST_CASE("chosen penalties against the best in hindsight") {
   const scratch::folder folder;
   std::vector<std::string> names = gonio::nielsen_test_materials();
   for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
-  write_made_up_networks(folder, names);
+  write_synthetic_networks(folder, names);
   const std::string evaluate = "eta --thin 3 5 --networks " + (folder / "n.npy").string() + " ";
 
   const auto printed = gonio_papers(evaluate + "-n 5 --noise 0 0.3 --repetitions 2 --json");

@@ -1,6 +1,6 @@
 #include "papers/nielsen2015/few_samples.hpp"
 
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -9,9 +9,9 @@
 
 TEST_CASE("more directions are better, and the projection is better still") {
   const gonio::valid_cells cells(gonio::grid({24, 15, 18}));
-  const auto prior = learn(made_up_materials(cells, 12), 20);
-  const auto truths = made_up_materials(cells, 2, 4711);
-  const gonio::appearance_judge judge(cells, 12);
+  const auto prior = learn(synthetic_materials(cells, 12), 20);
+  const auto truths = synthetic_materials(cells, 2, 4711);
+  const gonio::appearance_metric judge(cells, 12);
   std::vector<gonio::half_difference> directions{
       {0.02, 0.5, 0.1}, {0.1, 0.9, 1.0}, {0.6, 0.3, 1.5}, {0.05, 0.1, 2.0}, {0.3, 1.0, 1.6}};
   const auto error = [&](std::size_t count) {

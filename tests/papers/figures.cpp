@@ -1,8 +1,8 @@
-/// gonio-papers figures on a few made-up materials.
+/// gonio-papers figures on a few synthetic materials.
 
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ class figures_database {
   figures_database() {
     std::vector<std::string> names = gonio::nielsen_test_materials();
     for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
-    write_made_up_networks(folder_, names);
+    write_synthetic_networks(folder_, names);
   }
 
   [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
@@ -93,7 +93,7 @@ TEST_CASE("figures 2015-8, 2015-9 and 2016-19: points and spheres") {
   CHECK(rows_with(nineteen[3], "criterion", "expected error")[0]["steps"] == 1);
 }
 
-TEST_CASE("figures 2016-5, 6, 7 and 13: pictures from close by") {
+TEST_CASE("figures 2016-5, 6, 7 and 13: images from close by") {
   const figures_database database;
   const std::string few = " --step 40 --fov 25 --most 2";
   const json five = database.draw("2016-5" + few);
@@ -111,7 +111,7 @@ TEST_CASE("figures 2016-5, 6, 7 and 13: pictures from close by") {
   CHECK(seven[0]["rows"][0]["materials"] == 6);
 
   const json thirteen = database.draw("2016-13" + few);
-  // One picture can be taken wherever camera and light are fixed.
+  // One image can be taken wherever camera and light are fixed.
   const json& one = thirteen[0]["rows"][0];
   CHECK(one["fixed camera"].get<double>() == doctest::Approx(one["free"].get<double>()));
   const auto angles = rows_with(thirteen[1], "set", "fixed camera");

@@ -1,8 +1,8 @@
-/// The experiments after Noell et al. 2014 on a few made-up materials.
+/// The experiments after Noell et al. 2014 on a few synthetic materials.
 
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,9 +13,9 @@
 namespace {
 
 /// A folder with five networks of random weights, named a to e.
-class made_up_database {
+class synthetic_database {
  public:
-  made_up_database() { write_made_up_networks(folder_, {"a", "b", "c", "d", "e"}); }
+  synthetic_database() { write_synthetic_networks(folder_, {"a", "b", "c", "d", "e"}); }
 
   [[nodiscard]] std::string at(const char* name) const { return (folder_ / name).string(); }
 
@@ -41,7 +41,7 @@ std::vector<std::string> lines_with(const std::string& text, const std::string& 
 }  // namespace
 
 TEST_CASE("noell-table1: a row for each setting, and what is done is not done again") {
-  const made_up_database database;
+  const synthetic_database database;
   const std::string state = database.at("state");
   const std::string arguments =
       "noell-table1 --materials b --methods our lc --data 40 --outliers 0 0.2 --seeds 1 2 --iterations 0 2 --state " +
@@ -71,7 +71,7 @@ TEST_CASE("noell-table1: a row for each setting, and what is done is not done ag
 }
 
 TEST_CASE("noell-measured: a spectral measurement is judged where it was not used") {
-  const made_up_database database;
+  const synthetic_database database;
   std::string text = "3\n450 550 650\n";
   for (int i = 0; i < 60; ++i) text += std::to_string(0.02 * i) + " 0 " + std::to_string(0.6) + " 2 .1 .2 .3\n";
   scratch::put(database.at("paint.brdf"), text);
@@ -93,7 +93,7 @@ TEST_CASE("noell-measured: a spectral measurement is judged where it was not use
 }
 
 TEST_CASE("noell-corrections: as printed and ours, by two solvers") {
-  const std::string table = made_up_database().evaluate("noell-corrections");
+  const std::string table = synthetic_database().evaluate("noell-corrections");
   CHECK(lines_with(table, "| as printed | NNLS |").size() == 1);
   CHECK(lines_with(table, "| gonio's default | least squares |").size() == 1);
 }

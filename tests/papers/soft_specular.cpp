@@ -1,8 +1,8 @@
-/// gonio-papers soft-specular on a few made-up materials.
+/// gonio-papers soft-specular on a few synthetic materials.
 
 #include "../json.hpp"
-#include "made_up_networks.hpp"
 #include "papers_tool.hpp"
+#include "synthetic_networks.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -12,12 +12,12 @@
 namespace {
 
 /// A folder with networks of random weights: the ten test materials, and six to learn from.
-class made_up_database {
+class synthetic_database {
  public:
-  made_up_database() {
+  synthetic_database() {
     std::vector<std::string> names = gonio::nielsen_test_materials();
     for (const char* name : {"a", "b", "c", "d", "e", "f"}) names.emplace_back(name);
-    write_made_up_networks(folder_, names);
+    write_synthetic_networks(folder_, names);
   }
 
   [[nodiscard]] auto evaluate(const std::string& arguments) const {
@@ -37,7 +37,7 @@ std::size_t count_of(const std::string& text, const std::string& words) {
 }  // namespace
 
 TEST_CASE("one prior against a soft and a specular one") {
-  const made_up_database database;
+  const synthetic_database database;
   const auto table = database.evaluate("--counts 1 2");
   REQUIRE_MESSAGE(table.exit_code == 0, table.output);
   CHECK(table.output.find("6 learned, eta = 40; by contrast 3 are soft (eta = 20.0) and 3 specular") !=

@@ -1,5 +1,5 @@
-#include "../made_up_materials.hpp"
 #include "../sampler_checks.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/render/component_brdf.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
@@ -17,7 +17,7 @@ using gonio::render::shared_components;
 namespace {
 
 const gonio::log_relative_pca& some_components() {
-  static const auto prior = learn(made_up_materials(gonio::valid_cells(gonio::grid({20, 15, 30})), 8), 6);
+  static const auto prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({20, 15, 30})), 8), 6);
   return prior;
 }
 

@@ -51,7 +51,7 @@ const environment_map& windows() {
   return map;
 }
 
-/// A glossy sphere under lights. Pictures are normalised; this one is in proportion to the light.
+/// A glossy sphere under lights. Images are normalised; this one is in proportion to the light.
 std::vector<rgb> glossy_sphere(const directional_lighting& lighting) {
   const gonio::model::ggx gloss{.alpha = 0.3, .f0 = {1.0, 0.77, 0.34}};
   std::vector<rgb> colours;
@@ -77,7 +77,7 @@ double relative_difference(const std::vector<rgb>& a, const std::vector<rgb>& b)
 
 }  // namespace
 
-TEST_CASE("the picture's centre is what the camera looks at, longitude runs to the camera's right, up is up") {
+TEST_CASE("the image's centre is what the camera looks at, longitude runs to the camera's right, up is up") {
   const environment_map map(gonio::uniform_image(64, 128, rgb::Ones()));
   const auto near = [](const direction& a, const direction& b) { return (a - b).norm() < 0.06; };
   CHECK(near(map.towards(32, 64), {0.0, 0.0, -1.0}));
@@ -105,14 +105,14 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
       CHECK(map.towards(row, column).norm() == doctest::Approx(1.0).epsilon(1e-15));
       CHECK((map(3.0 * map.towards(row, column)) == gonio::pixel(picture, row, column)).all());
     }
-  // Directions on the picture's edges.
+  // Directions on the image's edges.
   CHECK(map({0.0, 1.0, 0.0}).x() == 1.0);
   CHECK(map({0.0, -1.0, 0.0}).x() == 9.0);
   CHECK(map({0.0, 0.0, 1.0}).y() == 17.0);
   CHECK(map({-0.0, 0.0, 1.0}).y() == 0.0);
 }
 
-TEST_CASE("a spot in the picture's upper right shines from behind the camera, above on its right") {
+TEST_CASE("a spot in the image's upper right shines from behind the camera, above on its right") {
   image picture = black(64);
   gonio::set_pixel(picture, 19, 111, {9.0, 9.0, 9.0});  // near direction (1, 1, 1)
   const gonio::model::ggx gloss{.alpha = 0.1, .f0 = {0.9, 0.9, 0.9}};

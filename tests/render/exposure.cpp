@@ -10,7 +10,7 @@ using gonio::rgb;
 
 namespace {
 
-/// A picture whose sphere has a share of bright pixels, in surroundings that are brighter than both.
+/// An image whose sphere has a share of bright pixels, in surroundings that are brighter than both.
 image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 100) {
   const auto side = static_cast<std::size_t>(size);
   image picture = gonio::uniform_image(side, side, rgb::Constant(1000.0));

@@ -18,7 +18,7 @@ bool is(const image& picture, std::size_t row, std::size_t column, const rgb& co
 
 }  // namespace
 
-TEST_CASE("pictures side by side have one margin between them and one around") {
+TEST_CASE("images side by side have one margin between them and one around") {
   const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
   const image row = gonio::render::side_by_side(pictures, 2, grey);
   REQUIRE(row.shape(0) == 2 + 4 + 2);
@@ -32,7 +32,7 @@ TEST_CASE("pictures side by side have one margin between them and one around") {
     }
 }
 
-TEST_CASE("stacked pictures are the same from top to bottom") {
+TEST_CASE("stacked images are the same from top to bottom") {
   const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
   const image column = gonio::render::stacked(pictures, 1, grey);
   REQUIRE(column.shape(0) == 1 + 2 + 1 + 4 + 1);
@@ -46,7 +46,7 @@ TEST_CASE("stacked pictures are the same from top to bottom") {
     }
 }
 
-TEST_CASE("no pictures make an empty one, and no margin none") {
+TEST_CASE("no images make an empty one, and no margin none") {
   CHECK(gonio::render::side_by_side({}).size() == 0);
   const std::vector one{gonio::uniform_image(2, 2, red)};
   CHECK(gonio::render::side_by_side(one) == one.front());

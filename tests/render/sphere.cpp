@@ -62,7 +62,7 @@ double mean_luminance(const image& picture, int size) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Colours of a picture at the points of an operator.
+/// Colours of an image at the points of an operator.
 sphere_colours at_points(const image& picture, const sphere_operator& op) {
   sphere_colours colours(static_cast<Eigen::Index>(op.points().size()), 3);
   for (std::size_t i = 0; i < op.points().size(); ++i)
@@ -70,7 +70,7 @@ sphere_colours at_points(const image& picture, const sphere_operator& op) {
   return colours;
 }
 
-/// Picture and operator round weights and results to float: a few units of 6e-8, relative to the brightest.
+/// Image and operator round weights and results to float: a few units of 6e-8, relative to the brightest.
 void check_equal(const sphere_colours& a, const sphere_colours& b) {
   REQUIRE(a.rows() == b.rows());
   CHECK((a - b).abs().maxCoeff() <= 5e-7 * b.abs().maxCoeff());
@@ -124,7 +124,7 @@ TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
   }
 }
 
-TEST_CASE("turning the light about the view direction turns the picture") {
+TEST_CASE("turning the light about the view direction turns the image") {
   const std::size_t size = 24;
   const direction light(0.3, 0.8, -0.2), turned(-0.8, 0.3, -0.2);  // by 90 degrees, from x towards y
   const gonio::render::sphere_view view{.size = static_cast<int>(size), .background = {0.1, 0.2, 0.3}};
@@ -213,7 +213,7 @@ TEST_CASE("without light everything is black and finite") {
   for (const float value : picture) CHECK(value == 0.0f);
 }
 
-TEST_CASE("the sphere operator is the picture of the table at its nearest cells") {
+TEST_CASE("the sphere operator is the image of the table at its nearest cells") {
   // A coarse grid: many directions fall into cells whose centre is below the horizon, and those count as zero.
   for (const auto& grid : {gonio::grid({20, 15, 30}), gonio::grid({12, 9, 8}, gonio::cell_anchor::lower_corner)}) {
     const valid_cells cells(grid);
@@ -263,7 +263,7 @@ TEST_CASE("a table over other cells is refused") {
   CHECK((op.apply(brdf_table(valid_cells(gonio::grid({20, 15, 30})))) == 0.0).all());
 }
 
-TEST_CASE("operator pictures have the background around the sphere") {
+TEST_CASE("operator images have the background around the sphere") {
   const valid_cells cells(gonio::grid({20, 15, 30}));
   const sphere_operator op(cells, headlight(), 12);
   const image picture = op.to_image(op.apply(gonio::tabulate(white_lambertian(), cells)), {0.5, 0.25, 2.0});

@@ -1,4 +1,4 @@
-#include "made_up_shapes.hpp"
+#include "synthetic_shapes.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/shape/alignment.hpp>
@@ -175,7 +175,7 @@ TEST_CASE("shapes that differ in pose alone meet at once, in the coordinates of 
 }
 
 TEST_CASE("each aligned shape is one of the given ones, and best aligned with the mean of all") {
-  const auto shapes = made_up_shapes(40, 12, 5, 3);
+  const auto shapes = synthetic_shapes(40, 12, 5, 3);
   std::vector<point_columns> posed;
   for (std::size_t i = 0; i < shapes.size(); ++i) posed.push_back(scattered_pose(i, alignment_kind::rigid)(shapes[i]));
   const auto [aligned, mean, iterations] = gonio::shape::procrustes_mean(posed);
@@ -195,7 +195,7 @@ TEST_CASE("each aligned shape is one of the given ones, and best aligned with th
 }
 
 TEST_CASE("the mean of similar shapes keeps their mean size") {
-  const auto shapes = made_up_shapes(40, 12, 5, 4);
+  const auto shapes = synthetic_shapes(40, 12, 5, 4);
   double size = 0.0;
   for (const point_columns& shape : shapes) size += gonio::shape::detail::centroid_size(shape) / 12.0;
   const auto [aligned, mean, iterations] = gonio::shape::procrustes_mean(shapes, {.kind = alignment_kind::similarity});
@@ -205,7 +205,7 @@ TEST_CASE("the mean of similar shapes keeps their mean size") {
 }
 
 TEST_CASE("what is no set of corresponded shapes is refused") {
-  const auto shapes = made_up_shapes(10, 4, 2, 5);
+  const auto shapes = synthetic_shapes(10, 4, 2, 5);
   const auto refused = [](const std::vector<point_columns>& set, const gonio::shape::procrustes_options& options,
                           const char* why) {
     CHECK_THROWS_WITH_AS((void)gonio::shape::procrustes_mean(set, options), doctest::Contains(why), gonio::error);

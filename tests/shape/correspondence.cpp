@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/shape/correspondence.hpp>
 
 #include <Eigen/Geometry>
@@ -10,7 +10,7 @@ TEST_CASE("a shape finds itself on its own scan, wherever that lies") {
   const gonio::shape::similarity_transform away{1.0, turn.toRotationMatrix(), {5.0, 2.0, -1.0}};
   const gonio::shape::posed_scan scan{gonio::shape::surface_index({away.inverse()(sphere.vertices), sphere.triangles}),
                                       away};
-  const gonio::shape::known_vertices found = gonio::shape::closest_places(scan, sphere);
+  const gonio::shape::vertex_observations found = gonio::shape::closest_places(scan, sphere);
   REQUIRE(static_cast<Eigen::Index>(found.vertices.size()) == sphere.vertices.cols());
   CHECK((found.positions - sphere.vertices).cwiseAbs().maxCoeff() < 1e-12);
   CHECK((found.normals - gonio::shape::vertex_normals(sphere)).cwiseAbs().maxCoeff() < 0.05);

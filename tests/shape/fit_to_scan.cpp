@@ -34,7 +34,7 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
   const auto off = gonio::shape::distance_to(complete, found.pose.inverse()(found.shape()));
   CHECK(off.absolute_mean < 0.12);  // a shape of the family is 1.15 mm from the mean
   CHECK(found.squared_distance() > 0.0);
-  CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.explaining(0.99).basis().size()));
+  CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.truncated_to_variance(0.99).basis().size()));
   // What little motion was left in the end is in the pose.
   CHECK(found.fit.weights().tail<6>().norm() * 1e3 < 0.05);
 }
@@ -48,7 +48,7 @@ TEST_CASE("where a fit ends neither a motion nor other weights of the shape that
                                                about_right(scan, ears.model, 6.0, 1.0), options);
   REQUIRE(found.iterations < options.most_iterations);
   const gonio::shape::shape_basis moving =
-      gonio::shape::with_motion(ears.model.explaining(options.explained_variance).basis(), found.shape());
+      gonio::shape::with_motion(ears.model.truncated_to_variance(options.explained_variance).basis(), found.shape());
   const Eigen::VectorXd next = gonio::decomposition{moving, found.solver}.fit(found.places).weights();
   const gonio::shape::point_columns change = gonio::shape::shape_of(moving, next) - found.shape();
   CHECK(std::sqrt(change.squaredNorm() / static_cast<double>(change.cols())) < 1e-3);
@@ -59,7 +59,7 @@ TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
   const lab::ear_scan scan = ears.scan(3, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
   gonio::shape::fit_to_scan_options options;
-  options.misplacement = 0.05;
+  options.position_error = 0.05;
   options.tolerance = 1e-4;
   options.most_iterations = 1000;
   const auto one = gonio::shape::fit_to_scan(ears.model, index, about_right(scan, ears.model, 0.0, 0.0), options);
@@ -87,12 +87,13 @@ TEST_CASE("what a hole hides is not among the places") {
 
 TEST_CASE("spurious places are hardly trusted") {
   gonio::shape::point_columns shape = gonio::shape::point_columns::Random(3, 100);
-  gonio::shape::known_vertices places = gonio::shape::known_vertices::marked(shape, std::vector<bool>(100, true));
+  gonio::shape::vertex_observations places =
+      gonio::shape::vertex_observations::marked(shape, std::vector<bool>(100, true));
   places.positions.row(0).array() += 0.05;
   places.positions.col(7).array() += 2.0;
-  const Eigen::VectorXd trust = gonio::shape::detail::trust_in(places, shape, 0.05);
-  CHECK(trust[7] < 1e-3);
-  CHECK(trust[8] == doctest::Approx(0.81));  // (1 + 1/9)^-2
+  const Eigen::VectorXd weights = gonio::shape::detail::inlier_weights(places, shape, 0.05);
+  CHECK(weights[7] < 1e-3);
+  CHECK(weights[8] == doctest::Approx(0.81));  // (1 + 1/9)^-2
 }
 
 TEST_CASE("a pose that is wrong is refused") {

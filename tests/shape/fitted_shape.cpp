@@ -1,5 +1,5 @@
 #include "../dense_reference.hpp"
-#include "made_up_shapes.hpp"
+#include "synthetic_shapes.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/solve/least_squares.hpp>
@@ -17,7 +17,7 @@ namespace {
 /// E{s1|y2} as Eq. 5-7 have it, from the covariance of the shapes, with the largest eigenvalues of S22 that explain a
 /// share. Returns all vertices, the known ones predicted, too.
 gonio::shape::point_columns by_block_covariance(const gonio::shape::shape_basis& basis,
-                                                const gonio::shape::known_vertices& known, double share) {
+                                                const gonio::shape::vertex_observations& known, double share) {
   const Eigen::MatrixXd q = basis.components().cast<double>();
   const Eigen::MatrixXd covariance = q * q.transpose() / static_cast<double>(basis.names().size());
   std::vector<Eigen::Index> rows;
@@ -44,25 +44,25 @@ TEST_CASE("decomposition over vertices is the conditional expectation of Eq. 7")
     const auto vertices = *rc::gen::inRange<Eigen::Index>(3, 12);
     const auto shapes = *rc::gen::inRange<std::size_t>(4, 20);
     const double share = *rc::gen::element(0.3, 0.9, 0.99);
-    const auto all = made_up_shapes(vertices, shapes + 1, 6, seed);
-    const gonio::shape::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+    const auto all = synthetic_shapes(vertices, shapes + 1, 6, seed);
+    const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
     std::vector<bool> marks(static_cast<std::size_t>(vertices), false);
     for (std::size_t v = 0; v < marks.size(); v += 2) marks[v] = true;
-    const auto known = gonio::shape::known_vertices::marked(all.back(), marks);
+    const auto known = gonio::shape::vertex_observations::marked(all.back(), marks);
     const auto fit = gonio::decomposition{basis, gonio::truncated_svd{share}}.fit(known);
     const gonio::shape::point_columns expected = by_block_covariance(basis, known, share);
     RC_ASSERT((fit.vertices() - expected).cwiseAbs().maxCoeff() < 1e-4);
-    RC_ASSERT(fit.found().certificate[0] < 1e-9);
+    RC_ASSERT(fit.found().kkt_residual[0] < 1e-9);
     RC_ASSERT((fit.vertex(1) - fit.vertices().col(1)).norm() < 1e-5);
   });
 }
 
 TEST_CASE("a shape of the family is completed, one outside of it only as far as it is of the family") {
-  const auto all = made_up_shapes(30, 60, 4, 7);
-  const gonio::shape::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+  const auto all = synthetic_shapes(30, 60, 4, 7);
+  const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
   std::vector<bool> marks(30, true);
   for (std::size_t v = 10; v < 20; ++v) marks[v] = false;
-  const auto known = gonio::shape::known_vertices::marked(all.back(), marks);
+  const auto known = gonio::shape::vertex_observations::marked(all.back(), marks);
   const auto off = [&](const auto& solver) {
     return (gonio::decomposition{basis, solver}.fit(known).vertices() - all.back()).middleCols(10, 10).norm();
   };
@@ -73,31 +73,31 @@ TEST_CASE("a shape of the family is completed, one outside of it only as far as 
 }
 
 TEST_CASE("all vertices known is a projection on the family") {
-  const auto all = made_up_shapes(8, 12, 3, 8);
-  const gonio::shape::shape_basis basis = made_up_basis(all);
-  const auto known = gonio::shape::known_vertices::marked(all[4], std::vector<bool>(8, true));
+  const auto all = synthetic_shapes(8, 12, 3, 8);
+  const gonio::shape::shape_basis basis = synthetic_basis(all);
+  const auto known = gonio::shape::vertex_observations::marked(all[4], std::vector<bool>(8, true));
   const auto fit = gonio::decomposition{basis, gonio::truncated_svd{1.0}}.fit(known);
   CHECK((fit.vertices() - all[4]).cwiseAbs().maxCoeff() < 1e-4);
 }
 
 TEST_CASE("along a surface a place hardly counts, and one that is not trusted not at all") {
-  const auto all = made_up_shapes(30, 60, 4, 11);
-  const gonio::shape::shape_basis basis = made_up_basis({all.begin(), all.end() - 1});
+  const auto all = synthetic_shapes(30, 60, 4, 11);
+  const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
   const gonio::decomposition estimator{basis, gonio::tikhonov{1e-3}};
-  const auto exact = gonio::shape::known_vertices::marked(all.back(), std::vector<bool>(30, true));
+  const auto exact = gonio::shape::vertex_observations::marked(all.back(), std::vector<bool>(30, true));
   const double best = (estimator.fit(exact).vertices() - all.back()).norm();
-  gonio::shape::known_vertices slid = exact;
+  gonio::shape::vertex_observations slid = exact;
   for (Eigen::Index i = 0; i < 30; ++i) slid.positions.col(i) += Eigen::Vector3d(0.0, 0.5, -0.5);
   const double in_full = (estimator.fit(slid).vertices() - all.back()).norm();
   slid.normals = Eigen::Vector3d::UnitX().replicate(1, 30);
   slid.tangential = 1e-6;
   CHECK((estimator.fit(slid).vertices() - all.back()).norm() < 0.5 * in_full);
 
-  gonio::shape::known_vertices wrong = exact;
+  gonio::shape::vertex_observations wrong = exact;
   wrong.positions.col(3).array() += 100.0;
   CHECK((estimator.fit(wrong).vertices() - all.back()).norm() > 10.0 * best);
-  wrong.trust = Eigen::VectorXd::Ones(30);
-  wrong.trust[3] = 0.0;
+  wrong.weights = Eigen::VectorXd::Ones(30);
+  wrong.weights[3] = 0.0;
   CHECK((estimator.fit(wrong).vertices() - all.back()).norm() < 2.0 * best);
 
   wrong.normals = Eigen::Vector3d(1.0, 1.0, 0.0).replicate(1, 30);
@@ -105,9 +105,9 @@ TEST_CASE("along a surface a place hardly counts, and one that is not trusted no
 }
 
 TEST_CASE("known vertices that say nothing are refused") {
-  const gonio::shape::shape_basis basis = made_up_basis(made_up_shapes(5, 6, 3, 9));
+  const gonio::shape::shape_basis basis = synthetic_basis(synthetic_shapes(5, 6, 3, 9));
   const gonio::decomposition estimator{basis, gonio::truncated_svd{0.99}};
-  gonio::shape::known_vertices known;
+  gonio::shape::vertex_observations known;
   CHECK_THROWS_WITH_AS(estimator.fit(known), "no vertex is known: there is nothing to predict a shape from",
                        gonio::error);
   known.vertices = {1, 5};

@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/geodesic.hpp>
 
@@ -77,7 +77,7 @@ TEST_CASE("distances are the shortest of all paths along edges, and the same bot
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     gonio::shape::triangle_mesh mesh = tube_mesh(4, 5);
-    for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.7);
+    for (auto vertex : mesh.vertices.colwise()) vertex += synthetic_point(generator, 0.7);
     const mesh_topology topology(mesh);
     const auto source = static_cast<Eigen::Index>(generator() % 20),
                other = static_cast<Eigen::Index>(generator() % 20);
@@ -104,7 +104,7 @@ TEST_CASE("the nearest candidates are the first of all by distance and number") 
     std::mt19937_64 generator(seed);
     gonio::shape::triangle_mesh mesh = flat_grid(6, 7);  // many at the same distance
     if (generator() % 2 == 0)
-      for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.3);
+      for (auto vertex : mesh.vertices.colwise()) vertex += synthetic_point(generator, 0.3);
     const mesh_topology topology(mesh);
     std::vector<bool> candidates;
     for (int v = 0; v < 42; ++v) candidates.push_back(generator() % 3 != 0);

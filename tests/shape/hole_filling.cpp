@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/hole_filling.hpp>
 
@@ -109,7 +109,7 @@ TEST_CASE("no other filling bends less, and known vertices stay") {
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     gonio::shape::triangle_mesh mesh = sphere_mesh(1);
-    for (auto vertex : mesh.vertices.colwise()) vertex += made_up_point(generator, 0.3);
+    for (auto vertex : mesh.vertices.colwise()) vertex += synthetic_point(generator, 0.3);
     std::vector<bool> known;
     for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) known.push_back(generator() % 3 != 0);
     known[5] = true;
@@ -118,7 +118,7 @@ TEST_CASE("no other filling bends less, and known vertices stay") {
     for (std::size_t v = 0; v < known.size(); ++v) {
       const auto column = static_cast<Eigen::Index>(v);
       if (known[v]) RC_ASSERT(best.col(column) == mesh.vertices.col(column));
-      if (!known[v]) other.col(column) += made_up_point(generator, 1e-3);
+      if (!known[v]) other.col(column) += synthetic_point(generator, 1e-3);
     }
     RC_ASSERT(bending(mesh, best) <= bending(mesh, other));
   }));

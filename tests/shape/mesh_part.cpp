@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/mesh_topology.hpp>
@@ -41,7 +41,7 @@ TEST_CASE("any part of a surface is a surface, with the triangles of the whole")
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
     std::mt19937_64 generator(seed);
     std::vector<bool> marked(vertices);
-    for (std::size_t v = 0; v < vertices; ++v) marked[v] = made_up_number(generator) < 0.7;
+    for (std::size_t v = 0; v < vertices; ++v) marked[v] = synthetic_number(generator) < 0.7;
     std::vector<Eigen::Index> kept;
     for (Eigen::Index t = 0; t < sphere.triangles.cols(); ++t) {
       const Eigen::Vector3i corners = sphere.triangles.col(t);

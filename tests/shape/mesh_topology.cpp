@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 

@@ -65,9 +65,9 @@ TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
   const recovered_hole judge(ears, 1);
   const double spread = judge.off(ears.model.mean().vertices, judge.pose);
   for (const int local_rounds : {0, 2}) {
-    gonio::shape::published_recovery_options options;
+    gonio::shape::algorithm_1_options options;
     options.local_rounds = local_rounds;
-    const auto found = gonio::shape::recover_as_published(ears.model, judge.index, judge.pose, options);
+    const auto found = gonio::shape::recover_algorithm_1(ears.model, judge.index, judge.pose, options);
     CHECK(judge.off(found.surface.vertices, found.pose) < spread);
     CHECK(found.known.vertices.size() < 500);
     CHECK(found.known.vertices.size() > 350);
@@ -75,7 +75,7 @@ TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
 }
 
 TEST_CASE("the explained variance rises from the first to the last round and holds") {
-  const gonio::shape::published_recovery_options options;
+  const gonio::shape::algorithm_1_options options;
   CHECK(gonio::shape::detail::explained_variance_in(0, options) == 0.30);
   CHECK(gonio::shape::detail::explained_variance_in(9, options) == 0.999);
   CHECK(gonio::shape::detail::explained_variance_in(5, options) >

@@ -1,4 +1,4 @@
-#include "made_up_canals.hpp"
+#include "synthetic_canals.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/shape/shape_context.hpp>
@@ -44,8 +44,8 @@ TEST_CASE("a frame is right-handed, with the normal third and the vertical in th
   CHECK(rc::check([] {
     std::mt19937_64 generator(*rc::gen::arbitrary<std::uint64_t>());
     shape_context_options options;
-    options.vertical = made_up_point(generator, 5.0);
-    const Eigen::Vector3d normal = made_up_point(generator, 1.0).normalized();
+    options.vertical = synthetic_point(generator, 5.0);
+    const Eigen::Vector3d normal = synthetic_point(generator, 1.0).normalized();
     const double inclination = gonio::angle_between(normal, options.vertical);
     const bool expected = std::min(inclination, std::numbers::pi - inclination) > options.least_inclination;
     const auto frame = gonio::shape::context_frame(normal, options);
@@ -204,7 +204,7 @@ TEST_CASE("costs are chi-square distances") {
   CHECK(costs(0, 1) == doctest::Approx(1.0));
   CHECK(costs(1, 0) == doctest::Approx(0.5 * (0.25 / 1.5 + 0.5)));
   CHECK(costs(1, 2) == doctest::Approx(0.5 * (0.0625 / 0.75 + 0.25)));
-  const triangle_mesh canal = canal_mesh(20, 17), other = canal_mesh(22, 16, made_up_traits(3));
+  const triangle_mesh canal = canal_mesh(20, 17), other = canal_mesh(22, 16, synthetic_traits(3));
   const auto first = describe(canal, spread_vertices(canal, 30)), second = describe(other, spread_vertices(other, 35));
   const Eigen::MatrixXd all = gonio::shape::chi_square_costs(first, second, {1});
   CHECK(gonio::shape::chi_square_costs(first, second, {4}) == all);
@@ -228,7 +228,7 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
     }
   }
   // The most alike first.
-  const triangle_mesh other = canal_mesh(30, 26, made_up_traits(4));
+  const triangle_mesh other = canal_mesh(30, 26, synthetic_traits(4));
   const auto matches = gonio::shape::match(describe(other, spread_vertices(other, 50)), many);
   CHECK(std::ranges::is_sorted(matches, {}, &gonio::shape::shape_match::cost));
   CHECK(matches.front().cost > 0.0);

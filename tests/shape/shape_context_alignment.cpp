@@ -1,4 +1,4 @@
-#include "made_up_canals.hpp"
+#include "synthetic_canals.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
@@ -21,8 +21,8 @@ namespace {
 /// On the platform: any turn about the vertical axis, anywhere.
 similarity_transform platform_pose(std::uint64_t seed) {
   std::mt19937_64 generator(seed);
-  const double turn = 2.0 * std::numbers::pi * made_up_number(generator);
-  return {1.0, Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()).toRotationMatrix(), made_up_point(generator, 80.0)};
+  const double turn = 2.0 * std::numbers::pi * synthetic_number(generator);
+  return {1.0, Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitY()).toRotationMatrix(), synthetic_point(generator, 80.0)};
 }
 
 triangle_mesh posed(triangle_mesh mesh, const similarity_transform& pose) {
@@ -54,7 +54,7 @@ shape_context_alignment_options quick_options() {
 constexpr Eigen::Index canal_rings = 36, canal_sectors = 32;
 
 triangle_mesh individual_canal(std::uint64_t seed) {
-  return canal_mesh(canal_rings, canal_sectors, made_up_traits(seed));
+  return canal_mesh(canal_rings, canal_sectors, synthetic_traits(seed));
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ TEST_CASE("individuals, otherwise triangulated and in any pose, are brought near
   const shape_context_matcher matcher(model, quick_options());
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const similarity_transform pose = platform_pose(seed);
-    const triangle_mesh scan = posed(canal_mesh(45, 29, made_up_traits(seed)), pose);
+    const triangle_mesh scan = posed(canal_mesh(45, 29, synthetic_traits(seed)), pose);
     const similarity_transform truth = gonio::shape::align(pose(individual_canal(seed).vertices), model.vertices);
     const pre_alignment found = matcher.align(scan);
     CHECK(turn_between(found.transform, truth) < 12.0);
@@ -88,7 +88,8 @@ TEST_CASE("individuals, otherwise triangulated and in any pose, are brought near
 }
 
 TEST_CASE("the mean distances are those of closest vertices") {
-  const triangle_mesh model = canal_mesh(20, 17), scan = posed(canal_mesh(17, 21, made_up_traits(5)), platform_pose(5));
+  const triangle_mesh model = canal_mesh(20, 17),
+                      scan = posed(canal_mesh(17, 21, synthetic_traits(5)), platform_pose(5));
   const pre_alignment found = gonio::shape::align_by_shape_context(scan, model, quick_options());
   const gonio::shape::point_columns aligned = found.transform(scan.vertices);
   const auto expected = [](const gonio::shape::point_columns& from, const gonio::shape::point_columns& onto) {
@@ -153,10 +154,10 @@ TEST_CASE("an infinite tolerance is the paper's least squares over the most sign
 TEST_CASE("wrong matches do not move the pose, if there are not too many") {
   std::mt19937_64 generator(4);
   gonio::shape::detail::matched_points points{gonio::shape::point_columns(3, 90), {}};
-  for (auto point : points.from.colwise()) point = made_up_point(generator, 12.0);
+  for (auto point : points.from.colwise()) point = synthetic_point(generator, 12.0);
   const similarity_transform pose = platform_pose(3);
   points.onto = pose(points.from);
-  for (Eigen::Index i = 1; i < 90; i += 3) points.onto.col(i) = pose(made_up_point(generator, 12.0));
+  for (Eigen::Index i = 1; i < 90; i += 3) points.onto.col(i) = pose(synthetic_point(generator, 12.0));
   const auto [found, used] = gonio::shape::detail::robust_pose(points, 30, 3.0);
   CHECK(turn_between(found, pose) < 1.5);
   CHECK(used >= 60);
@@ -166,7 +167,8 @@ TEST_CASE("wrong matches do not move the pose, if there are not too many") {
 }
 
 TEST_CASE("the same bytes for any number of threads") {
-  const triangle_mesh model = canal_mesh(20, 17), scan = posed(canal_mesh(25, 20, made_up_traits(2)), platform_pose(2));
+  const triangle_mesh model = canal_mesh(20, 17),
+                      scan = posed(canal_mesh(25, 20, synthetic_traits(2)), platform_pose(2));
   const auto run = [&](unsigned threads) {
     return gonio::shape::align_by_shape_context(scan, model, quick_options(), {threads});
   };

@@ -1,5 +1,5 @@
 #include "../dense_reference.hpp"
-#include "made_up_shapes.hpp"
+#include "synthetic_shapes.hpp"
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
 #include <gonio/solve/tikhonov.hpp>
@@ -22,8 +22,8 @@ std::vector<Eigen::Index> every_other(Eigen::Index first, Eigen::Index vertices)
 
 TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
   const Eigen::Index vertices = 6;
-  const auto shapes = made_up_shapes(vertices, 60, 5, 1);
-  const gonio::shape::shape_basis basis = made_up_basis(shapes);
+  const auto shapes = synthetic_shapes(vertices, 60, 5, 1);
+  const gonio::shape::shape_basis basis = synthetic_basis(shapes);
   REQUIRE(basis.size() == 18);
   const Eigen::MatrixXd q = basis.components().cast<double>();
   const Eigen::MatrixXd covariance = q * q.transpose() / 60.0;
@@ -32,7 +32,7 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
                         s22 = covariance(known_rows, known_rows);
   const Eigen::MatrixXd expected = s11 - s12 * dense_reference::inverse(s22) * s12.transpose();
 
-  const auto known = gonio::shape::known_vertices::marked(shapes[0], {true, false, true, false, true, false});
+  const auto known = gonio::shape::vertex_observations::marked(shapes[0], {true, false, true, false, true, false});
   const gonio::truncated_svd solver{1.0};
   const auto fit = gonio::decomposition{basis, solver}.fit(known);
   const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);
@@ -46,10 +46,10 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
 }
 
 TEST_CASE("by Tikhonov it is the posterior of the weights") {
-  const auto shapes = made_up_shapes(8, 20, 5, 2);
-  const gonio::shape::shape_basis basis = made_up_basis(shapes);
+  const auto shapes = synthetic_shapes(8, 20, 5, 2);
+  const gonio::shape::shape_basis basis = synthetic_basis(shapes);
   const auto known =
-      gonio::shape::known_vertices::marked(shapes[3], {true, false, true, false, true, false, true, false});
+      gonio::shape::vertex_observations::marked(shapes[3], {true, false, true, false, true, false, true, false});
   const double eta = 0.5;
   const gonio::tikhonov solver{eta};
   const gonio::shape::shape_uncertainty uncertainty(gonio::decomposition{basis, solver}.fit(known), known, solver);
@@ -70,12 +70,12 @@ TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of 
     std::size_t inside = 0, inside_as_published = 0, all = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Eigen::Index vertices = 30;
-      const auto shapes = made_up_shapes(vertices, count + 20, 12, seed);
-      const gonio::shape::shape_basis basis = made_up_basis({shapes.begin(), shapes.end() - 20});
+      const auto shapes = synthetic_shapes(vertices, count + 20, 12, seed);
+      const gonio::shape::shape_basis basis = synthetic_basis({shapes.begin(), shapes.end() - 20});
       std::vector<bool> marks(30, true);
       for (std::size_t v = 10; v < 20; ++v) marks[v] = false;
       for (auto shape = shapes.end() - 20; shape != shapes.end(); ++shape) {
-        const auto known = gonio::shape::known_vertices::marked(*shape, marks);
+        const auto known = gonio::shape::vertex_observations::marked(*shape, marks);
         const gonio::truncated_svd solver{0.999};
         const auto fit = gonio::decomposition{basis, solver}.fit(known);
         const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);

@@ -1,5 +1,5 @@
 #pragma once
-/// A coarse model of made-up ear canals, and scans of others, for tests of what works on scans.
+/// A coarse model of synthetic ear canals, and scans of others, for tests of what works on scans.
 
 #include "lab/ear_canal_scans.hpp"
 #include <gonio/shape/shape_model.hpp>

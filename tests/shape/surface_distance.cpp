@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
@@ -50,7 +50,7 @@ TEST_CASE("signed distances are the same by any number of threads") {
   std::mt19937_64 generator(7);
   const gonio::shape::surface_index surface(sphere_mesh(2));
   gonio::shape::point_columns points(3, 700);
-  for (auto point : points.colwise()) point = made_up_point(generator, 2.0);
+  for (auto point : points.colwise()) point = synthetic_point(generator, 2.0);
   const Eigen::VectorXd one = gonio::shape::signed_distances(surface, points, {1});
   CHECK(one == gonio::shape::signed_distances(surface, points, {3}));
   for (Eigen::Index i = 0; i < 700; ++i) CHECK(one[i] == surface.signed_distance(points.col(i)));

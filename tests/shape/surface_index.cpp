@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/shape/surface_index.hpp>
 
@@ -66,9 +66,9 @@ gonio::shape::triangle_mesh triangle_soup(std::mt19937_64& generator, int triang
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Eigen::Vector3i> corners;
   for (int t = 0; t < triangles; ++t) {
-    const Eigen::Vector3d place = made_up_point(generator, 2.0);
-    const double size = std::pow(10.0, -3.0 * made_up_number(generator));
-    for (int corner = 0; corner < 3; ++corner) vertices.emplace_back(place + made_up_point(generator, size));
+    const Eigen::Vector3d place = synthetic_point(generator, 2.0);
+    const double size = std::pow(10.0, -3.0 * synthetic_number(generator));
+    for (int corner = 0; corner < 3; ++corner) vertices.emplace_back(place + synthetic_point(generator, size));
     corners.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
   }
   return mesh_of(vertices, corners);
@@ -96,7 +96,7 @@ TEST_CASE("the closest point is that of all triangles") {
   for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
     const surface_index surface(mesh);
     for (int i = 0; i < 300; ++i) {
-      const Eigen::Vector3d point = made_up_point(generator, 3.0);
+      const Eigen::Vector3d point = synthetic_point(generator, 3.0);
       const surface_point found = surface.closest(point);
       check_consistent(mesh, found);
       CHECK(std::abs(found.distance - least_distance(mesh, point)) < 1e-13);
@@ -120,10 +120,10 @@ TEST_CASE("a surface that is moved and grown has its closest points moved and gr
   CHECK(rc::check([](std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     gonio::shape::triangle_mesh mesh = tube_mesh(4, 6);
-    const Eigen::Vector3d point = made_up_point(generator, 3.0), shift = made_up_point(generator, 5.0);
-    const Eigen::Vector3d axis = made_up_point(generator, 1.0) + Eigen::Vector3d(0.0, 0.0, 2.0);
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(made_up_number(generator), axis.normalized()).toRotationMatrix();
-    const double scale = 0.1 + 10.0 * made_up_number(generator);
+    const Eigen::Vector3d point = synthetic_point(generator, 3.0), shift = synthetic_point(generator, 5.0);
+    const Eigen::Vector3d axis = synthetic_point(generator, 1.0) + Eigen::Vector3d(0.0, 0.0, 2.0);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(synthetic_number(generator), axis.normalized()).toRotationMatrix();
+    const double scale = 0.1 + 10.0 * synthetic_number(generator);
     const double before = surface_index(mesh).signed_distance(point);
     mesh.vertices = ((scale * turn * mesh.vertices).colwise() + shift).eval();
     const double after = surface_index(mesh).signed_distance(scale * turn * point + shift);
@@ -162,8 +162,8 @@ TEST_CASE("a line's nearest intersection is that of all triangles") {
   for (const gonio::shape::triangle_mesh& mesh : various_surfaces(generator)) {
     const surface_index surface(mesh);
     for (int i = 0; i < 300; ++i) {
-      const Eigen::Vector3d origin = made_up_point(generator, 2.0);
-      const Eigen::Vector3d direction = (made_up_point(generator, 1.0) - origin).normalized();
+      const Eigen::Vector3d origin = synthetic_point(generator, 2.0);
+      const Eigen::Vector3d direction = (synthetic_point(generator, 1.0) - origin).normalized();
       const auto expected = least_along(mesh, origin, direction);
       const auto found = surface.along(origin, 7.0 * direction, 100.0);
       REQUIRE(found.has_value() == expected.has_value());
@@ -236,7 +236,7 @@ TEST_CASE("an inner edge between two border vertices is not a border") {
 TEST_CASE("a closed surface has no border to be closest to") {
   std::mt19937_64 generator(3);
   const surface_index surface(sphere_mesh(1));
-  for (int i = 0; i < 300; ++i) CHECK_FALSE(surface.closest(made_up_point(generator, 2.0)).on_border);
+  for (int i = 0; i < 300; ++i) CHECK_FALSE(surface.closest(synthetic_point(generator, 2.0)).on_border);
 }
 
 TEST_CASE("distances are positive outside of a closed surface and negative inside, near edges and vertices too") {
@@ -249,9 +249,9 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
       // About an edge, from its middle to its end.
       const auto triangle = static_cast<Eigen::Index>(generator() % static_cast<std::uint64_t>(mesh.triangles.cols()));
       const Eigen::Matrix3d corners = mesh.corners(triangle);
-      const double share = std::min(1.0, 1.2 * made_up_number(generator));
+      const double share = std::min(1.0, 1.2 * synthetic_number(generator));
       const Eigen::Vector3d point =
-          share * corners.col(0) + (1.0 - share) * corners.col(1) + made_up_point(generator, i % 2 == 0 ? 1.0 : 1e-3);
+          share * corners.col(0) + (1.0 - share) * corners.col(1) + synthetic_point(generator, i % 2 == 0 ? 1.0 : 1e-3);
       // Convex: outside is outside of some triangle's plane.
       double above = -std::numeric_limits<double>::infinity();
       for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
@@ -273,7 +273,7 @@ TEST_CASE("the sign at a vertex is right where the mean normal by area has it wr
   std::mt19937_64 generator(5);
   int outside = 0, wrong_by_mean = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Eigen::Vector3d point = made_up_point(generator, 1.0);
+    const Eigen::Vector3d point = synthetic_point(generator, 1.0);
     const surface_point place = surface.closest(point);
     if (place.distance == 0.0 || place.position != spike.vertices.col(0)) continue;
     ++outside;  // the vertex is convex: what is closest to it is outside
@@ -300,7 +300,7 @@ TEST_CASE("many points are answered as one by one, by any number of threads") {
   std::mt19937_64 generator(6);
   const surface_index surface(sphere_mesh(2));
   gonio::shape::point_columns points(3, 1000);
-  for (auto point : points.colwise()) point = made_up_point(generator, 2.0);
+  for (auto point : points.colwise()) point = synthetic_point(generator, 2.0);
   const auto one = gonio::shape::closest_points(surface, points, {1}),
              three = gonio::shape::closest_points(surface, points, {3});
   REQUIRE(one.size() == 1000);

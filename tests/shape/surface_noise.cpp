@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/shape/surface_noise.hpp>
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@ gonio::shape::triangle_mesh with_noise(gonio::shape::triangle_mesh mesh, double 
   std::mt19937_64 generator(seed);
   const gonio::shape::point_columns normals = gonio::shape::vertex_normals(mesh);
   for (Eigen::Index v = 0; v < normals.cols(); ++v)
-    mesh.vertices.col(v) += deviation * std::sqrt(12.0) * (made_up_number(generator) - 0.5) * normals.col(v);
+    mesh.vertices.col(v) += deviation * std::sqrt(12.0) * (synthetic_number(generator) - 0.5) * normals.col(v);
   return mesh;
 }
 

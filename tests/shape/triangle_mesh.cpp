@@ -1,4 +1,4 @@
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <doctest/doctest.h>

@@ -183,7 +183,7 @@ TEST_CASE("dependent columns and rows, tall and wide") {
       const least_squares_problem problem(rows, right);
       const double eta = choose_eta(problem, criterion);
       CHECK(score(problem, criterion, eta) < 1.3 * 0.01 * n);
-      CHECK(automatic_tikhonov(criterion).solve(problem).certificate[0] < 1e-9);
+      CHECK(automatic_tikhonov(criterion).solve(problem).kkt_residual[0] < 1e-9);
     }
   }
 }
@@ -195,7 +195,7 @@ TEST_CASE("the solver is Tikhonov's with the chosen eta, and rows without weight
       const double eta = choose_eta(problem, criterion);
       const auto found = automatic_tikhonov(criterion).solve(problem);
       CHECK(found.weights == tikhonov(eta).solve(problem).weights);
-      CHECK(found.certificate.maxCoeff() < 1e-9);
+      CHECK(found.kkt_residual.maxCoeff() < 1e-9);
 
       Eigen::MatrixXd rows(n + 40, k), right(n + 40, 2);
       rows << problem.rows(), random_matrix(40, k, 1);

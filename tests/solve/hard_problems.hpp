@@ -152,11 +152,11 @@ struct verdict {
   using extended = long double;
   const Eigen::Index n = problem.matrix.rows(), k = problem.matrix.cols();
   std::vector<extended> misfit(static_cast<std::size_t>(n));
-  extended squares = 0, energy = 0, magnitude = 0;
+  extended squares = 0, rhs_squared_norm = 0, magnitude = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     extended& left = misfit[static_cast<std::size_t>(i)];
     left = problem.right[i];
-    energy += left * left;
+    rhs_squared_norm += left * left;
     for (Eigen::Index j = 0; j < k; ++j) left -= static_cast<extended>(problem.matrix(i, j)) * x[j];
     squares += left * left;
     magnitude = 0;
@@ -172,7 +172,7 @@ struct verdict {
     length[at] = length[at] > 0 ? std::sqrt(length[at]) : 1;
     magnitude += length[at] * std::abs(static_cast<extended>(x[j]));
   }
-  magnitude += std::sqrt(energy);
+  magnitude += std::sqrt(rhs_squared_norm);
   extended worst = 0, sum = 0;
   for (Eigen::Index j = 0; j < k; ++j) {
     const auto at = static_cast<std::size_t>(j);
@@ -187,7 +187,7 @@ struct verdict {
     worst = std::max(worst, off / length[at]);
     sum += std::abs(static_cast<extended>(x[j]));
   }
-  const extended whole = energy > 0 ? energy : 1;
+  const extended whole = rhs_squared_norm > 0 ? rhs_squared_norm : 1;
   return {static_cast<double>(worst / (magnitude > 0 ? magnitude : 1)), static_cast<double>(std::sqrt(squares / whole)),
           static_cast<double>((squares + 2 * lambda * sum) / whole)};
 }

@@ -93,7 +93,8 @@ inline void check(family what, unsigned seed, std::map<std::string, tally>& tall
                             std::to_string(seed) + ": " + refused.what();
         continue;
       }
-      if (!(found.certificate[0] <= 1e-9)) wrong("certificate " + std::to_string(found.certificate[0] * 1e9) + "e-9");
+      if (!(found.kkt_residual[0] <= 1e-9))
+        wrong("KKT residual " + std::to_string(found.kkt_residual[0] * 1e9) + "e-9");
       if (!found.weights.allFinite()) wrong("not finite");
       if (!each.judged) continue;
       if (each.non_negative && found.weights.minCoeff() < 0.0) wrong("negative");

@@ -19,13 +19,13 @@ TEST_CASE("the optimality conditions hold on random problems of all kinds, with 
     CAPTURE(seed);
     const auto both = lasso(share * gonio::largest_lambda(normal, sign_rule::any)).solve(normal);
     const auto one = non_negative_lasso(share * gonio::largest_lambda(normal, sign_rule::non_negative)).solve(normal);
-    CHECK(both.certificate[0] <= 1e-9);
-    CHECK(one.certificate[0] <= 1e-9);
+    CHECK(both.kkt_residual[0] <= 1e-9);
+    CHECK(one.kkt_residual[0] <= 1e-9);
     CHECK(one.weights.minCoeff() >= 0.0);
     if (share >= 1.0) CHECK(both.weights.isZero(0.0));
-    worst = std::max({worst, both.certificate[0], one.certificate[0]});
+    worst = std::max({worst, both.kkt_residual[0], one.kkt_residual[0]});
   }
-  MESSAGE("worst certificate ", worst);
+  MESSAGE("worst KKT residual ", worst);
 }
 
 TEST_CASE("with orthogonal columns the solution is the soft threshold of least squares") {
@@ -34,21 +34,21 @@ TEST_CASE("with orthogonal columns the solution is the soft threshold of least s
     const auto k = *rc::gen::inRange<Eigen::Index>(1, 30);
     Eigen::VectorXd squares(k);
     for (double& square : squares) square = random.uniform(0.1, 10.0);
-    const Eigen::VectorXd moment = random.gaussian(k, 1);
+    const Eigen::VectorXd rhs = random.gaussian(k, 1);
     const double lambda = random.uniform(0.0, 2.0);
-    const normal_equations normal(squares.asDiagonal(), moment);
+    const normal_equations normal(squares.asDiagonal(), rhs);
     const auto both = lasso(lambda).solve(normal), one = non_negative_lasso(lambda).solve(normal);
     for (Eigen::Index j = 0; j < k; ++j) {
-      const double shrunk = std::max(std::abs(moment[j]) - lambda, 0.0) / squares[j];
-      RC_ASSERT(std::abs(both.weights(j, 0) - std::copysign(shrunk, moment[j])) <= 1e-14 * (1.0 + shrunk));
-      RC_ASSERT(std::abs(one.weights(j, 0) - (moment[j] > 0.0 ? shrunk : 0.0)) <= 1e-14 * (1.0 + shrunk));
+      const double shrunk = std::max(std::abs(rhs[j]) - lambda, 0.0) / squares[j];
+      RC_ASSERT(std::abs(both.weights(j, 0) - std::copysign(shrunk, rhs[j])) <= 1e-14 * (1.0 + shrunk));
+      RC_ASSERT(std::abs(one.weights(j, 0) - (rhs[j] > 0.0 ? shrunk : 0.0)) <= 1e-14 * (1.0 + shrunk));
     }
   }));
 }
 
 TEST_CASE("at the largest penalty all weights of all right-hand sides are zero, and not below it") {
-  const Eigen::MatrixXd moment{{1.0, -7.0}, {3.0, 2.0}};
-  const normal_equations normal(Eigen::MatrixXd::Identity(2, 2), moment);
+  const Eigen::MatrixXd rhs{{1.0, -7.0}, {3.0, 2.0}};
+  const normal_equations normal(Eigen::MatrixXd::Identity(2, 2), rhs);
   CHECK(gonio::largest_lambda(normal, sign_rule::any) == 7.0);
   CHECK(gonio::largest_lambda(normal, sign_rule::non_negative) == 3.0);
   CHECK(lasso(7.0).solve(normal).weights.isZero(0.0));
@@ -78,8 +78,8 @@ TEST_CASE("a path is the solutions of its penalties, from nothing to nearly leas
     double last = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < 20; ++i) {
       const auto alone = lasso(path.lambdas[i]).solve(normal);
-      const double scale = 0.5 * normal.energy()[0];
-      CHECK(path.solutions[i].certificate[0] <= 1e-9);
+      const double scale = 0.5 * normal.rhs_squared_norm()[0];
+      CHECK(path.solutions[i].kkt_residual[0] <= 1e-9);
       CHECK(std::abs(path.solutions[i].objective[0] - alone.objective[0]) <= 1e-8 * scale);
       CHECK(path.solutions[i].residual[0] <= last * (1.0 + 1e-12));
       last = path.solutions[i].residual[0];

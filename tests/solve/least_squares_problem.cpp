@@ -13,7 +13,7 @@ TEST_CASE("normal equations and residuals are weighted, and copies share them") 
   const Eigen::VectorXd weights = Eigen::VectorXd::Random(7).cwiseAbs();
   const least_squares_problem problem(rows, right, weights), copy = problem;
   CHECK(problem.normal().gram().isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
-  CHECK(problem.normal().moment().isApprox(rows.transpose() * weights.asDiagonal() * right, 1e-13));
+  CHECK(problem.normal().rhs().isApprox(rows.transpose() * weights.asDiagonal() * right, 1e-13));
   CHECK(&copy.normal() == &problem.normal());
 
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3, 2);
@@ -51,10 +51,10 @@ TEST_CASE("rows that are only read give the same problem, and a row that is not 
       three({gonio::rows_of(rows), right, weights, {3}});
   CHECK(kept.rows() == rows);
   CHECK(kept.normal().gram().isApprox(rows.transpose() * weights.asDiagonal() * rows, 1e-13));
-  CHECK(kept.normal().energy()[1] ==
+  CHECK(kept.normal().rhs_squared_norm()[1] ==
         doctest::Approx((right.col(1).transpose() * weights.asDiagonal() * right.col(1))(0)));
   CHECK(one.normal().gram() == three.normal().gram());
-  CHECK(one.normal().moment() == three.normal().moment());
+  CHECK(one.normal().rhs() == three.normal().rhs());
   CHECK(one.residual(Eigen::MatrixXd::Ones(5, 2)) == three.residual(Eigen::MatrixXd::Ones(5, 2)));
 
   row_matrix broken = rows;
@@ -97,7 +97,7 @@ TEST_CASE("weighted equations are those of the rows of positive weight") {
   REQUIRE(weighted_right.rows() == 1500);
   CHECK(weighted.row(1000) == std::sqrt(weights[1500]) * rows.row(1500));
   CHECK((weighted.transpose() * weighted).isApprox(problem.normal().gram(), 1e-13));
-  CHECK((weighted.transpose() * weighted_right).isApprox(problem.normal().moment(), 1e-13));
+  CHECK((weighted.transpose() * weighted_right).isApprox(problem.normal().rhs(), 1e-13));
 }
 
 TEST_CASE("a subset of the columns, and a subset of that, share the rows and the products") {
@@ -110,7 +110,7 @@ TEST_CASE("a subset of the columns, and a subset of that, share the rows and the
   CHECK(part.normal().gram()(0, 2) == whole.normal().gram()(4, 5));
   CHECK(nested.rows().col(0) == rows.col(5));
   CHECK(nested.normal().gram()(0, 1) == whole.normal().gram()(5, 4));
-  CHECK(nested.normal().moment()(1, 0) == whole.normal().moment()(4, 0));
+  CHECK(nested.normal().rhs()(1, 0) == whole.normal().rhs()(4, 0));
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(3, 1);
   CHECK(part.residual(x)[0] == doctest::Approx(part.normal().residual(x)[0]));
   const std::vector<Eigen::Index> none, outside{3};

@@ -60,12 +60,12 @@ TEST_CASE("a linear problem with bounds at zero has the solution of NNLS") {
     std::srand(seed);
     const Eigen::MatrixXd a = Eigen::MatrixXd::Random(12, n);
     const Eigen::VectorXd b = Eigen::VectorXd::Random(12);
-    const Eigen::MatrixXd gram = a.transpose() * a, moment = a.transpose() * b;
+    const Eigen::MatrixXd gram = a.transpose() * a, rhs = a.transpose() * b;
     const auto squares = [&](const Eigen::VectorXd& x) -> gonio::local_parabola {
-      return {0.5 * (a * x - b).squaredNorm(), gram * x - moment, gram};
+      return {0.5 * (a * x - b).squaredNorm(), gram * x - rhs, gram};
     };
     const auto found = gonio::levenberg_marquardt(squares, Eigen::VectorXd::Ones(n), box(n, 0.0, unbounded));
-    const Eigen::VectorXd expected = gonio::nnls().solve(gonio::normal_equations(gram, moment)).weights;
+    const Eigen::VectorXd expected = gonio::nnls().solve(gonio::normal_equations(gram, rhs)).weights;
     RC_ASSERT(found.converged);
     RC_ASSERT((found.unknowns - expected).norm() <= 1e-6 * (1.0 + expected.norm()));
   }));

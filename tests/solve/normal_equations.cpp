@@ -31,8 +31,8 @@ TEST_CASE("the sum of two problems is that of the rows of both") {
   };
   const normal_equations both = normal(top, b.topRows(12)) + normal(bottom, b.bottomRows(8)), all = normal(a, b);
   CHECK(both.gram().isApprox(all.gram(), 1e-14));
-  CHECK(both.moment().isApprox(all.moment(), 1e-14));
-  CHECK(both.energy().isApprox(all.energy(), 1e-14));
+  CHECK(both.rhs().isApprox(all.rhs(), 1e-14));
+  CHECK(both.rhs_squared_norm().isApprox(all.rhs_squared_norm(), 1e-14));
   CHECK_THROWS_WITH_AS(static_cast<void>(all + normal(top.leftCols(4), b.topRows(12))),
                        doctest::Contains("cannot be added"), gonio::error);
 }
@@ -45,13 +45,14 @@ TEST_CASE("leaving a column out is a submatrix of the whole's products") {
   const auto problem = gonio::leave_one_out(gram, 2, columns);
   CHECK(problem.unknowns() == 4);
   CHECK(problem.gram()(1, 2) == gram(1, 3));
-  CHECK(problem.moment()(3, 0) == gram(4, 2));
-  CHECK(problem.energy()[0] == gram(2, 2));
+  CHECK(problem.rhs()(3, 0) == gram(4, 2));
+  CHECK(problem.rhs_squared_norm()[0] == gram(2, 2));
 }
 
 TEST_CASE("normal equations that cannot be solved are refused with the offending column") {
-  const auto refuse = [](Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy, const char* words) {
-    CHECK_THROWS_WITH_AS(normal_equations(gram, moment, energy), doctest::Contains(words), gonio::error);
+  const auto refuse = [](Eigen::MatrixXd gram, Eigen::MatrixXd rhs, Eigen::VectorXd rhs_squared_norm,
+                         const char* words) {
+    CHECK_THROWS_WITH_AS(normal_equations(gram, rhs, rhs_squared_norm), doctest::Contains(words), gonio::error);
   };
   const Eigen::MatrixXd good = Eigen::MatrixXd::Identity(3, 3), right = Eigen::MatrixXd::Ones(3, 1);
   refuse(Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 1), {}, "empty");

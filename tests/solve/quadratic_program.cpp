@@ -98,7 +98,7 @@ TEST_CASE("two unknowns, in closed form") {
     const auto found = quadratic_program<>().solve(identity_with(numbers({3, -1})));
     CHECK(found.weights == numbers({3, 0}));
     CHECK(found.objective[0] == -4.5);
-    CHECK(found.certificate[0] == 0.0);
+    CHECK(found.kkt_residual[0] == 0.0);
   }
   SUBCASE("the nearest point of x + y = 1") {
     const linear_constraints line{.E = matrix::Ones(1, 2), .e = vector::Ones(1)};
@@ -123,7 +123,7 @@ TEST_CASE("two unknowns, in closed form") {
                                    .non_negative = true};
     const auto found = quadratic_program(mixed).solve(identity_with(numbers({5, 2, -7})));
     CHECK(near(found.weights, numbers({0.25, 0.75, 0}), 1e-14));
-    CHECK(found.certificate[0] < 1e-14);
+    CHECK(found.kkt_residual[0] < 1e-14);
   }
 }
 
@@ -136,9 +136,9 @@ TEST_CASE("several right-hand sides and data instead of normal equations") {
     const auto alone = quadratic_program<>().solve(gonio::least_squares_problem(A, b.col(column)));
     CHECK(found.weights.col(column) == alone.weights);
     CHECK(found.residual[column] == doctest::Approx((times(A, found.weights.col(column)) - b.col(column)).norm()));
-    CHECK(found.certificate[column] < 1e-14);
+    CHECK(found.kkt_residual[column] < 1e-14);
   }
-  CHECK(found.certificate ==
+  CHECK(found.kkt_residual ==
         kkt_violation(problem.normal(), found.weights, 0.0, sign_rule::non_negative).cwiseMax(0.0));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("x >= 0 is the best of all supports") {
     const auto problem = any.problem(any.number(2, 9));
     const scaled units(problem.m.size(), any.seed);
     const auto found = quadratic_program<>().solve(units.equations(problem));
-    RC_ASSERT(found.certificate[0] <= 1e-9);
+    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
     RC_ASSERT(found.weights.minCoeff() >= 0.0);
     // At conditions beyond 1e10 elimination does not tell noise from data any more.
     RC_ASSERT(problem.decades > 5.0 || is_best(found, problem, {.non_negative = true}, units));
@@ -163,7 +163,7 @@ TEST_CASE("rows of both kinds, with and without bounds: the best of all active s
     const auto constraints = random_constraints(k, any.number(0, 4), equalities, any.coin(), any.seed + 50);
     const scaled units(k, any.seed);
     const auto found = quadratic_program(units.constraints(constraints)).solve(units.equations(problem));
-    RC_ASSERT(found.certificate[0] <= 1e-9);
+    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
     RC_ASSERT(problem.decades > 5.0 || is_best(found, problem, constraints, units));
   }));
 }
@@ -176,10 +176,11 @@ TEST_CASE("larger problems are certified, whatever their rank, condition and sca
     const scaled units(k, any.seed);
     const normal_equations normal = units.equations(problem);
     const auto constraints = random_constraints(k, any.number(0, 12), any.number(0, 6), any.coin(), any.seed + 50);
-    RC_ASSERT(quadratic_program(units.constraints(constraints)).solve(normal).certificate[0] <= 1e-9);
-    RC_ASSERT(quadratic_program<convex_weights>().solve(normal_equations(problem.Q, problem.m)).certificate[0] <= 1e-9);
+    RC_ASSERT(quadratic_program(units.constraints(constraints)).solve(normal).kkt_residual[0] <= 1e-9);
+    RC_ASSERT(quadratic_program<convex_weights>().solve(normal_equations(problem.Q, problem.m)).kkt_residual[0] <=
+              1e-9);
     const auto found = quadratic_program<>().solve(normal);
-    RC_ASSERT(found.certificate[0] <= 1e-9);
+    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
     RC_ASSERT(kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative)[0] <= 1e-9);
   }));
 }
@@ -190,7 +191,7 @@ TEST_CASE("a linear program: no curvature at all") {
   const Eigen::Vector4d m(1, 7, -2, 3);
   const auto corner = quadratic_program<convex_weights>().solve(normal_equations(nothing, m));
   CHECK(near(corner.weights, numbers({0, 1, 0, 0}), 1e-12));
-  CHECK(corner.certificate[0] < 1e-10);
+  CHECK(corner.kkt_residual[0] < 1e-10);
   // x1 + 2 x2 <= 4, 3 x1 + x2 <= 6: the corner (1.6, 1.2) for the gain (1, 1).
   linear_constraints polygon{.non_negative = true};
   polygon.D.resize(2, 2);
@@ -250,7 +251,7 @@ TEST_CASE("an objective that falls for ever is refused") {
   CHECK(contains(refusal(same, none), "unbounded"));
   CHECK(near(quadratic_program<>().solve(same).weights, numbers({1, 0}), 1e-12));
   const linear_constraints capped{.D = numbers({1, 0}).transpose(), .d = vector::Constant(1, 3.0)};
-  CHECK(quadratic_program(capped).solve(same).certificate[0] < 1e-10);
+  CHECK(quadratic_program(capped).solve(same).kkt_residual[0] < 1e-10);
   CHECK(for_all_seeds([](unsigned seed) {
     draw any(seed);
     // A ray into x > 0 without curvature and with gain.
@@ -276,7 +277,7 @@ TEST_CASE("every start ends at the same optimum, and at once from the optimum's 
     const normal_equations normal(problem.Q, problem.m);
     const auto constraints = random_constraints(k, 5, 2, true, any.seed + 50);
     const gonio::scaled_program program(normal, constraints);
-    const vector q = program.moment(normal, 0);
+    const vector q = program.rhs(normal, 0);
     dual_active_set cold(program, q);
     gonio::run_to_convergence(cold, 1000, "the cold start");
     gonio::active_constraints start;
@@ -300,7 +301,7 @@ TEST_CASE("the objective of the dual method rises, up to the optimum") {
   const random_problem problem(20, 5, 3);
   const normal_equations normal(problem.Q, problem.m);
   const gonio::scaled_program program(normal, {.non_negative = true});
-  dual_active_set run(program, program.moment(normal, 0));
+  dual_active_set run(program, program.rhs(normal, 0));
   int steps = 0;
   for (double last = normal.objective(run.weights())[0]; !run.converged(); ++steps) {
     run.step();
@@ -323,7 +324,7 @@ TEST_CASE("online: small changes take fewer steps and change nothing else") {
     const normal_equations normal(problem.Q, both);
     const auto from_scratch = quadratic_program<convex_weights>().solve(normal);
     const auto found = online.solve(normal);
-    CHECK(found.certificate.maxCoeff() < 1e-12);
+    CHECK(found.kkt_residual.maxCoeff() < 1e-12);
     CHECK(near(found.weights, from_scratch.weights, 1e-10));
     if (time > 0) {
       cold += from_scratch.iterations;
@@ -343,10 +344,10 @@ TEST_CASE("the golden instances") {
     const auto x = instance["x"].get<std::vector<double>>();
     const Eigen::Map<const vector> expected(x.data(), std::ssize(x));
     const auto found = quadratic_program<>().solve(normal);
-    CHECK(found.certificate[0] < 1e-13);
+    CHECK(found.kkt_residual[0] < 1e-13);
     CHECK((found.weights - expected).cwiseAbs().maxCoeff() < 1e-8 * (1.0 + expected.cwiseAbs().maxCoeff()));
     CHECK(found.objective[0] == doctest::Approx(normal.objective(expected)[0]).epsilon(1e-10));
-    CHECK(quadratic_program<convex_weights>().solve(normal).certificate[0] < 1e-12);
+    CHECK(quadratic_program<convex_weights>().solve(normal).kkt_residual[0] < 1e-12);
   }
 }
 

@@ -11,5 +11,5 @@ TEST_CASE("the archetype of a solver solves and certifies") {
   const auto found = archetype::ordinary_least_squares().solve({rows, rows * truth});
   CHECK(found.weights.isApprox(truth, 1e-10));
   CHECK(found.residual.maxCoeff() < 1e-12);
-  CHECK(found.certificate.maxCoeff() < 1e-12);
+  CHECK(found.kkt_residual.maxCoeff() < 1e-12);
 }

@@ -23,8 +23,8 @@ TEST_CASE("the primal and the dual form agree, tall and wide, weighted and not, 
     const auto dual = tikhonov(eta, tikhonov::form::dual).solve(problem);
     const double scale = 1.0 + primal.weights.cwiseAbs().maxCoeff();
     RC_ASSERT((primal.weights - dual.weights).cwiseAbs().maxCoeff() < 1e-10 * scale);
-    RC_ASSERT(primal.certificate.maxCoeff() < 1e-9);
-    RC_ASSERT(dual.certificate.maxCoeff() < 1e-9);
+    RC_ASSERT(primal.kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(dual.kkt_residual.maxCoeff() < 1e-9);
   }));
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("without a row of positive weight the penalty alone decides, in both f
   for (const auto form : {tikhonov::form::primal, tikhonov::form::dual}) {
     const auto found = tikhonov(1.0, form).solve(ignored);
     CHECK(found.weights.isZero(0.0));
-    CHECK(found.certificate[0] == 0.0);
+    CHECK(found.kkt_residual[0] == 0.0);
     CHECK(found.residual[0] == 0.0);
   }
 }

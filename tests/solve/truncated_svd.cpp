@@ -67,23 +67,23 @@ TEST_CASE("tall and wide problems agree with the truncated singular value decomp
     RC_ASSERT(relative_distance(found.weights, expected.x) < 1e-8);
     RC_ASSERT(relative_distance(found.residual, problem.residual(expected.x)) < 1e-9);
     RC_ASSERT(relative_distance(found.objective, problem.normal().objective(expected.x)) < 1e-9);
-    RC_ASSERT(found.certificate.maxCoeff() < 1e-12);
+    RC_ASSERT(found.kkt_residual.maxCoeff() < 1e-12);
     // Without the rows, through the k x k normal equations in any case.
     const auto primal = truncated_svd(share).solve(problem.normal());
     RC_ASSERT(truncated_svd(share).kept(problem.normal()) == expected.kept);
     RC_ASSERT(relative_distance(primal.weights, expected.x) < 1e-8);
-    RC_ASSERT(primal.certificate.maxCoeff() < 1e-12);
+    RC_ASSERT(primal.kkt_residual.maxCoeff() < 1e-12);
   }));
 }
 
-TEST_CASE("certificates hold for any share, also where singular values fall to rounding") {
+TEST_CASE("KKT residuals hold for any share, also where singular values fall to rounding") {
   CHECK(rc::check([] {
     const auto n = *rc::gen::inRange<Eigen::Index>(1, 30), k = *rc::gen::inRange<Eigen::Index>(1, 30);
     const double share = 1.0 - std::pow(10.0, -*rc::gen::inRange(0, 160) * 0.1) * 0.999;
     const auto problem = fading_problem(n, k, 0.1, *rc::gen::arbitrary<unsigned>());
-    RC_ASSERT(truncated_svd(share).solve(problem).certificate.maxCoeff() < 1e-9);
-    RC_ASSERT(truncated_svd(1.0).solve(problem).certificate.maxCoeff() < 1e-9);
-    RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).certificate.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(share).solve(problem).kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(1.0).solve(problem).kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).kkt_residual.maxCoeff() < 1e-9);
   }));
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("nothing to keep") {
   for (const Eigen::Index n : {2, 5}) {
     const auto zero = truncated_svd().solve(least_squares_problem{row_matrix::Zero(n, 3), Eigen::MatrixXd::Ones(n, 2)});
     CHECK(zero.weights.isZero(0.0));
-    CHECK(zero.certificate.isZero(0.0));
+    CHECK(zero.kkt_residual.isZero(0.0));
     const auto ignored = truncated_svd().solve(
         least_squares_problem{random_matrix(n, 3, 1), Eigen::MatrixXd::Ones(n, 1), Eigen::VectorXd::Zero(n)});
     CHECK(ignored.weights.isZero(0.0));

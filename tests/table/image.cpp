@@ -5,7 +5,7 @@
 using gonio::image;
 using gonio::rgb;
 
-TEST_CASE("a picture of one colour, and one changed pixel") {
+TEST_CASE("an image of one colour, and one changed pixel") {
   const rgb red(1.0, 0.0, 0.0), grey(0.25, 0.5, 0.75);
   image picture = gonio::uniform_image(2, 3, grey);
   REQUIRE(picture.shape(0) == 2);

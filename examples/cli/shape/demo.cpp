@@ -115,12 +115,12 @@ judged_ear judge_ear(const gonio::shape::shape_model& model, const lab::ear_cana
   judge("thin plate",
         gonio::shape::fill_smoothly(model.topology(), shown, gonio::shape::marks_of(ours.known, model.vertices())),
         ours.pose);
-  gonio::shape::published_recovery_options published;
+  gonio::shape::algorithm_1_options published;
   published.local_rounds = 0;
-  const auto at_once = gonio::shape::recover_as_published(model, index, pose, published, options.threads);
+  const auto at_once = gonio::shape::recover_algorithm_1(model, index, pose, published, options.threads);
   judge("Algorithm 1", at_once.surface.vertices, at_once.pose);
   published.local_rounds = 3;
-  const auto locally = gonio::shape::recover_as_published(model, index, pose, published, options.threads);
+  const auto locally = gonio::shape::recover_algorithm_1(model, index, pose, published, options.threads);
   judge("+ local smoothing", locally.surface.vertices, locally.pose);
   judge("gonio", ours.surface.vertices, ours.pose);
   if (options.trials > 0)
@@ -174,16 +174,16 @@ json json_of(const judged_ear& ear) {
 }
 
 /// The scan beside what the ways made of it.
-gonio::image demo_picture(const gonio::shape::shape_model& model, const lab::ear_scan& scan,
-                          const std::vector<judged_surface>& ways) {
+gonio::image demo_image(const gonio::shape::shape_model& model, const lab::ear_scan& scan,
+                        const std::vector<judged_surface>& ways) {
   const auto upright = [&](gonio::shape::point_columns vertices) {
     return gonio::shape::point_columns(scan.placement.inverse() * vertices);
   };
   const gonio::shape::surface_index complete(scan.complete);
-  std::vector<gonio::image> row{shape_picture({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, 0.5)};
+  std::vector<gonio::image> row{shape_image({upright(scan.mesh.vertices), scan.mesh.triangles}, {}, 0.5)};
   for (const judged_surface& way : ways)
     row.push_back(
-        shape_picture(model.mesh(upright(way.vertices)), gonio::shape::signed_distances(complete, way.vertices), 0.5));
+        shape_image(model.mesh(upright(way.vertices)), gonio::shape::signed_distances(complete, way.vertices), 0.5));
   return gonio::render::side_by_side(row, 4);
 }
 
@@ -209,7 +209,7 @@ void show_shapes(const shape_demo_command& options) {
     report["held_out"].push_back(json_of(ear));
     if (!options.folder.empty()) {
       if (i == 0) write_example(options.folder, model, scan, ear.ways);
-      if (i < 3) rows.push_back(demo_picture(model, scan, ear.ways));
+      if (i < 3) rows.push_back(demo_image(model, scan, ear.ways));
     }
     for (judged_surface& way : ear.ways) way.vertices.resize(3, 0);  // there may be many ears
     ears.push_back(std::move(ear));
@@ -229,7 +229,7 @@ void show_shapes(const shape_demo_command& options) {
 }  // namespace
 
 void add_shape_demo(command& shape) {
-  auto command = shape.add_subcommand("demo", "Recover made-up ear canals, beside filling holes smoothly");
+  auto command = shape.add_subcommand("demo", "Recover synthetic ear canals, beside filling holes smoothly");
   const auto options = std::make_shared<shape_demo_command>();
   command.add_option("--shapes", options->shapes, "To learn from").check(check::range(3, 100000)).capture_default_str();
   command.add_option("--held-out", options->held_out, "To recover").check(check::range(1, 10000)).capture_default_str();
@@ -250,7 +250,7 @@ void add_shape_demo(command& shape) {
   command.add_flag("--json", options->as_json, "Print figures as JSON");
   command.add_output_folder("-o,--output", options->folder,
                             {"recovered.png", "ears.shapes", "scan.ply", "truth.ply", "recovered.ply"},
-                            "Folder for a picture, the model, and the files of one ear");
+                            "Folder for an image, the model, and the files of one ear");
   command.callback([options] { show_shapes(*options); });
 }
 

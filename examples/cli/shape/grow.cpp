@@ -1,4 +1,4 @@
-/// gonio shape grow: a model of made-up ear canals that grows from a few annotated ones by scans of others, some of
+/// gonio shape grow: a model of synthetic ear canals that grows from a few annotated ones by scans of others, some of
 /// which are no good; how many it accepts, and how far their vertices are from where they belong. After section 2 of
 /// "Anatomically correct surface recovery".
 
@@ -114,7 +114,7 @@ void grow_shapes(const shape_grow_command& options) {
 }  // namespace
 
 void add_shape_grow(command& shape) {
-  auto command = shape.add_subcommand("grow", "Grow a model of made-up ear canals by scans, and see what it accepts");
+  auto command = shape.add_subcommand("grow", "Grow a model of synthetic ear canals by scans, and see what it accepts");
   const auto options = std::make_shared<shape_grow_command>();
   command.add_option("--annotated", options->annotated, "Shapes to begin with")
       .check(check::range(2, 100000))

@@ -45,7 +45,7 @@ void learn_shapes(const shape_learn_command& options) {
     const auto model = gonio::shape::learn_shape_model(shapes, names, triangles, options.threads);
     gonio::io::write_shape_model(options.output, model);
     std::cout << model.shapes() << " shapes of " << model.vertices() << " vertices; "
-              << model.explaining(0.99).basis().size() << " components explain 99 %\n";
+              << model.truncated_to_variance(0.99).basis().size() << " components explain 99 %\n";
     return;
   }
   std::vector<gonio::shape::named_scan> scans;

@@ -56,7 +56,7 @@ void recover_shape(const shape_recover_command& options) {
   const gonio::shape::shape_model model = gonio::io::read_shape_model(options.model);
   const gonio::shape::triangle_mesh scan = gonio::io::read_mesh(options.scan);
   gonio::shape::recovery_options how;
-  how.fine.misplacement = options.noise;
+  how.fine.position_error = options.noise;
   const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
   const gonio::shape::recovered_shape found = in_file(options.scan, [&] {
     return gonio::shape::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
@@ -88,7 +88,7 @@ void recover_shape(const shape_recover_command& options) {
     gonio::io::write_mesh(options.output, recovered);
   else
     gonio::io::write_mesh(options.output, recovered, colours);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, shape_picture(found.surface, distances, 0.5));
+  if (!options.picture.empty()) gonio::io::write_png(options.picture, shape_image(found.surface, distances, 0.5));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace cli {
 
-gonio::image shape_picture(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
+gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
   std::vector<gonio::rgb> colours(static_cast<std::size_t>(mesh.vertices.cols()), gonio::rgb::Constant(0.5));
   for (Eigen::Index v = 0; v < distances.size(); ++v)
     colours[static_cast<std::size_t>(v)] = gonio::render::false_colour(distances[v], {-largest, largest});
@@ -19,7 +19,7 @@ gonio::image shape_picture(const gonio::shape::triangle_mesh& mesh, const Eigen:
     gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
     view.radius = 18.0;  // mm: all ears at one scale
     view.pixels = 240;
-    return gonio::shape::picture_of(mesh, colours, view);
+    return gonio::shape::image_of(mesh, colours, view);
   };
   const std::array both{from({0.0, -0.2, -1.0}), from({0.3, -1.0, 0.2})};
   return gonio::render::side_by_side(both);

@@ -14,7 +14,7 @@
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include <gonio/basis/pca.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -121,7 +121,7 @@ using method_of = reconstruction (*)(const reconstruct_options&, const gonio::sa
 /// One line of the table: errors over repetitions.
 json errors_of(const laboratory_options& options, const laboratory& where, const gonio::brdf_table& truth,
                const std::vector<gonio::direction_pair>& poses, method_of method, std::size_t repetitions,
-               const gonio::appearance_judge& judge, const gonio::log_relative_pca& prior) {
+               const gonio::appearance_metric& judge, const gonio::log_relative_pca& prior) {
   reconstruct_options how;
   how.materials.prior = options.prior;
   how.threads = options.threads;
@@ -169,7 +169,7 @@ void run(const laboratory_options& options) {
   json result = json::array();
   for (const std::filesystem::path& file : options.tables) {
     const auto truth = gonio::io::read_merl_any(file);
-    const gonio::appearance_judge judge(truth.cells(), 36, options.threads);
+    const gonio::appearance_metric judge(truth.cells(), 36, options.threads);
     const auto add = [&](const laboratory& where, const char* method, const json& errors) {
       const std::string name = file.filename().string();
       result.push_back({{"material", name.substr(0, name.find('.'))},

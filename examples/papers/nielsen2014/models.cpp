@@ -12,7 +12,7 @@
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/resumable_results.hpp"
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/io/networks.hpp>
 
 #include <iomanip>
@@ -47,7 +47,7 @@ gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 3
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
              std::span<const gonio::model::fit_observation> observations, const gonio::brdf_table& truth,
-             const gonio::appearance_judge& judge) {
+             const gonio::appearance_metric& judge) {
   const gonio::model::model_fit fit = fit_by_metric(
       given.metric, lobes_named(model), observations,
       {.norm = loss == "l1" ? gonio::model::fit_norm::l1 : gonio::model::fit_norm::l2, .threads = given.threads});
@@ -63,7 +63,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
   const auto networks = given.only.empty() ? all : networks_in(all, given.only);
   const gonio::valid_cells cells = cells_of_fit();
   const gonio::material_set materials = gonio::model::tabulate_networks(networks, cells, given.threads);
-  const gonio::appearance_judge judge(cells, 36, given.threads);
+  const gonio::appearance_metric judge(cells, 36, given.threads);
   resumable_results results(given.state);
   json rows = json::array();
   for (std::size_t m = 0; m < materials.names.size(); ++m) {

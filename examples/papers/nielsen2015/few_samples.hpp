@@ -5,7 +5,7 @@
 #include "papers/material_result.hpp"
 #include <gonio/basis/project.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/table/material_set.hpp>
@@ -22,7 +22,7 @@ template <gonio::estimator Estimator, gonio::error_metric Metric, class Measure>
 requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_table&, std::size_t>
 [[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
                                                             const gonio::material_set& truths, const Metric& metric,
-                                                            const gonio::appearance_judge& judge,
+                                                            const gonio::appearance_metric& judge,
                                                             gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
@@ -38,12 +38,12 @@ requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_ta
 template <gonio::estimator Estimator, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Estimator& estimator, std::span<const std::size_t> cells, const gonio::material_set& truths,
-    const Metric& metric, const gonio::appearance_judge& judge, gonio::thread_count threads = {},
+    const Metric& metric, const gonio::appearance_metric& judge, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
   return reconstruct_each(
       estimator,
       [&](const gonio::brdf_table& truth, std::size_t number) {
-        return gonio::measure(truth, cells, defects, seed + number);
+        return gonio::sample_table(truth, cells, defects, seed + number);
       },
       truths, metric, judge, threads);
 }
@@ -52,7 +52,7 @@ template <gonio::estimator Estimator, gonio::error_metric Metric>
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Basis& prior, double eta, std::span<const std::size_t> cells, const gonio::material_set& truths,
-    const Metric& metric, const gonio::appearance_judge& judge, gonio::thread_count threads = {},
+    const Metric& metric, const gonio::appearance_metric& judge, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
   return reconstruct_from_cells(gonio::decomposition{prior, gonio::tikhonov{eta}}, cells, truths, metric, judge,
                                 threads, defects, seed);
@@ -62,7 +62,7 @@ template <gonio::basis Basis, gonio::error_metric Metric>
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_directions(
     const Basis& prior, double eta, std::span<const gonio::half_difference> directions,
-    const gonio::material_set& truths, const Metric& metric, const gonio::appearance_judge& judge,
+    const gonio::material_set& truths, const Metric& metric, const gonio::appearance_metric& judge,
     gonio::thread_count threads = {}) {
   return reconstruct_from_cells(prior, eta, gonio::cells_at(truths.cells, directions), truths, metric, judge, threads);
 }
@@ -71,7 +71,7 @@ template <gonio::basis Basis, gonio::error_metric Metric>
 template <gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> project_on(const gonio::pca<Metric>& prior,
                                                       const gonio::material_set& truths,
-                                                      const gonio::appearance_judge& judge,
+                                                      const gonio::appearance_metric& judge,
                                                       gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {

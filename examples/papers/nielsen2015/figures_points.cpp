@@ -119,7 +119,7 @@ table against_points(const laboratory& lab, const options& given, const gonio::p
 }
 
 table against_spheres(const laboratory& lab, const options& given, const gonio::progress& listener) {
-  table shown{"Pictures of spheres: the same; published: Table 2 of 2015, of which the search was by condition number",
+  table shown{"Images of spheres: the same; published: Table 2 of 2015, of which the search was by condition number",
               {{"n", 0}, {"published"}, {"expected error"}, {"random"}, {"random / expected error", 2}}};
   const gonio::design::sphere_geometry spheres(lab.prior().cells());
   const auto plans = spheres_by_expected_error(lab, given, std::min<std::size_t>(given.up_to(5), 5), listener);

@@ -10,7 +10,7 @@
 #include "papers/nielsen2015/few_samples.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include <gonio/basis/pca.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/io/prior.hpp>
 
 #include <iostream>
@@ -56,7 +56,7 @@ void run(const nielsen_options& options) {
   const auto& prior = split.prior;
   const auto& truths = split.truths;
   const auto shipped = as_shipped(prior);
-  const gonio::appearance_judge judge(truths.cells, 36, options.threads);
+  const gonio::appearance_metric judge(truths.cells, 36, options.threads);
 
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
   for (const std::size_t n : gonio::design::nielsen_direction_counts) {

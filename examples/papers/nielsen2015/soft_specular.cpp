@@ -16,7 +16,7 @@
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
@@ -108,7 +108,7 @@ double delta_e_env(const gonio::comparison& errors) { return errors.delta_e_env;
 
 /// All rows of one number of directions. The switch has none where the directions do not tell soft from specular.
 std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio::material_set& truths,
-                                                 const gonio::appearance_judge& judge, std::size_t count,
+                                                 const gonio::appearance_metric& judge, std::size_t count,
                                                  gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   const auto reconstruct = [&](const ridge& estimator) {
@@ -117,7 +117,7 @@ std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio
   const auto all = reconstruct(from.all), soft = reconstruct(from.switching.soft()),
              specular = reconstruct(from.switching.specular());
   std::vector<chosen_results> rows{{"one prior", all}, {"soft prior", soft}, {"specular prior", specular}};
-  const auto samples_of = [&](std::size_t m) { return gonio::measure(truths.table(m), cells); };
+  const auto samples_of = [&](std::size_t m) { return gonio::sample_table(truths.table(m), cells); };
   if (gonio::highlight_contrast(from.metric, samples_of(0)))
     rows.push_back({"switch by the samples", choose(soft, specular, [&](std::size_t m) {
                       return from.switching.choose(samples_of(m)) == gonio::material_kind::specular;
@@ -160,7 +160,7 @@ void run(const soft_specular_options& options) {
   const rivals from = learn_rivals(
       options, gonio::model::tabulate_networks(networks_except(networks, names), cells, options.threads, listener),
       listener);
-  const gonio::appearance_judge judge(cells, 36, options.threads);
+  const gonio::appearance_metric judge(cells, 36, options.threads);
 
   json result{{"threshold", from.switching.threshold()},
               {"soft_materials", from.soft},

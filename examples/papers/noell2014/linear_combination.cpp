@@ -10,7 +10,7 @@
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include "papers/networks_option.hpp"
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/metric/lin.hpp>
@@ -55,7 +55,7 @@ class combination_experiment {
   gonio::thread_count threads_;
   gonio::material_set materials_;
   gonio::log_relative relative_;
-  gonio::appearance_judge judge_;
+  gonio::appearance_metric judge_;
 };
 
 void run_combination(const combination_options& options) {

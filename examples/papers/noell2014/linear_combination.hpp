@@ -4,7 +4,7 @@
 
 #include "papers/material_result.hpp"
 #include <gonio/estimate/leave_one_out.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 
 namespace papers {
 
@@ -13,7 +13,7 @@ namespace papers {
 template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
 [[nodiscard]] std::vector<material_result> combine_others(
     const gonio::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,
-    const gonio::material_set& truths, const Judged& metric, const gonio::appearance_judge& judge,
+    const gonio::material_set& truths, const Judged& metric, const gonio::appearance_metric& judge,
     gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (const std::string& name : names) {

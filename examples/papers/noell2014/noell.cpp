@@ -8,7 +8,7 @@
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
-#include "papers/noell2014/noell_judges.hpp"
+#include "papers/noell2014/noell_measures.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 

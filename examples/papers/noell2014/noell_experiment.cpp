@@ -1,7 +1,7 @@
 #include "papers/noell2014/noell_experiment.hpp"
 
 #include "command_line/json.hpp"
-#include "papers/noell2014/noell_judges.hpp"
+#include "papers/noell2014/noell_measures.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
@@ -73,7 +73,7 @@ struct combinations_under {
 struct noell_experiment::parts {
   gonio::thread_count threads;
   gonio::material_set truths;
-  noell_judges judges;
+  noell_measures judges;
   std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
   /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
@@ -138,7 +138,7 @@ struct noell_experiment::parts {
           gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}.start(
               samples);
       while (!run.converged()) run.step();
-      const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).good_share;
+      const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
       return {run.result().tabulate(truths.cells, threads), 1.0 - good};
     }
     limits.smallest_change = 0.0;
@@ -167,7 +167,7 @@ noell_experiment::noell_experiment(const std::filesystem::path& networks, const 
   auto truths =
       gonio::model::tabulate_networks(gonio::io::read_networks(networks), gonio::valid_cells(), threads, listener);
   const gonio::valid_cells cells = truths.cells;
-  parts_.reset(new parts{threads, std::move(truths), noell_judges(cells, environment, threads), {}, {}, {}});
+  parts_.reset(new parts{threads, std::move(truths), noell_measures(cells, environment, threads), {}, {}, {}});
 }
 
 noell_experiment::~noell_experiment() = default;
@@ -199,7 +199,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const std::size_t count = samples_of(which.data_ratio, truth.cells().size());
   const auto cells = gonio::random_cells(truth.cells(), count, which.seed);
   const auto samples =
-      gonio::measure(truth, cells, {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
+      gonio::sample_table(truth, cells, {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
 
   const auto start = std::chrono::steady_clock::now();
   const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
@@ -209,7 +209,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   result["seconds"] = elapsed.count();
   if (!outliers) return result;
   result["outliers"] = *outliers;
-  result["off"] = share_off(samples, gonio::measure(truth, cells));
+  result["off"] = share_off(samples, gonio::sample_table(truth, cells));
   return result;
 }
 

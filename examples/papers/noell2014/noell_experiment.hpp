@@ -33,7 +33,7 @@ class noell_experiment {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept;
 
-  /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_judges::judge`);
+  /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_measures::judge`);
   /// seconds are those of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 

@@ -3,9 +3,9 @@
 
 #include "command_line/json.hpp"
 #include "papers/experiments.hpp"
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/environment_map.hpp>
 
@@ -16,20 +16,19 @@ namespace papers {
 
 /// Adds `--environment FILE`, which is optional.
 inline void add_environment_option(command& to, std::filesystem::path& environment) {
-  to.add_input("--environment", environment,
-               "Latitude-longitude picture of a natural light to judge under, too (.hdr)");
+  to.add_input("--environment", environment, "Latitude-longitude image of a natural light to judge under, too (.hdr)");
 }
 
 /// Looks at tables over given cells under the formula environment and, if there is one, a natural light.
-class noell_judges {
+class noell_measures {
  public:
-  noell_judges(const gonio::valid_cells& cells, const std::filesystem::path& environment, gonio::thread_count threads)
+  noell_measures(const gonio::valid_cells& cells, const std::filesystem::path& environment, gonio::thread_count threads)
       : formula_(cells, 36, threads), threads_(threads) {
     if (!environment.empty())
       natural_.emplace(
           cells,
           gonio::render::environment_lighting(90, 72, gonio::render::environment_map(gonio::io::read_hdr(environment))),
-          36, gonio::sphere_judge::middle_grey, threads);
+          36, gonio::sphere_delta_e::middle_grey, threads);
   }
 
   /// delta_e_env under the formula environment at the exposure of a white sphere, delta_e_natural (if there is an
@@ -43,8 +42,8 @@ class noell_judges {
   }
 
  private:
-  gonio::appearance_judge formula_;
-  std::optional<gonio::sphere_judge> natural_;
+  gonio::appearance_metric formula_;
+  std::optional<gonio::sphere_delta_e> natural_;
   gonio::thread_count threads_;
 };
 

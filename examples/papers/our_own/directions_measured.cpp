@@ -17,7 +17,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_directory.hpp>
@@ -47,15 +47,15 @@ struct directions_options {
 };
 
 /// The prior on some cells, and the judge there.
-struct workshop {
+struct benchmark_setup {
   gonio::log_relative_pca prior;
-  gonio::appearance_judge judge;
+  gonio::appearance_metric judge;
 };
 
-workshop open_workshop(const directions_options& given, const gonio::valid_cells& cells,
-                       const gonio::progress& listener) {
+benchmark_setup open_benchmark_setup(const directions_options& given, const gonio::valid_cells& cells,
+                                     const gonio::progress& listener) {
   return {learn_all_components(gonio::io::read_networks(given.networks), cells, given.threads, listener),
-          gonio::appearance_judge(cells, 36, given.threads)};
+          gonio::appearance_metric(cells, 36, given.threads)};
 }
 
 // ---- tables: judged as a whole -------------------------------------------------------------------------------------
@@ -81,12 +81,12 @@ double eta_for(const directions_options& given, const gonio::log_relative_pca& p
 }
 
 /// Means over the repetitions.
-json judge_table(const directions_options& given, const workshop& shop, const std::string& name,
+json judge_table(const directions_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, const std::vector<std::vector<std::size_t>>& drawn) {
   std::vector<material_result> results;
   double mean_eta = 0.0;
   for (const auto& cells : drawn) {
-    const gonio::sample_set samples = gonio::measure(truth, cells);
+    const gonio::sample_set samples = gonio::sample_table(truth, cells);
     const double eta = eta_for(given, shop.prior, samples);
     mean_eta += eta / static_cast<double>(drawn.size());
     const auto estimate =
@@ -159,7 +159,7 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
 }
 
 /// Means over the repetitions.
-json judge_samples(const directions_options& given, const workshop& shop, const gonio::sample_set& all,
+json judge_samples(const directions_options& given, const benchmark_setup& shop, const gonio::sample_set& all,
                    const std::vector<stand_ins>& drawn) {
   const auto times = static_cast<double>(drawn.size());
   double in_logarithms = 0.0, weighted = 0.0, distance = 0.0, farthest = 0.0, mean_eta = 0.0;
@@ -193,7 +193,7 @@ json judge_samples(const directions_options& given, const workshop& shop, const 
 
 // ---- the experiment ------------------------------------------------------------------------------------------------
 
-/// Does what is not done yet, opening the workshop when it must.
+/// Does what is not done yet, opening the benchmark_setup when it must.
 class experiment {
  public:
   experiment(const directions_options& given, progress_bar& bar) : given_(given), bar_(bar), results_(given.state) {}
@@ -247,10 +247,10 @@ class experiment {
       }
   }
 
-  const workshop& shop_for(const gonio::valid_cells& cells) {
+  const benchmark_setup& shop_for(const gonio::valid_cells& cells) {
     if (!shop_ || !(shop_->prior.cells() == cells)) {
       shop_.reset();  // two would take twice the memory
-      shop_.emplace(open_workshop(given_, cells, bar_.listener()));
+      shop_.emplace(open_benchmark_setup(given_, cells, bar_.listener()));
     }
     return *shop_;
   }
@@ -258,7 +258,7 @@ class experiment {
   const directions_options& given_;
   progress_bar& bar_;
   resumable_results results_;
-  std::optional<workshop> shop_;  // of the last table's cells, most often those of the next, too
+  std::optional<benchmark_setup> shop_;  // of the last table's cells, most often those of the next, too
 };
 
 /// The means over materials of each number and set, in the order of the rows.

@@ -115,7 +115,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
                    std::span<const std::size_t> cells, double noise, const eta_options& options) {
   using equations = gonio::basis_equations<gonio::log_relative_pca>;
   const auto gcv = gonio::eta_criterion::generalised_cross_validation;
-  const gonio::sample_set places = gonio::measure(truths.tables[0], cells);
+  const gonio::sample_set places = gonio::sample_table(truths.tables[0], cells);
   const double stated = gonio::eta_of_noise(prior, places, noise, options.threads);
   const gonio::eta_range plausible = gonio::plausible_etas(prior, places, 0.3, options.threads);
   const reconstruction_error error(prior, truths, equations(prior, places).problem().rows());
@@ -128,7 +128,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t m = 0; m < truths.tables.size(); ++m) {
       const auto samples =
-          gonio::measure(truths.tables[m], cells, {.noise = noise}, options.seed + 1000 * repetition + m);
+          gonio::sample_table(truths.tables[m], cells, {.noise = noise}, options.seed + 1000 * repetition + m);
       const auto problem = equations(prior, samples).problem();
       const auto rms = [&](double eta) { return error(m, problem.right_hand_side(), eta); };
       const Eigen::VectorXd errors = etas.unaryExpr(rms);

@@ -168,7 +168,7 @@ void add_importance_sampling(command& app) {
                     "File of networks of the 100 materials (.npy): the ten test materials");
   add_thin_option(command, options->networks.thin);
   command.add_input("--environment", options->environments,
-                    "Light from all around: latitude-longitude pictures (.hdr), beside a white sky and a formula");
+                    "Light from all around: latitude-longitude images (.hdr), beside a white sky and a formula");
   command.add_option("--points", options->points, "Points of the sphere")
       .check(check::range(1, 1'000'000))
       .capture_default_str();

@@ -10,7 +10,7 @@
 #include "papers/mean_errors.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/image.hpp>
@@ -45,7 +45,7 @@ constexpr std::size_t many_samples = 100'000;
 
 gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
                               const gonio::brdf_table& truth, std::size_t count, std::uint64_t seed) {
-  const auto samples = gonio::measure(truth, gonio::random_cells(truth.cells(), count, seed));
+  const auto samples = gonio::sample_table(truth, gonio::random_cells(truth.cells(), count, seed));
   return gonio::decomposition{prior, gonio::tikhonov{options.eta}}.fit(samples).tabulate(truth.cells(),
                                                                                          options.threads);
 }
@@ -57,7 +57,7 @@ struct table_report {
 };
 
 table_report judge_table(const measured_options& options, const gonio::log_relative_pca& prior, const std::string& name,
-                         const gonio::brdf_table& truth, const gonio::appearance_judge& judge) {
+                         const gonio::brdf_table& truth, const gonio::appearance_metric& judge) {
   table_report result;
   const auto draw = [&](const gonio::brdf_table& table) {
     if (!options.picture.empty())
@@ -88,13 +88,13 @@ void run(const measured_options& options) {
   const auto files = gonio::io::list_merl_directory(options.tables);
   if (files.empty()) throw gonio::error(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
   std::vector<gonio::image> rows;
-  std::vector<gonio::appearance_judge> judges;  // of the last table's cells, most often those of the next, too
+  std::vector<gonio::appearance_metric> judges;  // of the last table's cells, most often those of the next, too
   json result = json::object();
   for (std::size_t f = 0; f < files.size(); ++f) {
     bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
     const auto truth = gonio::io::read_merl_any(files[f].path);
     if (judges.empty() || !(judges.back().cells() == truth.cells()))
-      judges.assign(1, gonio::appearance_judge(truth.cells(), 36, options.threads));
+      judges.assign(1, gonio::appearance_metric(truth.cells(), 36, options.threads));
     const auto [errors, spheres] = judge_table(options, prior, files[f].name, truth, judges.back());
     for (std::size_t i = 0; i < options.counts.size(); ++i) {
       json means = mean_errors(errors[i]);
@@ -140,7 +140,7 @@ void add_measured_materials(command& app) {
       .check(check::positive_number())
       .capture_default_str();
   command.add_output("--spheres", options->picture, {".png"},
-                     "Picture to write (.png): a row for each table, the truth at the right");
+                     "Image to write (.png): a row for each table, the truth at the right");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });

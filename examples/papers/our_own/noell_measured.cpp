@@ -8,7 +8,7 @@
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
-#include "papers/noell2014/noell_judges.hpp"
+#include "papers/noell2014/noell_measures.hpp"
 #include "papers/noell2014/noell_tables.hpp"
 #include "papers/our_own/scattered_errors.hpp"
 #include <gonio/estimate/decomposition.hpp>
@@ -37,8 +37,8 @@ struct measured_options {
 };
 
 /// The materials on some cells, their corrections, and the judges there.
-struct workshop {
-  workshop(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
+struct benchmark_setup {
+  benchmark_setup(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : threads(given.threads),
         materials(gonio::model::tabulate_networks(gonio::io::read_networks(given.networks), cells, threads, listener),
                   gonio::log{}, threads),
@@ -62,7 +62,7 @@ struct workshop {
   gonio::thread_count threads;
   gonio::measured<gonio::log> materials;
   gonio::correction corrections, printed_corrections;
-  noell_judges judges;
+  noell_measures judges;
 };
 
 /// One for each method and share of outliers.
@@ -71,12 +71,12 @@ json row(const std::string& name, const std::string& method, std::size_t samples
 }
 
 /// Judged on the whole table.
-void judge_table(const measured_options& given, const workshop& shop, const std::string& name,
+void judge_table(const measured_options& given, const benchmark_setup& shop, const std::string& name,
                  const gonio::brdf_table& truth, json& rows) {
   const std::size_t count = gonio::share_of(truth.cells().size(), given.data_ratio);
   const auto cells = gonio::random_cells(truth.cells(), count, given.seed);
   for (const double outlier_ratio : given.outlier_ratios)
-    shop.reconstruct(gonio::measure(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
+    shop.reconstruct(gonio::sample_table(truth, cells, {.outlier_ratio = outlier_ratio}, given.seed), outlier_ratio,
                      [&](const std::string& method, const auto& fit) {
                        const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
                        logarithmic_error error;
@@ -90,15 +90,16 @@ void judge_table(const measured_options& given, const workshop& shop, const std:
 }
 
 /// Judged on the measurements that the estimate was not made from.
-void judge_samples(const measured_options& given, const workshop& shop, const std::filesystem::path& path, json& rows) {
+void judge_samples(const measured_options& given, const benchmark_setup& shop, const std::filesystem::path& path,
+                   json& rows) {
   const gonio::sample_set all = read_measurements(path);
   const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
-  const auto [some, others] = gonio::part(all, count, given.seed);
+  const auto [some, others] = gonio::split_samples(all, count, given.seed);
   if (others.empty()) throw gonio::error(path.string() + ": no sample is left to judge by, expected --data below 1");
   std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
   for (const double outlier_ratio : given.outlier_ratios) {
-    const auto samples = gonio::spoil(some, {.outlier_ratio = outlier_ratio}, given.seed,
-                                      [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
+    const auto samples = gonio::corrupt(some, {.outlier_ratio = outlier_ratio}, given.seed,
+                                        [&](std::mt19937_64& generator) { return all[any_sample(generator)].value; });
     shop.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
       logarithmic_error error;
       for (const gonio::sample& other : others) {
@@ -137,11 +138,11 @@ void run(const measured_options& given) {
     throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
   json rows = json::array();
-  std::unique_ptr<workshop> shop;  // of the last table's cells, most often those of the next, too
-  const auto shop_for = [&](const gonio::valid_cells& cells) -> const workshop& {
+  std::unique_ptr<benchmark_setup> shop;  // of the last table's cells, most often those of the next, too
+  const auto shop_for = [&](const gonio::valid_cells& cells) -> const benchmark_setup& {
     if (!shop || !(shop->materials.cells() == cells)) {
       shop.reset();  // two would take twice the memory
-      shop = std::make_unique<workshop>(given, cells, bar.listener());
+      shop = std::make_unique<benchmark_setup>(given, cells, bar.listener());
     }
     return *shop;
   };
@@ -150,7 +151,7 @@ void run(const measured_options& given) {
     if (files.empty()) throw gonio::error(given.tables.string() + ": holds no table (*.binary or *.binary.gz)");
     for (std::size_t f = 0; f < files.size(); ++f) {
       const auto truth = gonio::io::read_merl_any(files[f].path);
-      const workshop& here = shop_for(truth.cells());
+      const benchmark_setup& here = shop_for(truth.cells());
       bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
       judge_table(given, here, files[f].name, truth, rows);
     }

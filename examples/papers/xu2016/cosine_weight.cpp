@@ -13,7 +13,7 @@
 #include "papers/nielsen2015/few_samples.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 
 #include <array>
@@ -41,12 +41,12 @@ constexpr std::array weightings{std::pair{"product", cosine_weighting::product},
 
 /// Means over the materials from some directions, mapped errors in the domain of either weight.
 json judged(const gonio::log_relative_pca& prior, const gonio::material_set& truths, std::size_t count,
-            const std::string& eta, const gonio::appearance_judge& judge, gonio::thread_count threads) {
+            const std::string& eta, const gonio::appearance_metric& judge, gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   std::array<std::vector<material_result>, weightings.size()> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
-    const gonio::sample_set samples = gonio::measure(truth, cells);
+    const gonio::sample_set samples = gonio::sample_table(truth, cells);
     const double penalty =
         eta == "auto" ? gonio::eta_of_unknown_noise(prior, samples, 0.3, threads) : number_of_eta(eta);
     const auto estimate =
@@ -79,7 +79,7 @@ void run(const cosine_options& options) {
   const auto cells = options.networks.cells();
   const auto truths = gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
                                                       options.threads, bar.listener());
-  const gonio::appearance_judge judge(cells, 36, options.threads);
+  const gonio::appearance_metric judge(cells, 36, options.threads);
   json rows = json::array();
   for (const auto& [name, weighting] : weightings) {
     const auto prior = learn_all_components(networks_except(networks, gonio::nielsen_test_materials()), cells,

@@ -17,10 +17,10 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/estimate/misplaced_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/samples.hpp>
@@ -45,7 +45,7 @@ struct directions_options {
   std::string reconstruction_eta = "auto";
   bool in_sample = false;
   double eta = gonio::default_eta, common_shift = 0.0, field_of_view = 25.0, step = 5.0, noise = 0.0,
-         misplacement = 0.0, expected = 0.0;
+         angular_error = 0.0, expected = 0.0;
   std::uint64_t seed = 0;
   bool print_json = false;
   gonio::thread_count threads;
@@ -53,13 +53,13 @@ struct directions_options {
 
 /// What all sets are judged with.
 struct laboratory : nielsen_split {
-  gonio::appearance_judge judge;
+  gonio::appearance_metric judge;
 };
 
 laboratory open_laboratory(const directions_options& options, const gonio::progress& listener) {
   auto split = nielsen_split::learn(options.networks, options.threads, listener);
   const gonio::valid_cells cells = split.truths.cells;
-  return {std::move(split), gonio::appearance_judge(cells, 36, options.threads)};
+  return {std::move(split), gonio::appearance_metric(cells, 36, options.threads)};
 }
 
 design_options search_for(const directions_options& options, const std::string& criterion, std::size_t count) {
@@ -76,7 +76,7 @@ design_options search_for(const directions_options& options, const std::string& 
   search.near_field.field_of_view = gonio::radians(options.field_of_view);
   search.near_field.step = gonio::radians(options.step);
   if (options.geometry == "point" && (criterion == "expected-error" || criterion == "perceived"))
-    search.misplacement = gonio::radians(options.expected);
+    search.angular_error = gonio::radians(options.expected);
   search.seed = options.seed;
   search.threads = options.threads;
   return search;
@@ -140,23 +140,23 @@ designed find_set(const laboratory& lab, const directions_options& options, cons
   return design(lab.prior, search_for(options, set, count), listener);
 }
 
-bool takes_pictures(const directions_options& options) {
+bool takes_images(const directions_options& options) {
   return options.geometry != "point" && options.geometry != "sphere";
 }
 
-/// All pictures of a material, each by the simulated laboratory with defects of its own.
-std::vector<gonio::picture_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
-                                                 const designed& found, std::uint64_t seed) {
+/// All images of a material, each by the simulated laboratory with defects of its own.
+std::vector<gonio::image_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
+                                               const designed& found, std::uint64_t seed) {
   const gonio::design::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
   const gonio::capture::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
-  std::vector<gonio::picture_samples> pictures;
+  std::vector<gonio::image_samples> pictures;
   for (const auto& [wi, wo] : found.poses) {
     const gonio::capture::near_field_setup setup{
         .camera = gonio::design::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels),
         .light = {wi},
         .disc = disc};
     const gonio::image picture = lab::photograph(
-        material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.misplacement)}, ++seed);
+        material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.angular_error)}, ++seed);
     pictures.push_back(gonio::capture::near_field_pairs(picture, setup));
   }
   return pictures;
@@ -165,10 +165,11 @@ std::vector<gonio::picture_samples> photographed(const gonio::brdf_table& materi
 gonio::sample_set sampled(const gonio::brdf_table& material, const directions_options& options, const designed& found,
                           std::uint64_t seed) {
   const gonio::measurement_defects defects{.noise = options.noise};
-  if (options.misplacement > 0.0)
-    return gonio::spoil(gonio::measure_misplaced(material, found.poses, gonio::radians(options.misplacement), seed),
-                        defects, seed, [](auto&) { return gonio::rgb(gonio::rgb::Zero()); });
-  return gonio::measure(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
+  if (options.angular_error > 0.0)
+    return gonio::corrupt(
+        gonio::sample_table_misplaced(material, found.poses, gonio::radians(options.angular_error), seed), defects,
+        seed, [](auto&) { return gonio::rgb(gonio::rgb::Zero()); });
+  return gonio::sample_table(material, gonio::cells_at(material.cells(), found.samples), defects, seed);
 }
 
 /// By who trusts the directions.
@@ -188,7 +189,8 @@ gonio::fitted_brdf<gonio::log_relative_pca> expecting(const laboratory& lab, con
   const double eta = options.reconstruction_eta == "auto"
                          ? gonio::eta_of_noise(lab.prior, samples, options.noise, options.threads)
                          : number_of_eta(options.reconstruction_eta);
-  return gonio::misplaced_decomposition{lab.prior, eta, gonio::radians(options.expected), options.threads}.fit(samples);
+  return gonio::errors_in_variables_decomposition{lab.prior, eta, gonio::radians(options.expected), options.threads}
+      .fit(samples);
 }
 
 /// A material reconstructed from what is measured of it, by who trusts the directions or expects that they are off.
@@ -196,7 +198,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
                                                           const directions_options& options, const designed& found,
                                                           std::uint64_t seed) {
   const double expected = gonio::radians(options.expected);
-  if (!takes_pictures(options)) {
+  if (!takes_images(options)) {
     const gonio::sample_set samples = sampled(material, options, found, seed);
     if (!(expected > 0.0)) return trusting(lab, options, samples);
     return expecting(lab, options, samples);
@@ -210,7 +212,7 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
     return refinement.fit();
   }
   gonio::sample_set all;
-  for (const gonio::picture_samples& picture : pictures) {
+  for (const gonio::image_samples& picture : pictures) {
     const gonio::sample_set samples = gonio::as_sample_set(picture);
     all.insert(all.end(), samples.begin(), samples.end());
   }
@@ -236,8 +238,8 @@ json judged(const laboratory& lab, const directions_options& options, const desi
     poses.push_back({{"wi", {wi.x(), wi.y(), wi.z()}}, {"wo", {wo.x(), wo.y(), wo.z()}}});
   const double condition =
       gonio::design::condition_number{}(gonio::design::rows_at(lab.prior, found.samples).components);
-  return {{"expected_error", in_sample},     {"left_out_error", left_out},     {"condition", condition},
-          {"samples", found.samples.size()}, {"errors", mean_errors(results)}, {"poses", poses}};
+  return {{"expected_error", in_sample},     {"leave_one_material_out_error", left_out}, {"condition", condition},
+          {"samples", found.samples.size()}, {"errors", mean_errors(results)},           {"poses", poses}};
 }
 
 /// JSON has no infinity: it comes back as null.
@@ -250,8 +252,8 @@ void print_row(const json& row) {
   const json& result = row["result"];
   const json& errors = result["errors"];
   std::cout << "| " << row["count"] << " | " << row["set"].text() << " | " << printed(result["expected_error"], 4)
-            << " | " << printed(result["left_out_error"], 4) << " | " << printed(result["condition"], 2) << " | "
-            << printed(errors["mapped_rms"], 3) << " | " << printed(errors["delta_e_env"], 2) << " | "
+            << " | " << printed(result["leave_one_material_out_error"], 4) << " | " << printed(result["condition"], 2)
+            << " | " << printed(errors["mapped_rms"], 3) << " | " << printed(errors["delta_e_env"], 2) << " | "
             << printed(errors["delta_e_lights"], 2) << " | " << printed(errors["peak_ratio"], 2) << " |\n";
 }
 
@@ -261,17 +263,17 @@ void write_set(const directions_options& options, const json& row) {
   std::vector<gonio::direction_pair> poses;
   for (const json& pose : row["result"]["poses"].elements()) poses.push_back({vector(pose["wi"]), vector(pose["wo"])});
   std::string name = options.geometry;
-  if (takes_pictures(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
+  if (takes_images(options)) name += '-' + std::to_string(std::lround(options.field_of_view));
   name += '-' + row["count"].dump() + '-' + row["set"].text() + ".csv";
   std::filesystem::create_directories(options.folder);
   gonio::io::write_direction_pairs(options.folder / name, poses);
 }
 
 void run(const directions_options& options) {
-  if (options.geometry == "sphere" && options.misplacement > 0.0)
-    throw gonio::error("--misplaced is of points and near-field pictures, not of a sphere's");
+  if (options.geometry == "sphere" && options.angular_error > 0.0)
+    throw gonio::error("--misplaced is of points and near-field images, not of a sphere's");
   if (options.expected > 0.0 && options.geometry == "sphere")
-    throw gonio::error("--expected-misplacement is of points and near-field pictures, not of a sphere's");
+    throw gonio::error("--expected-misplacement is of points and near-field images, not of a sphere's");
   progress_bar bar;
   const auto listener = bar.listener();
   resumable_results results(options.state);
@@ -286,7 +288,7 @@ void run(const directions_options& options) {
                    options.in_sample,
                    options.noise,
                    options.common_shift,
-                   options.misplacement,
+                   options.angular_error,
                    options.reconstruction_eta,
                    options.step,
                    options.seed,
@@ -327,8 +329,7 @@ void add_directions(command& app) {
       .check(check::one_of(
           {"published", "industry", "random", "condition", "a-optimal", "d-optimal", "expected-error", "perceived"}))
       .capture_default_str();
-  command.add_input("--files", options->files,
-                    "Directions to judge beside them, of pictures those of the centre (.csv)");
+  command.add_input("--files", options->files, "Directions to judge beside them, of images those of the centre (.csv)");
   add_counts_option(command, options->counts);
   command.add_option("--geometry", options->geometry, "As `gonio design` has them")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
@@ -349,13 +350,13 @@ void add_directions(command& app) {
   command.add_option("--common-shift", options->common_shift, "Searches expect it: beta of Xu et al. 2016, Eq. 15")
       .capture_default_str();
   command
-      .add_option("--misplaced", options->misplacement,
+      .add_option("--misplaced", options->angular_error,
                   "Degrees by which light and viewer are off their places, towards random sides")
       .capture_default_str();
   command
       .add_option("--expected-misplacement", options->expected,
                   "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
-                  "of pictures, by a reconstruction that finds where they were")
+                  "of images, by a reconstruction that finds where they were")
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
   command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");

@@ -1,4 +1,4 @@
-/// Xu et al. 2016, Fig. 5, 6, 7 and 13: pictures of a flat sample from close by.
+/// Xu et al. 2016, Fig. 5, 6, 7 and 13: images of a flat sample from close by.
 
 #include "command_line/chosen_networks.hpp"
 #include "command_line/json.hpp"
@@ -22,7 +22,7 @@ namespace {
 
 using pictures = gonio::design::image_candidates<gonio::log_relative, gonio::design::near_field_geometry>;
 
-/// More pictures than that are not exchanged: it would take minutes.
+/// More images than that are not exchanged: it would take minutes.
 constexpr std::size_t most_exchanged = 2;
 constexpr double figures_field_of_view = 25.0;
 
@@ -31,15 +31,15 @@ gonio::design::near_field_geometry geometry_of(double field_of_view, double step
       {.field_of_view = gonio::radians(field_of_view), .step = gonio::radians(step)});
 }
 
-pictures read_pictures(const laboratory& lab, const options& given, double field_of_view,
-                       const gonio::progress& listener) {
+pictures read_images(const laboratory& lab, const options& given, double field_of_view,
+                     const gonio::progress& listener) {
   return pictures(
       gonio::design::image_objective(lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}),
                                      geometry_of(field_of_view, given.step)),
       given.threads, listener);
 }
 
-/// The best plans of 1 to `most` pictures on the grid of candidates, slid on from there on one of degrees.
+/// The best plans of 1 to `most` images on the grid of candidates, slid on from there on one of degrees.
 std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, const options& given,
                                                        const pictures& coarse, std::size_t most,
                                                        const gonio::progress& listener) {
@@ -101,12 +101,11 @@ table side_by_side(const std::string& title, const std::vector<std::pair<std::st
 
 std::string degrees_of(double field_of_view) { return std::to_string(std::lround(field_of_view)) + " degrees"; }
 
-/// How many points there have to be for the error of some pictures.
-table points_for_pictures(const std::vector<std::pair<std::string, std::vector<json>>>& series,
-                          const point_errors& points) {
-  table shown{
-      "The fewest points that reach the error of pictures; of the published ones there are 1, 2, 5, 10, 20",
-      {{"field of view"}, {"pictures", 0}, {"error"}, {"published points", 0}, {"points by expected error", 0}}};
+/// How many points there have to be for the error of some images.
+table points_for_images(const std::vector<std::pair<std::string, std::vector<json>>>& series,
+                        const point_errors& points) {
+  table shown{"The fewest points that reach the error of images; of the published ones there are 1, 2, 5, 10, 20",
+              {{"field of view"}, {"images", 0}, {"error"}, {"published points", 0}, {"points by expected error", 0}}};
   const auto fewest = [](const std::vector<json>& errors, double wanted) -> json {
     for (std::size_t i = 0; i < errors.size(); ++i)
       if (!errors[i].is_null() && errors[i].number() <= wanted) return i + 1;
@@ -141,7 +140,7 @@ std::vector<gonio::design::capture_plan> plans_by_descent(const Geometry& geomet
   return plans;
 }
 
-/// Half and difference angles of the pictures of a plan in degrees, as the paper tabulates them.
+/// Half and difference angles of the images of a plan in degrees, as the paper tabulates them.
 std::vector<std::vector<json>> printed_angles(const std::string& name,
                                               const gonio::design::near_field_geometry& geometry,
                                               const std::vector<std::size_t>& candidates) {
@@ -159,7 +158,7 @@ std::vector<std::vector<json>> printed_angles(const std::string& name,
 table table_of_angles() {
   return {"Where light and camera are, in degrees",
           {{"set"},
-           {"pictures", 0},
+           {"images", 0},
            {"theta_h", 0},
            {"theta_d", 0},
            {"phi_d", 0},
@@ -167,7 +166,7 @@ table table_of_angles() {
            {"camera's polar angle", 0}}};
 }
 
-/// Pictures of which the light, or the camera, stays where it is.
+/// Images of which the light, or the camera, stays where it is.
 class with_one_in_place {
  public:
   with_one_in_place(const pictures& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
@@ -197,7 +196,7 @@ class with_one_in_place {
   double polar_angle_;
 };
 
-/// For each number of pictures the best of all places to stand in.
+/// For each number of images the best of all places to stand in.
 std::vector<gonio::design::capture_plan> plans_in_place(const pictures& all, const options& given, std::size_t most,
                                                         gonio::direction gonio::direction_pair::*fixed,
                                                         const gonio::progress& listener) {
@@ -213,7 +212,7 @@ std::vector<gonio::design::capture_plan> plans_in_place(const pictures& all, con
   return best;
 }
 
-/// What the paper prints for two pictures by a camera that stays (Fig. 14 a), on a grid of degrees.
+/// What the paper prints for two images by a camera that stays (Fig. 14 a), on a grid of degrees.
 double error_of_printed_fixed_camera(const laboratory& lab) {
   const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
   const auto at = [&](double theta_h, double theta_d, double phi_d) {
@@ -231,7 +230,7 @@ tables xu_5(const options& given, const gonio::progress& listener) {
   std::vector<std::pair<std::string, std::vector<json>>> errors, conditions;
   for (const double field_of_view : given.fields_of_view) {
     const std::string name = degrees_of(field_of_view);
-    const pictures all = read_pictures(lab, given, field_of_view, listener);
+    const pictures all = read_images(lab, given, field_of_view, listener);
     const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     errors.emplace_back(name + ", expected error",
                         errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
@@ -242,7 +241,7 @@ tables xu_5(const options& given, const gonio::progress& listener) {
     errors.emplace_back(name + ", condition", errors_of(lab, fine, theirs));
     conditions.emplace_back(name, std::move(reached));
   }
-  return {side_by_side("Mean mapped error of the ten materials by number of pictures n", errors),
+  return {side_by_side("Mean mapped error of the ten materials by number of images n", errors),
           side_by_side("The condition number that its search reached", conditions)};
 }
 
@@ -252,7 +251,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
   std::vector<std::pair<std::string, std::vector<json>>> series;
   table angles = table_of_angles();
   for (const double field_of_view : given.fields_of_view) {
-    const pictures all = read_pictures(lab, given, field_of_view, listener);
+    const pictures all = read_images(lab, given, field_of_view, listener);
     const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     const auto plans = refined_plans(lab, given, all, std::min<std::size_t>(given.up_to(5), 5), listener);
     series.emplace_back(degrees_of(field_of_view), errors_of(lab, fine, plans));
@@ -261,10 +260,10 @@ tables xu_6(const options& given, const gonio::progress& listener) {
       angles.rows.insert(angles.rows.end(), rows.begin(), rows.end());
     }
   }
-  table reached = points_for_pictures(series, points);
+  table reached = points_for_images(series, points);
   series.emplace_back("points, published", points.published);
   series.emplace_back("points, expected error", points.expected);
-  return {side_by_side("Mean mapped error of the ten materials by number n of pictures, or of points", series),
+  return {side_by_side("Mean mapped error of the ten materials by number n of images, or of points", series),
           std::move(reached), std::move(angles)};
 }
 
@@ -274,14 +273,14 @@ tables xu_7(const options& given, const gonio::progress& listener) {
   std::vector<std::string> order = learned.names;
   std::mt19937_64 generator(given.seed);
   std::ranges::shuffle(order, generator);
-  table shown{"Two pictures at 25 degrees by number of materials learned",
+  table shown{"Two images at 25 degrees by number of materials learned",
               {{"materials", 0}, {"components", 0}, {"mapped error"}, {"projection: mapped error"}}};
   const std::size_t largest = given.most > 0 ? std::min(given.most, order.size()) : order.size();
   const std::size_t step = std::min<std::size_t>(largest, 10);
   for (std::size_t count = step; count <= largest; count += step) {
     const std::vector<std::string> names(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
     const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
-    const pictures all = read_pictures(lab, given, figures_field_of_view, listener);
+    const pictures all = read_images(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);
     const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
     shown.rows.push_back({count, lab.prior().size(), lab.error(samples_of(fine, plans.back().candidates)),
@@ -293,7 +292,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
 tables xu_13(const options& given, const gonio::progress& listener) {
   const laboratory lab = open_laboratory(given, listener);
   const std::size_t most = given.up_to(5);
-  const pictures all = read_pictures(lab, given, figures_field_of_view, listener);
+  const pictures all = read_images(lab, given, figures_field_of_view, listener);
   const auto free = best_plans(all, most, most_exchanged, given.seed, listener);
   const auto camera = plans_in_place(all, given, most, &gonio::direction_pair::wo, listener);
   const auto light = plans_in_place(all, given, most, &gonio::direction_pair::wi, listener);
@@ -304,10 +303,10 @@ tables xu_13(const options& given, const gonio::progress& listener) {
     const auto rows = printed_angles(name, all.geometry(), (*plans)[std::min<std::size_t>(most, 2) - 1].candidates);
     angles.rows.insert(angles.rows.end(), rows.begin(), rows.end());
   }
-  table printed{"Two pictures by a fixed camera as printed (Fig. 14 a: theta_h, theta_d, phi_d 4 63 90 and 39 34 124)",
+  table printed{"Two images by a fixed camera as printed (Fig. 14 a: theta_h, theta_d, phi_d 4 63 90 and 39 34 124)",
                 {{"set"}, {"mapped error"}},
                 {{"printed", error_of_printed_fixed_camera(lab)}}};
-  return {side_by_side("Mean mapped error of the ten materials by number n of pictures at 25 degrees, or of points",
+  return {side_by_side("Mean mapped error of the ten materials by number n of images at 25 degrees, or of points",
                        {{"free", errors_of(lab, all.geometry(), free)},
                         {"fixed camera", errors_of(lab, all.geometry(), camera)},
                         {"fixed light", errors_of(lab, all.geometry(), light)},

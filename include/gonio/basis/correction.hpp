@@ -166,7 +166,7 @@ class leave_one_out_approximations {
           std::erase(others, target);
           const solution found = solver_.solve(leave_one_out(products, target, others));
           weights_[channel].col(target) =
-              spread(found, others, weights_[channel].rows()).weights.template cast<float>();
+              scatter_columns(found, others, weights_[channel].rows()).weights.template cast<float>();
         },
         threads_);
   }

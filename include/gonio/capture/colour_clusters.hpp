@@ -1,8 +1,8 @@
 #pragma once
-/// Which pixels of a picture show the same material, told by their colours alone.
+/// Which pixels of an image show the same material, told by their colours alone.
 /// Xu, Nielsen, Yu, Jensen and Ramamoorthi, "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition",
-/// SIGGRAPH Asia 2016, section 8 and Figure 17: with a fixed camera the pixels of both pictures are the same points of
-/// a surface; the second, diffuse picture is clustered by colour and a BRDF estimated for each cluster. The paper names
+/// SIGGRAPH Asia 2016, section 8 and Figure 17: with a fixed camera the pixels of both images are the same points of
+/// a surface; the second, diffuse image is clustered by colour and a BRDF estimated for each cluster. The paper names
 /// neither the algorithm, nor the colour space, nor how many clusters are chosen: k-means, CIELAB and silhouettes are
 /// ours.
 
@@ -15,7 +15,7 @@
 
 namespace gonio::capture {
 
-/// The pixels of a picture by material.
+/// The pixels of an image by material.
 struct colour_clusters {
   Eigen::VectorXi labels;          ///< for each pixel the number of its cluster, 0 the largest
   point_matrix centres;            ///< mean linear colour of each cluster, k x 3
@@ -48,13 +48,13 @@ struct cluster_count_choice {
 [[nodiscard]] point_matrix clustering_coordinates(const point_matrix_view& colours);
 
 /// Parts pixels into k clusters by k-means over their `clustering_coordinates`. Colours are linear Rec. 709, n x 3: of
-/// a picture, or better the reflectances that were found from it, for where a light falls off towards the border it
+/// an image, or better the reflectances that were found from it, for where a light falls off towards the border it
 /// darkens the same material. Centres come from 2,000 of the pixels, chosen by the seed, and are then refined on all.
 /// Throws gonio::error if a colour is not finite, all are black, or fewer than k differ. The seed alone decides, not
 /// the number of threads. O(n k) a step.
 ///
 /// ```cpp
-/// const auto materials = gonio::capture::cluster_colours(second_picture, 3, seed);
+/// const auto materials = gonio::capture::cluster_colours(second_image, 3, seed);
 /// for (std::size_t m = 0; m < materials.count(); ++m) estimate_from(materials.pixels(m));
 /// ```
 [[nodiscard]] colour_clusters cluster_colours(const point_matrix_view& colours, Eigen::Index k, std::uint64_t seed,

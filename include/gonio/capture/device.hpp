@@ -3,7 +3,7 @@
 /// them. The library has no drivers; examples/lab/ has models of each, which are simulations.
 ///
 /// A call to a device blocks until the device has done what it was asked: arms are at rest, a lamp's light is steady, a
-/// picture is read out. What a device cannot do it says with device_failure, at once or after a time-out of its own,
+/// image is read out. What a device cannot do it says with device_failure, at once or after a time-out of its own,
 /// and stays usable: whoever called may try again.
 
 #include <gonio/core/direction.hpp>
@@ -31,7 +31,7 @@ class device_failure : public std::runtime_error {
 /// Counts of the pixels that see the sample, a row for each pixel; the columns are red, green and blue.
 using camera_frame = Eigen::Array<std::uint16_t, Eigen::Dynamic, 3>;
 
-/// Pictures of one pair of directions.
+/// Images of one pair of directions.
 struct reading {
   std::vector<double> times;         ///< seconds of exposure of each frame
   std::vector<camera_frame> frames;  ///< all with the same pixels
@@ -86,8 +86,8 @@ concept positioner = requires(P& arm, const P& same, const direction& w) {
 /// A camera that looks at the sample.
 ///
 /// A driver's author guarantees: `expose(seconds)`, for a time from shortest_time() to longest_time(), returns the
-/// counts of the same pixels every time, from 0 to largest_count(), without gamma correction that changes from picture
-/// to picture, automatic gain or white balance. A picture that did not arrive is a device_failure.
+/// counts of the same pixels every time, from 0 to largest_count(), without gamma correction that changes from image
+/// to image, automatic gain or white balance. An image that did not arrive is a device_failure.
 /// ```cpp
 /// struct photodiode {
 ///   std::uint16_t largest_count() const { return 255; }
@@ -112,7 +112,7 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 /// A driver's author guarantees: `place(pair)` says where the machine would measure that pair of unit vectors, or why
 /// it cannot, without moving; light and viewer hiding one another is such an obstacle. `travel(from, to)` is the
 /// largest angle in radians by which a part of it turns between two pairs. `measure(pair)`, for a pair that place()
-/// returned, takes pictures there; it leaves the lamps off, also when it throws device_failure.
+/// returned, takes images there; it leaves the lamps off, also when it throws device_failure.
 /// ```cpp
 /// struct open_hand {
 ///   gonio::capture::placement place(const gonio::direction_pair& pair) const { return {pair, ""}; }
@@ -136,7 +136,7 @@ concept goniometer = requires(G& machine, const G& same, const direction_pair& p
 /// The exposure times of the thesis's note on relative BRDF measurement (Sec. 3), in seconds.
 inline constexpr std::array<double, 5> note_exposure_times{0.0125, 0.025, 0.05, 0.1, 0.2};
 
-/// Takes pictures at some times, and at others where these do not show all: ever shorter ones while a pixel of the
+/// Takes images at some times, and at others where these do not show all: ever shorter ones while a pixel of the
 /// shortest is in the uppermost eighth of the counts, where chips saturate, longer ones while a colour of the longest
 /// has no count above the lowest eighth, by factors of 4 as far as the camera goes. Times beyond the camera's are
 /// brought to its own. The given times come first, in their order; there is at least one.

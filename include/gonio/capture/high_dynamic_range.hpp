@@ -44,7 +44,7 @@ struct measured_radiance {
 
 namespace detail {
 
-/// What a picture says of a radiance: how long it was exposed, the exposure, and the count, of one pixel or the mean.
+/// What an image says of a radiance: how long it was exposed, the exposure, and the count, of one pixel or the mean.
 struct exposed {
   double time = 0.0, exposure = 0.0, count = 0.0;
 };

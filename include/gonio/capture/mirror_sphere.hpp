@@ -16,8 +16,8 @@
 
 namespace gonio::capture {
 
-/// A mirror sphere and the camera that looks at its centre. Axes: x to the right and y up in the picture, z from the
-/// sphere towards the camera. Places in the picture are those of a sphere of radius 1 that fills it: from -1 to 1, y
+/// A mirror sphere and the camera that looks at its centre. Axes: x to the right and y up in the image, z from the
+/// sphere towards the camera. Places in the image are those of a sphere of radius 1 that fills it: from -1 to 1, y
 /// upwards.
 class mirror_sphere {
  public:
@@ -74,7 +74,7 @@ struct unwrap_options {
   double reflectance = 1.0;  ///< of the mirror
   int samples = 0;  ///< directions across a pixel of the map, of which the mean is taken; 0: as its light needs
 
-  /// As many as it takes not to step over a pixel of the middle of a picture that is some pixels wide, where one shows
+  /// As many as it takes not to step over a pixel of the middle of an image that is some pixels wide, where one shows
   /// 4 / pixels of light's angle.
   [[nodiscard]] int samples_for(std::size_t pixels) const noexcept;
 };
@@ -83,19 +83,19 @@ namespace detail {
 
 void require_unwrappable(const image& probe, const unwrap_options& options);
 
-/// The colour at a place of the sphere's picture: the mean of the four pixels around it by how close they are, without
+/// The colour at a place of the sphere's image: the mean of the four pixels around it by how close they are, without
 /// those that lie partly beside the sphere. Places within three quarters of a pixel of the rim are moved there, so that
 /// the pixel towards the middle is always whole.
 [[nodiscard]] rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept;
 
 }  // namespace detail
 
-/// The light around a mirror sphere as a latitude-longitude picture with the conventions of render/environment_map.hpp,
-/// from a square picture that the sphere fills. For each direction of the map the picture is read, between its pixels,
+/// The light around a mirror sphere as a latitude-longitude image with the conventions of render/environment_map.hpp,
+/// from a square image that the sphere fills. For each direction of the map the image is read, between its pixels,
 /// where it shows that light, without pixels that lie partly beside the sphere. What the sphere hides, right behind it,
 /// is filled with what is seen at the rim on that side.
 ///
-/// Throws gonio::error unless the picture is square, of at least 8 pixels a side, finite and not negative, and the
+/// Throws gonio::error unless the image is square, of at least 8 pixels a side, finite and not negative, and the
 /// options are positive, the reflectance at most 1. O(rows^2 samples^2).
 [[nodiscard]] image unwrap(const image& probe, const mirror_sphere& sphere, const unwrap_options& options = {},
                            thread_count threads = {});

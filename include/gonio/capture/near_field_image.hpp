@@ -1,5 +1,5 @@
 #pragma once
-/// A picture of a flat sample, taken from close by under a distant light, as measurements of its BRDF: every pixel has
+/// An image of a flat sample, taken from close by under a distant light, as measurements of its BRDF: every pixel has
 /// its own viewing direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, sections 5.2 and 7.
 ///
 /// The sample lies in the plane z = 0. A pixel's value is the radiance L that it sees, so that f = L / (E cos theta_i),
@@ -8,7 +8,7 @@
 
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/picture_samples.hpp>
+#include <gonio/table/image_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -33,12 +33,12 @@ struct sample_disc {
   [[nodiscard]] bool contains(const Eigen::Vector3d& point) const noexcept;
 };
 
-/// A rectangle of a picture's pixels; the first row is at the top.
+/// A rectangle of an image's pixels; the first row is at the top.
 struct pixel_window {
   std::size_t column = 0, row = 0, columns = 0, rows = 0;
 };
 
-/// How a picture was taken, and what of it counts.
+/// How an image was taken, and what of it counts.
 struct near_field_setup {
   pinhole_camera camera;
   distant_light light;
@@ -54,7 +54,7 @@ struct near_field_setup {
 };
 
 /// Throws gonio::error unless camera and light are above the sample's plane, the light's direction has length 1, and
-/// what can be measured in numbers is positive; a window must be inside the camera's picture.
+/// what can be measured in numbers is positive; a window must be inside the camera's image.
 void require_usable(const near_field_setup& setup);
 
 namespace detail {
@@ -74,7 +74,7 @@ struct pixel_block {
 void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
                pixel_block& block);
 
-/// The size of a picture must be its camera's.
+/// The size of an image must be its camera's.
 void require_size(const image& picture, const camera_intrinsics& intrinsics);
 
 }  // namespace detail
@@ -83,17 +83,17 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 /// does.
 [[nodiscard]] std::vector<std::size_t> pixels_of_region(const near_field_setup& setup);
 
-/// One sample for each block of pixels that see the region of interest, row by row from the picture's (or the
+/// One sample for each block of pixels that see the region of interest, row by row from the image's (or the
 /// window's) top left corner. Value and viewing direction are the means of those pixels, the weight is their share of
-/// the block. Throws gonio::error as `require_usable` does, if the picture's size is not the camera's, naming a pixel
+/// the block. Throws gonio::error as `require_usable` does, if the image's size is not the camera's, naming a pixel
 /// of the region that is not finite, or if nothing of the sample is seen.
 /// ```cpp
 /// const gonio::capture::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples =
-///     gonio::capture::near_field_pairs(picture, {.camera = camera, .light = lamp, .disc =
+///     gonio::capture::near_field_pairs(image, {.camera = camera, .light = lamp, .disc =
 ///     gonio::capture::sample_disc{0.2}});
 /// ```
-[[nodiscard]] picture_samples near_field_pairs(const image& picture, const near_field_setup& setup);
+[[nodiscard]] image_samples near_field_pairs(const image& picture, const near_field_setup& setup);
 
 /// The same as samples for any estimator, which light and viewer may change places in.
 [[nodiscard]] inline sample_set near_field_samples(const image& picture, const near_field_setup& setup) {

@@ -107,12 +107,12 @@ template <class Between>
 /// What a scan spends its time on.
 struct scan_pace {
   double radians_per_second = radians(5.0);
-  double settling = 2.0;                                ///< seconds at each pose before the first picture
-  double exposure = 0.0125 + 0.025 + 0.05 + 0.1 + 0.2;  ///< seconds of all pictures under one lamp
-  double switching = 1.0;  ///< seconds for each lamp: on, off, and reading the pictures out
+  double settling = 2.0;                                ///< seconds at each pose before the first image
+  double exposure = 0.0125 + 0.025 + 0.05 + 0.1 + 0.2;  ///< seconds of all images under one lamp
+  double switching = 1.0;                               ///< seconds for each lamp: on, off, and reading the images out
 };
 
-/// Seconds that a scan takes along a way, in radians, with some stops, at each of which pictures are taken under some
+/// Seconds that a scan takes along a way, in radians, with some stops, at each of which images are taken under some
 /// lamps, one after the other. Throws gonio::error for a speed that is not positive.
 [[nodiscard]] double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
                                       const scan_pace& pace = {});

@@ -113,6 +113,12 @@ namespace detail {
   return detail::combined(std::cos(angle), w, std::sin(angle), towards);
 }
 
+/// The same, but where the turned direction would lie at or below the horizon it stays as it is.
+[[nodiscard]] inline direction turned_above_horizon(const direction& w, double angle, double side) noexcept {
+  const direction elsewhere = turned(w, angle, side);
+  return elsewhere.z() > 0.0 ? elsewhere : w;
+}
+
 /// Folds an azimuth in radians into [0, pi): an isotropic reciprocal BRDF has this period in phi_d.
 [[nodiscard]] inline double fold_phi_d(double phi) noexcept {
   const double folded = phi - std::numbers::pi * std::floor(phi / std::numbers::pi);

@@ -1,7 +1,7 @@
 #pragma once
-/// A pinhole camera: the ray of a pixel, and the pixel of a point. Without lens distortion: undistort pictures first.
+/// A pinhole camera: the ray of a pixel, and the pixel of a point. Without lens distortion: undistort images first.
 ///
-/// Conventions, those of OpenCV: the camera looks along its z axis, x to the right and y downwards in the picture;
+/// Conventions, those of OpenCV: the camera looks along its z axis, x to the right and y downwards in the image;
 /// pixel (row, column) covers columns from `column` to `column + 1`, so its centre is at `column + 0.5`.
 
 #include <gonio/core/direction.hpp>
@@ -36,9 +36,9 @@ struct ray {
 struct camera_intrinsics {
   std::size_t rows = 0, columns = 0;
   double focal_length_x = 0.0, focal_length_y = 0.0;
-  double principal_x = 0.0, principal_y = 0.0;  ///< where the optical axis meets the picture
+  double principal_x = 0.0, principal_y = 0.0;  ///< where the optical axis meets the image
 
-  /// A square picture of so many pixels a side that spans an angle in radians from its left to its right.
+  /// A square image of so many pixels a side that spans an angle in radians from its left to its right.
   [[nodiscard]] static camera_intrinsics square(std::size_t pixels, double field_of_view);
 };
 
@@ -50,7 +50,7 @@ class pinhole_camera {
   /// positive, there are pixels and all is finite.
   pinhole_camera(const camera_intrinsics& intrinsics, const Eigen::Matrix3d& rotation, const Eigen::Vector3d& position);
 
-  /// A camera that looks at a target, the upper edge of its picture towards `up`. Throws gonio::error if it is at the
+  /// A camera that looks at a target, the upper edge of its image towards `up`. Throws gonio::error if it is at the
   /// target or looks along `up`.
   [[nodiscard]] static pinhole_camera look_at(const camera_intrinsics& intrinsics, const Eigen::Vector3d& position,
                                               const Eigen::Vector3d& target, const Eigen::Vector3d& up);
@@ -59,14 +59,14 @@ class pinhole_camera {
   [[nodiscard]] const Eigen::Matrix3d& rotation() const noexcept { return rotation_; }
   [[nodiscard]] const Eigen::Vector3d& position() const noexcept { return position_; }
 
-  /// What is seen at a place of the picture; pixel centres are at halves.
+  /// What is seen at a place of the image; pixel centres are at halves.
   [[nodiscard]] ray ray_through(double column, double row) const noexcept {
     const Eigen::Vector3d seen((column - intrinsics_.principal_x) / intrinsics_.focal_length_x,
                                (row - intrinsics_.principal_y) / intrinsics_.focal_length_y, 1.0);
     return {position_, (rotation_.transpose() * seen).normalized()};
   }
 
-  /// (column, row) at which a point is seen, inside the picture or not; nothing if it is not before the camera.
+  /// (column, row) at which a point is seen, inside the image or not; nothing if it is not before the camera.
   [[nodiscard]] std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const noexcept {
     const Eigen::Vector3d seen = rotation_ * (point - position_);
     if (!(seen.z() > 0.0)) return {};

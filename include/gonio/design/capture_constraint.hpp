@@ -26,7 +26,7 @@ struct forbidden_zone {
 };
 
 /// Which pairs of directions an apparatus can measure. All angles in radians; by default it can measure all. Of a
-/// picture, the directions are those of its centre.
+/// image, the directions are those of its centre.
 struct capture_constraint {
   polar_range light, viewer;              ///< where light and viewer can be
   double smallest_separation = 0.0;       ///< between light and viewer, which hide one another

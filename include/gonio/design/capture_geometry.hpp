@@ -1,5 +1,5 @@
 #pragma once
-/// Which measurements one setting of an apparatus brings: a point sample one, a picture thousands. `capture_geometry`
+/// Which measurements one setting of an apparatus brings: a point sample one, an image thousands. `capture_geometry`
 /// is the concept, `point_geometry` its simplest model; the others stand in `sphere_geometry.hpp` and
 /// `near_field_geometry.hpp`.
 
@@ -21,7 +21,7 @@ using grid_step = std::array<int, 3>;
 /// Candidates for a measurement, numbered from 0 to size() - 1.
 ///
 /// - `allows(candidate)`: can it be measured at all? The others hold of those that can.
-/// - `centre(candidate)`: where light and viewer are; of a picture, as seen from the middle of what it shows.
+/// - `centre(candidate)`: where light and viewer are; of an image, as seen from the middle of what it shows.
 /// - `nearest(pair)`: the candidate whose centre is next to a pair of directions above the horizon.
 /// - `directions(candidate)`: the directions of all of its samples; at least one.
 /// - `stepped(candidate, step)`: the candidate that a step on the grid leads to, if there is one and it is allowed.

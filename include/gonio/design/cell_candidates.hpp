@@ -20,14 +20,14 @@ namespace gonio::design {
 /// loses little: docs/directions.md.
 class cell_candidates {
  public:
-  /// 4 k m operations a cell. `own_etas` are those of the errors that a measurement of each cell has of its own, such
-  /// as `misplacement_etas`; none if it is empty. Throws gonio::error unless there is one for each cell, finite and not
-  /// negative.
+  /// 4 k m operations a cell. `sample_noise_penalties` are those of the errors that a measurement of each cell has of
+  /// its own, such as `angular_error_penalties`; none if it is empty. Throws gonio::error unless there is one for each
+  /// cell, finite and not negative.
   template <error_metric Metric>
   cell_candidates(const pca<Metric>& basis, expected_error criterion, capture_constraint constraint = {},
-                  thread_count threads = {}, std::span<const double> own_etas = {})
+                  thread_count threads = {}, std::span<const double> sample_noise_penalties = {})
       : cell_candidates(basis.cells(), basis.components(), std::move(criterion), std::move(constraint), threads,
-                        own_etas) {}
+                        sample_noise_penalties) {}
 
   [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(materials_.rows()); }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
@@ -51,15 +51,15 @@ class cell_candidates {
 
  private:
   cell_candidates(const valid_cells& cells, const cell_matrix& components, expected_error criterion,
-                  capture_constraint constraint, thread_count threads, std::span<const double> own_etas);
+                  capture_constraint constraint, thread_count threads, std::span<const double> sample_noise_penalties);
 
-  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> own_etas, std::size_t cells);
+  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> sample_noise_penalties, std::size_t cells);
 
   point_geometry geometry_;
   expected_error criterion_;
   std::vector<std::size_t> excluded_;
   cell_matrix materials_, weighted_;
-  Eigen::ArrayXf own_etas_;
+  Eigen::ArrayXf sample_noise_penalties_;
   thread_count threads_;
 };
 

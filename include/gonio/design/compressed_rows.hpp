@@ -1,5 +1,5 @@
 #pragma once
-/// The thousands of closely related samples of a picture as the few measurements that they amount to.
+/// The thousands of closely related samples of an image as the few measurements that they amount to.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/direction.hpp>

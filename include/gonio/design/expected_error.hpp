@@ -36,14 +36,14 @@ struct expected_error_options {
 ///   |Q (Q+ - (SQ)+_eta S) y_i|^2 = c_i'M c_i - 2 w_i . b_i + b_i' (W Y') b_i.
 ///
 /// A measurement may also have an error of its own, of variance v: a detector's, or that of a direction which is not
-/// quite met (`misplacement_etas`). A weight's variance over the observations is 1 / m, so that the reconstruction
-/// which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every squared error grows
-/// by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent noise is such an error
-/// of the same variance everywhere.
+/// quite met (`angular_error_penalties`). A weight's variance over the observations is 1 / m, so that the
+/// reconstruction which expects the error is penalised by eta + m v there, K = Y Y' + eta I + m diag(v), and every
+/// squared error grows by the sum of v_i [K^-1 W Y' K^-1]_ii, by what such errors add to it on average. Independent
+/// noise is such an error of the same variance everywhere.
 ///
 /// Without a material's three channels the others have another mean and covariance, and the whole is Woodbury's
-/// identity once more (`left_out_error`, of which this is the same error for samples in cells). It comes to the formula
-/// of leave-one-out for linear fits: with the material's three rows C_3 of C, the 3 x 3 matrices
+/// identity once more (`leave_one_material_out_error`, of which this is the same error for samples in cells). It comes
+/// to the formula of leave-one-out for linear fits: with the material's three rows C_3 of C, the 3 x 3 matrices
 ///
 ///   X = (what is missed of C_3' with all in the basis)' M (the same),   L = I - 1 1' / m - C_3 A' K^-1 A C_3',   A = S
 ///   Q,
@@ -60,11 +60,12 @@ class expected_error {
   struct rows {
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> both;  ///< 2n x m
 
-    Eigen::VectorXd noise;    ///< S O of Eq. 13, n values: 1 for a sample by itself
-    Eigen::VectorXd own_eta;  ///< m v of the errors of its own, noise among them, n values: 0 where there are none
+    Eigen::VectorXd noise;  ///< S O of Eq. 13, n values: 1 for a sample by itself
+    Eigen::VectorXd
+        sample_noise_penalty;  ///< m v of the errors of its own, noise among them, n values: 0 where there are none
 
     rows() = default;
-    rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), own_eta(Eigen::VectorXd::Zero(n)) {}
+    rows(Eigen::Index n, Eigen::Index m) : both(2 * n, m), noise(n), sample_noise_penalty(Eigen::VectorXd::Zero(n)) {}
 
     [[nodiscard]] Eigen::Index size() const noexcept { return noise.size(); }
     [[nodiscard]] auto materials() { return both.topRows(size()); }
@@ -158,7 +159,7 @@ class extended_error {
 
   /// E with each of some candidates, whose rows of Y and W and whose own etas are given.
   [[nodiscard]] column operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
-                                  const Eigen::Ref<const column>& own_eta) const;
+                                  const Eigen::Ref<const column>& sample_noise_penalty) const;
 
  private:
   /// One column for each candidate, as products are fastest.
@@ -171,7 +172,7 @@ class extended_error {
 
   /// Makes the columns of q and M q, one above the other, those of t and w, and those of M A q that of C A M A q.
   [[nodiscard]] knowledge take_away(columns& both, columns& twice) const;
-  [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar own_eta, Scalar d,
+  [[nodiscard]] Scalar own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty, Scalar d,
                                   Scalar r) const;
   /// The mean over the observations of materials left out, given the candidate's t and w and what own errors add.
   [[nodiscard]] Scalar mean_left_out(const Scalar* t, const Scalar* w, Scalar d, Scalar r, Scalar own) const;

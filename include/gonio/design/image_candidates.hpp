@@ -1,5 +1,5 @@
 #pragma once
-/// What pictures are worth: E(S) of Xu et al. 2016 where a candidate brings many samples (section 5.2).
+/// What images are worth: E(S) of Xu et al. 2016 where a candidate brings many samples (section 5.2).
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
@@ -23,7 +23,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// E of pictures, whose samples are read whenever they are asked for: for searches that look at few candidates of many.
+/// E of images, whose samples are read whenever they are asked for: for searches that look at few candidates of many.
 /// Samples whose information is below a thousandth of eta are left out (`compressed`), which changes E by less.
 template <error_metric Metric, capture_geometry Geometry>
 class image_objective {
@@ -35,19 +35,19 @@ class image_objective {
   [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
-  /// Y and W of one picture, compressed. O(s k min(s, k)) for s samples.
+  /// Y and W of one image, compressed. O(s k min(s, k)) for s samples.
   [[nodiscard]] expected_error::rows rows_of(std::size_t candidate) const {
     const std::vector<half_difference> directions = geometry_.directions(candidate);
     const component_rows few = compressed(rows_at(basis_, directions), 1e-3 * criterion_.options().eta);
     return criterion_.prepare(few.components, few.noise);
   }
 
-  /// E of some pictures.
+  /// E of some images.
   [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
     return criterion_(rows_of_all(candidates));
   }
 
-  /// E of some pictures and one more, as a function of that one.
+  /// E of some images and one more, as a function of that one.
   [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
     return [this, others = rows_of_all(candidates)](std::size_t candidate) {
       const expected_error::rows one = rows_of(candidate);
@@ -70,8 +70,8 @@ class image_objective {
   Geometry geometry_;
 };
 
-/// E of pictures, all of which are read beforehand, so that all can be tried as the next one. 16 m bytes for each of
-/// the rows that a picture amounts to (5 to 40), at eta / 1000.
+/// E of images, all of which are read beforehand, so that all can be tried as the next one. 16 m bytes for each of
+/// the rows that an image amounts to (5 to 40), at eta / 1000.
 template <error_metric Metric, capture_geometry Geometry>
 class image_candidates {
  public:
@@ -89,18 +89,18 @@ class image_candidates {
             if (objective_.geometry().allows(candidate)) rows_[candidate] = objective_.rows_of(candidate);
           },
           threads_);
-      report(listener, "pictures", static_cast<double>(begin + count) / static_cast<double>(rows_.size()));
+      report(listener, "images", static_cast<double>(begin + count) / static_cast<double>(rows_.size()));
     }
   }
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return objective_.geometry(); }
 
-  /// E of some pictures.
+  /// E of some images.
   [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
     return objective_.criterion()(rows_of_all(candidates));
   }
 
-  /// E of some pictures and one more, as a function of that one.
+  /// E of some images and one more, as a function of that one.
   [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
     return [this, others = rows_of_all(candidates)](std::size_t candidate) {
       const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
@@ -108,7 +108,7 @@ class image_candidates {
     };
   }
 
-  /// E of some pictures and, in turn, each candidate beside them; infinity for those that are not allowed.
+  /// E of some images and, in turn, each candidate beside them; infinity for those that are not allowed.
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
     std::vector<float> errors(rows_.size(), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);

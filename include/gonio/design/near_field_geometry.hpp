@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
+/// Images of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
 /// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 5.2 and Fig. 4.
 
 #include <gonio/design/capture_geometry.hpp>
@@ -18,7 +18,7 @@ namespace gonio::design {
 struct near_field_options {
   /// alpha = 2 atan(r / R) in radians, for a disc of radius r and a camera at distance R from its centre.
   double field_of_view = radians(25.0);
-  /// Samples along the diameter of the disc as seen from above; the picture's pixels, or blocks of them.
+  /// Samples along the diameter of the disc as seen from above; the image's pixels, or blocks of them.
   std::size_t pixels = 24;
   /// Distance of neighbouring candidates in radians: of the polar angles, and of the azimuth between light and camera.
   double step = radians(5.0);
@@ -29,7 +29,7 @@ struct near_field_options {
   capture_constraint constraint = {};
 };
 
-/// The camera of such a picture: at distance 1 in the direction wo, its square picture just around the disc, whose
+/// The camera of such an image: at distance 1 in the direction wo, its square image just around the disc, whose
 /// radius is tan(field_of_view / 2).
 [[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of a sphere of the material (Marschner et al. 2000; Nielsen et al. 2015, section 6): with light and camera
+/// Images of a sphere of the material (Marschner et al. 2000; Nielsen et al. 2015, section 6): with light and camera
 /// far away all of its points have the same theta_d, half the angle between the two, and every (theta_h, phi_d) at
 /// which both are above the horizon is seen.
 

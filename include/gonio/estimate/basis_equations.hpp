@@ -71,7 +71,7 @@ class basis_equations {
           found[system.begin] = solver(all ? whole : whole.subset(columns));
         },
         threads_);
-    return spread(side_by_side(found), columns, unknowns);
+    return scatter_columns(concatenate_columns(found), columns, unknowns);
   }
 
  private:

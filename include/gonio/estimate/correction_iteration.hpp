@@ -28,7 +28,7 @@ namespace detail {
 
 /// What a round did, given how far each measurement was trusted, what it counted, the factor that was wanted for its
 /// estimate and the one that was found.
-[[nodiscard]] correction_round describe_round(const channel_values& trust, const channel_values& weights,
+[[nodiscard]] correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                               const channel_values& wanted, const channel_values& found);
 
 /// The product of all rounds' corrections over the cells, given the weights of the functions in each. O(cells k
@@ -70,26 +70,26 @@ class correction_run {
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
   /// How far the weighting trusts each measurement now (Eq. 13), and what its estimate must be multiplied by (Eq. 12).
-  [[nodiscard]] channel_values trust() const { return weighting_.weigh(measured_, estimated()); }
+  [[nodiscard]] channel_values inlier_weights() const { return weighting_.weigh(measured_, estimated()); }
   [[nodiscard]] channel_values sigma() const { return factor().quotient(measured_, estimated()); }
 
   /// One round with the weights of the weighting.
-  correction_round step() { return step(trust()); }
+  correction_round step() { return step(inlier_weights()); }
 
   /// One round with given outlier weights. As long as they stay the same, only the right-hand sides of the normal
   /// equations are new (Eq. 9-10 with Eq. 16).
-  correction_round step(const channel_values& trust) {
-    const channel_values wanted = sigma(), weights = trust * confidence_;
+  correction_round step(const channel_values& inlier_weights) {
+    const channel_values wanted = sigma(), weights = inlier_weights * confidence_;
     if (weights.cols() != gram_weights_.cols() || (weights != gram_weights_).any())
       assemble(weights, wanted);
     else
-      moments_ = functions_.moments(weights, wanted);
+      rhs_ = functions_.rhs(weights, wanted);
     Eigen::MatrixXd beta(functions_.unknowns(), 3);
     for (std::size_t c = 0; c < 3; ++c) beta.col(static_cast<Eigen::Index>(c)) = solve(c);
     const channel_values found = functions_.apply(beta);
     total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
-    history_.push_back(detail::describe_round(trust, weights, wanted, found));
+    history_.push_back(detail::describe_round(inlier_weights, weights, wanted, found));
     return history_.back();
   }
 
@@ -119,25 +119,25 @@ class correction_run {
   [[nodiscard]] const correction_factor& factor() const noexcept { return corrections_.rule().factor; }
 
   void assemble(const channel_values& weights, const channel_values& sigma) {
-    moments_.resize(functions_.unknowns(), 3);
+    rhs_.resize(functions_.unknowns(), 3);
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = static_cast<Eigen::Index>(c);
       const normal_equations normal = functions_.normal(c, weights.row(channel), sigma.row(channel));
       grams_[c] = normal.gram();
-      moments_.col(channel) = normal.moment();
+      rhs_.col(channel) = normal.rhs();
     }
     gram_weights_ = weights;
   }
 
   [[nodiscard]] Eigen::VectorXd solve(std::size_t channel) const {
-    Eigen::MatrixXd gram = grams_[channel], moment = moments_.col(static_cast<Eigen::Index>(channel));
+    Eigen::MatrixXd gram = grams_[channel], rhs = rhs_.col(static_cast<Eigen::Index>(channel));
     if (corrections_.rule().has_constant) {
       gram.diagonal().array() += limits_.inertia;
-      moment(moment.rows() - 1, 0) += limits_.inertia;
+      rhs(rhs.rows() - 1, 0) += limits_.inertia;
     }
     const std::vector<Eigen::Index>& columns = functions_.columns();
-    const normal_equations normal{std::move(gram), std::move(moment)};
-    return spread(solver_.solve(normal.subset(columns)), columns, functions_.unknowns()).weights.col(0);
+    const normal_equations normal{std::move(gram), std::move(rhs)};
+    return scatter_columns(solver_.solve(normal.subset(columns)), columns, functions_.unknowns()).weights.col(0);
   }
 
   Initial initial_;
@@ -153,7 +153,7 @@ class correction_run {
   channel_values started_, total_;
   channel_values gram_weights_;  // for which these were built:
   std::array<Eigen::MatrixXd, 3> grams_;
-  Eigen::MatrixXd moments_;
+  Eigen::MatrixXd rhs_;
   std::vector<Eigen::MatrixXd> weights_;
   std::vector<correction_round> history_;
 };
@@ -183,7 +183,7 @@ class correction_iteration {
   /// The initial estimate of samples, or of a table, each cell of which is one: what is returned steps through its
   /// corrections. Throws gonio::error for unusable samples, or if a solver gives up.
   template <class Samples>
-  [[nodiscard]] auto start(const Samples& samples) const {
+  [[nodiscard]] auto initialise(const Samples& samples) const {
     const located_samples located = locate_samples(corrections_.cells(), samples, threads_);
     return correction_run{initial_.fit(samples), corrections_, located, weighting_, solver_, limits_, threads_};
   }
@@ -191,7 +191,7 @@ class correction_iteration {
   /// Corrects until the run has converged. Throws gonio::error for unusable samples, or if a solver gives up.
   template <class Samples>
   [[nodiscard]] auto fit(const Samples& samples) const {
-    auto run = start(samples);
+    auto run = initialise(samples);
     while (!run.converged()) run.step();
     return run.result();
   }

@@ -7,7 +7,7 @@
 /// tells. docs/eta.md has what comes of it.
 
 #include <gonio/estimate/basis_equations.hpp>
-#include <gonio/estimate/left_out_error.hpp>
+#include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/choose_eta.hpp>
 
@@ -29,7 +29,7 @@ template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_noise(const pca<Metric>& prior, const Samples& samples, double noise,
                                   thread_count threads = {}) {
   const located_samples located = locate_samples(prior.cells(), samples, threads);
-  detail::summed_scores<left_out_error> errors;  // of each channel, if these do not count alike
+  detail::summed_scores<leave_one_material_out_error> errors;  // of each channel, if these do not count alike
   for (Eigen::Index column = 0; column < located.weights.cols(); ++column) {
     const Eigen::VectorXd weights = located.weights.col(column);
     if (weights.isZero(0.0)) continue;
@@ -51,7 +51,7 @@ template <error_metric Metric, class Samples>
 }
 
 /// For samples whose noise nobody knows: the eta of generalised cross-validation among the plausible ones, one for all
-/// channels; for a single sample the largest of these. Errors that samples have in common, as those of pictures whose
+/// channels; for a single sample the largest of these. Errors that samples have in common, as those of images whose
 /// camera is off its place, it does not see. Throws as `eta_of_noise` does.
 ///
 /// ```cpp

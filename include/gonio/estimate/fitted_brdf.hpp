@@ -45,7 +45,7 @@ class fitted_brdf {
   }
 
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
-  /// The solver's weights, residuals and certificate, one for each colour channel.
+  /// The solver's weights, residuals and KKT residual, one for each colour channel.
   [[nodiscard]] const solution& found() const noexcept { return found_; }
 
   /// Reflectance in sr^-1, at least zero; zero below the horizon.

@@ -35,7 +35,7 @@ class leave_one_out_decomposition {
     const std::vector<Eigen::Index> columns = others(material);
     std::array<solution, 3> found;
     for (std::size_t c = 0; c < 3; ++c) found[c] = solver_.solve(problem(material, c));
-    return {basis_, spread(side_by_side(found), columns, static_cast<Eigen::Index>(basis_.size()))};
+    return {basis_, scatter_columns(concatenate_columns(found), columns, static_cast<Eigen::Index>(basis_.size()))};
   }
 
  private:

@@ -72,7 +72,7 @@ inline outlier_density::outlier_density(const std::vector<double>& logarithms) :
 /// Good residuals are `scale` times a variable of Student's t with 4 degrees of freedom, whose tails let the fit be
 /// wrong somewhere; all others are outliers. Residuals and what is known of them are numbers, or arrays of them.
 struct outlier_mixture {
-  double good_share = 0.8;
+  double inlier_fraction = 0.8;
   double scale = 0.3;  ///< of the logarithm of reflectance
 
   static constexpr double degrees_of_freedom = 4.0;
@@ -90,14 +90,14 @@ struct outlier_mixture {
   /// The probability that a measurement is good, given its residual and the density of outliers there.
   template <class Number>
   [[nodiscard]] Number probability(const Number& residual, const Number& outliers) const {
-    const Number good = good_share * good_density(residual);
-    return good / (good + (1.0 - good_share) * outliers);
+    const Number good = inlier_fraction * good_density(residual);
+    return good / (good + (1.0 - inlier_fraction) * outliers);
   }
 
   /// The density of a residual, good or not, given that of outliers there.
   template <class Number>
   [[nodiscard]] Number density(const Number& residual, const Number& outliers) const {
-    return good_share * good_density(residual) + (1.0 - good_share) * outliers;
+    return inlier_fraction * good_density(residual) + (1.0 - inlier_fraction) * outliers;
   }
 
   /// What a good measurement counts in a fit: less the farther it is out on the tail.
@@ -160,7 +160,7 @@ struct automatic_weights {
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
   [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const std::size_t> samples,
-                                               double good_share);
+                                               double inlier_fraction);
 
   /// As many samples are good, and their scale is another one; above 1 it would tell nothing.
   [[nodiscard]] static outlier_mixture rescaled(const outlier_mixture& mixture, double ratio);

@@ -48,16 +48,17 @@ class planned_decomposition {
     if (values.cols() != count) throw error{"there are ", values.cols(), " measurements at ", count, " planned places"};
     if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");
     const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->places, threads_);
-    const Eigen::MatrixXd moments = plan_->functions.moments(channel_values::Ones(3, count), right_hand_sides);
+    const Eigen::MatrixXd rhs = plan_->functions.rhs(channel_values::Ones(3, count), right_hand_sides);
     const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();
     const std::vector<Eigen::Index> columns = columns_of(materials_);
     std::array<solution, 3> found;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = static_cast<Eigen::Index>(c);
-      const normal_equations normal{plan_->grams[c], moments.col(channel), energies.segment<1>(channel)};
+      const normal_equations normal{plan_->grams[c], rhs.col(channel), energies.segment<1>(channel)};
       found[c] = solver_.solve(normal.subset(columns));
     }
-    return {materials_, spread(side_by_side(found), columns, static_cast<Eigen::Index>(materials_.size()))};
+    return {materials_,
+            scatter_columns(concatenate_columns(found), columns, static_cast<Eigen::Index>(materials_.size()))};
   }
 
  private:

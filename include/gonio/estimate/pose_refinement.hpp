@@ -1,12 +1,12 @@
 #pragma once
-/// Pictures whose light and camera are not quite where they are said to be: where they are, found together with the
-/// BRDF. Samples of one picture are misplaced together, which no averaging takes away, and which weights
+/// Images whose light and camera are not quite where they are said to be: where they are, found together with the
+/// BRDF. Samples of one image are misplaced together, which no averaging takes away, and which weights
 /// (`weighted_for_misplacement`) do not know.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/table/picture_samples.hpp>
+#include <gonio/table/image_samples.hpp>
 
 #include <Eigen/Core>
 
@@ -18,13 +18,13 @@
 
 namespace gonio {
 
-/// How far the directions of a picture are from where they are said to be: turns about the middle of the sample, as
+/// How far the directions of an image are from where they are said to be: turns about the middle of the sample, as
 /// vectors along their axes with the angles in radians as their lengths.
-struct picture_turns {
+struct pose_correction {
   Eigen::Vector3d light = Eigen::Vector3d::Zero(), camera = Eigen::Vector3d::Zero();
 };
 
-/// How pictures were turned into reflectance, which says what a light that is off its place does to their values.
+/// How images were turned into reflectance, which says what a light that is off its place does to their values.
 enum class light_calibration {
   irradiance,  ///< by the irradiance of a surface that faces the light, and the cosine of where the light should be
   reference_in_place  ///< by a white reference that lay where the sample lies: the cosine of where the light is
@@ -41,7 +41,7 @@ struct pose_refinement_options {
 
 namespace detail {
 
-/// All but the prior of `pose_refinement`: its steps, given whatever reads the equations of a picture.
+/// All but the prior of `pose_refinement`: its steps, given whatever reads the equations of an image.
 class pose_iteration {
  public:
   /// The equations W^(1/2) (Q c - y) of some samples: rows as columns, k x n, and right-hand sides, n x 3.
@@ -56,12 +56,12 @@ class pose_iteration {
   using reader = std::function<void(const half_difference& angles, const rgb& value, Eigen::Ref<Eigen::RowVectorXd> row,
                                     rgb& right)>;
 
-  /// A prior of k components and m observations; the samples of each picture, for each material. Throws as
+  /// A prior of k components and m observations; the samples of each image, for each material. Throws as
   /// `pose_refinement`.
-  pose_iteration(std::vector<std::vector<picture_samples>> materials, const pose_refinement_options& options,
+  pose_iteration(std::vector<std::vector<image_samples>> materials, const pose_refinement_options& options,
                  Eigen::Index components, Eigen::Index observations, const reader& read);
 
-  [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return turns_; }
+  [[nodiscard]] const std::vector<pose_correction>& turns() const noexcept { return turns_; }
   [[nodiscard]] double objective() const noexcept { return state_.objective; }
   [[nodiscard]] bool converged() const noexcept { return converged_; }
   [[nodiscard]] std::size_t materials() const noexcept { return materials_.size(); }
@@ -72,9 +72,9 @@ class pose_iteration {
   void solve(const reader& read);
 
  private:
-  static constexpr Eigen::Index unknowns = 6;  ///< of a picture
+  static constexpr Eigen::Index unknowns = 6;  ///< of an image
 
-  /// What is fitted to a material's samples in all pictures.
+  /// What is fitted to a material's samples in all images.
   struct fit {
     equations system;
     Eigen::MatrixXd normal;   ///< Q'Q + eta I
@@ -90,16 +90,16 @@ class pose_iteration {
 
   void require_sensible() const;
   void require_material(std::size_t material) const;
-  [[nodiscard]] sample turned(const pair_sample& s, const picture_turns& turns) const;
-  /// The equations of one picture from row `begin` on.
-  void add_picture(const picture_samples& picture, const picture_turns& turns, const reader& read, Eigen::Index begin,
-                   equations& out) const;
-  [[nodiscard]] fit fit_of(const std::vector<picture_samples>& pictures, const std::vector<picture_turns>& turns,
+  [[nodiscard]] sample turned(const pair_sample& s, const pose_correction& turns) const;
+  /// The equations of one image from row `begin` on.
+  void add_image(const image_samples& picture, const pose_correction& turns, const reader& read, Eigen::Index begin,
+                 equations& out) const;
+  [[nodiscard]] fit fit_of(const std::vector<image_samples>& pictures, const std::vector<pose_correction>& turns,
                            const reader& read) const;
-  [[nodiscard]] state at(const std::vector<picture_turns>& turns, const reader& read) const;
+  [[nodiscard]] state at(const std::vector<pose_correction>& turns, const reader& read) const;
   /// Of |t|^2, where the objective is divided by eta.
   [[nodiscard]] double turn_penalty() const;
-  [[nodiscard]] std::vector<picture_turns> moved(const Eigen::VectorXd& by) const;
+  [[nodiscard]] std::vector<pose_correction> moved(const Eigen::VectorXd& by) const;
   [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
                                            const reader& read) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(std::size_t material, const reader& read) const;
@@ -108,10 +108,10 @@ class pose_iteration {
                      Eigen::MatrixXd& gradient) const;
   [[nodiscard]] Eigen::VectorXd newton_step(const reader& read) const;
 
-  std::vector<std::vector<picture_samples>> materials_;  ///< of each the samples of every picture
+  std::vector<std::vector<image_samples>> materials_;  ///< of each the samples of every image
   pose_refinement_options options_;
   Eigen::Index components_, observations_;
-  std::vector<picture_turns> turns_;
+  std::vector<pose_correction> turns_;
   state state_;
   bool converged_ = false;
 };
@@ -128,31 +128,31 @@ class pose_iteration {
 /// Tikhonov's and leave F(t) = eta y'(Q Q' + eta I)^-1 y; turns are found by Gauss and Newton's steps on F (variable
 /// projection with Kaufman's derivative, BIT 15, 1975), shortened until they help. O(n k^2 + k^3) a step.
 ///
-/// Several materials that are in the same pictures share light and camera: the sum then is over all of them, each with
+/// Several materials that are in the same images share light and camera: the sum then is over all of them, each with
 /// its own weights c, and with one t.
 ///
 /// ```cpp
-/// gonio::pose_refinement refinement(prior, pictures, {.deviation = gonio::radians(0.5)});
+/// gonio::pose_refinement refinement(prior, images, {.deviation = gonio::radians(0.5)});
 /// refinement.solve();
 /// const auto paint = refinement.fit();
 /// ```
 template <error_metric Metric>
 class pose_refinement {
  public:
-  /// Throws gonio::error unless eta and deviation are positive and there is a sample in each picture, all of them above
+  /// Throws gonio::error unless eta and deviation are positive and there is a sample in each image, all of them above
   /// the horizon and finite, with weights that are not negative.
-  pose_refinement(pca<Metric> prior, std::vector<picture_samples> pictures, const pose_refinement_options& options = {})
-      : pose_refinement(std::move(prior), std::vector<std::vector<picture_samples>>{std::move(pictures)}, options) {}
+  pose_refinement(pca<Metric> prior, std::vector<image_samples> pictures, const pose_refinement_options& options = {})
+      : pose_refinement(std::move(prior), std::vector<std::vector<image_samples>>{std::move(pictures)}, options) {}
 
-  /// The same of several materials, of each its samples in every picture. A picture may have none of a material; it
-  /// must have some of one. Throws gonio::error unless all have as many pictures, too.
-  pose_refinement(pca<Metric> prior, std::vector<std::vector<picture_samples>> materials,
+  /// The same of several materials, of each its samples in every image. An image may have none of a material; it
+  /// must have some of one. Throws gonio::error unless all have as many images, too.
+  pose_refinement(pca<Metric> prior, std::vector<std::vector<image_samples>> materials,
                   const pose_refinement_options& options = {})
       : prior_(std::move(prior)),
         iteration_(std::move(materials), options, static_cast<Eigen::Index>(prior_.size()),
                    prior_.coefficients().rows(), reader()) {}
 
-  [[nodiscard]] const std::vector<picture_turns>& turns() const noexcept { return iteration_.turns(); }
+  [[nodiscard]] const std::vector<pose_correction>& turns() const noexcept { return iteration_.turns(); }
   /// What is minimised, divided by eta.
   [[nodiscard]] double objective() const noexcept { return iteration_.objective(); }
   /// Did the last step improve the objective by less than a millionth of it?

@@ -27,13 +27,13 @@ class reweighted_combination {
         mapped_(map_values(materials_.metric(), samples.channels(), places_, threads)) {}
 
   /// Weights of the materials, k x 3, with x >= 0.
-  [[nodiscard]] solution solve(const channel_values& trust) const {
-    return combine([&](std::size_t c) { return equations(c, trust); });
+  [[nodiscard]] solution solve(const channel_values& inlier_weights) const {
+    return combine([&](std::size_t c) { return equations(c, inlier_weights); });
   }
   /// Weights that follow other samples as well, all of which are trusted.
-  [[nodiscard]] solution solve(const channel_values& trust, const reweighted_combination& others) const {
+  [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const {
     const channel_values all = channel_values::Ones(3, std::ssize(others.places_));
-    return combine([&](std::size_t c) { return equations(c, trust) + others.equations(c, all); });
+    return combine([&](std::size_t c) { return equations(c, inlier_weights) + others.equations(c, all); });
   }
 
   /// The combination's reflectance at the samples.
@@ -62,9 +62,9 @@ class reweighted_combination {
   }
 
  private:
-  [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& trust) const {
+  [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& inlier_weights) const {
     const auto row = static_cast<Eigen::Index>(channel);
-    return functions_.normal(channel, trust.row(row) * confidence_.row(row), mapped_.row(row))
+    return functions_.normal(channel, inlier_weights.row(row) * confidence_.row(row), mapped_.row(row))
         .subset(functions_.columns());
   }
 
@@ -73,7 +73,7 @@ class reweighted_combination {
     const nnls solver;
     const std::array<solution, 3> found{solver.solve(equations_of(0)), solver.solve(equations_of(1)),
                                         solver.solve(equations_of(2))};
-    return spread(side_by_side(found), functions_.columns(), functions_.unknowns());
+    return scatter_columns(concatenate_columns(found), functions_.columns(), functions_.unknowns());
   }
 
   measured<Metric> materials_;
@@ -87,8 +87,8 @@ class reweighted_combination {
 /// would decide whatever they count: where the estimate is near zero, the factor is in the hundreds, and the error that
 /// is minimised is its square.
 template <class Run>
-correction_round tamed_step(Run& run, const channel_values& trust) {
-  return run.step(trust / run.sigma().max(1.0f));
+correction_round damped_step(Run& run, const channel_values& inlier_weights) {
+  return run.step(inlier_weights / run.sigma().max(1.0f));
 }
 
 }  // namespace detail
@@ -106,7 +106,7 @@ struct robust_start {
   /// nothing was measured: a combination that fits all samples but sees no highlight may have any highlight.
   double expectation = 1.0;
   /// Rounds of the final iteration that still trust as the start does.
-  int trusting_rounds = 3;
+  int initial_weight_rounds = 3;
   std::uint64_t seed = 0;
 };
 
@@ -116,12 +116,16 @@ class robust_run {
  public:
   using run_type = correction_run<fitted_brdf<gonio::measured<Metric>>>;
 
-  /// The first `trusting_rounds` count each measurement as much as `trust` says, those that follow as `run` does.
-  robust_run(run_type run, channel_values trust, int trusting_rounds)
-      : run_(std::move(run)), trust_(std::move(trust)), trusting_rounds_(trusting_rounds) {}
+  /// The first `initial_weight_rounds` count each measurement as much as `inlier_weights` says, those that follow as
+  /// `run` does.
+  robust_run(run_type run, channel_values inlier_weights, int initial_weight_rounds)
+      : run_(std::move(run)),
+        inlier_weights_(std::move(inlier_weights)),
+        initial_weight_rounds_(initial_weight_rounds) {}
 
   correction_round step() {
-    return detail::tamed_step(run_, std::ssize(run_.history()) < trusting_rounds_ ? trust_ : run_.trust());
+    return detail::damped_step(
+        run_, std::ssize(run_.history()) < initial_weight_rounds_ ? inlier_weights_ : run_.inlier_weights());
   }
   [[nodiscard]] bool converged() const noexcept { return run_.converged(); }
 
@@ -132,8 +136,8 @@ class robust_run {
 
  private:
   run_type run_;
-  channel_values trust_;
-  int trusting_rounds_;
+  channel_values inlier_weights_;
+  int initial_weight_rounds_;
 };
 
 /// Fits samples of which any share may be outliers, in these steps:
@@ -168,7 +172,7 @@ class robust_reconstruction {
       : materials_(std::move(materials)),
         corrections_(std::move(corrections)),
         limits_(limits),
-        start_(start),
+        options_(start),
         threads_(threads) {
     if (!(materials_.cells() == corrections_.cells()))
       throw error("materials and corrections must be over the same cells");
@@ -177,26 +181,26 @@ class robust_reconstruction {
   /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
   /// gonio::error for unusable samples.
   template <class Samples>
-  [[nodiscard]] robust_run<Metric> start(const Samples& samples) const {
+  [[nodiscard]] robust_run<Metric> initialise(const Samples& samples) const {
     const located_samples all = locate_samples(corrections_.cells(), samples, threads_);
-    const located_samples used = some_of(all, start_.most_samples);
-    const auto [initial, guide] = begin(some_of(used, start_.samples));
+    const located_samples used = some_of(all, options_.most_samples);
+    const auto [initial, guide] = initial_state_of(some_of(used, options_.samples));
     const automatic_weights weighting = weights_of(used);
     run_type run{initial, corrections_, used, weighting, nnls{}, limits_, threads_};
-    channel_values trust = weighting.weigh(run.measured(), run.estimated_by(guide));
-    return {std::move(run), std::move(trust), start_.trusting_rounds};
+    channel_values inlier_weights = weighting.weigh(run.measured(), run.estimated_by(guide));
+    return {std::move(run), std::move(inlier_weights), options_.initial_weight_rounds};
   }
 
   /// All steps. Throws gonio::error for unusable samples.
   template <class Samples>
   [[nodiscard]] corrected_brdf<initial_type> fit(const Samples& samples) const {
-    robust_run run = start(samples);
+    robust_run run = initialise(samples);
     while (!run.converged()) run.step();
     return run.result();
   }
 
  private:
-  struct beginning {
+  struct initial_state {
     initial_type initial;
     run_type guide;  // knows which samples to trust
   };
@@ -206,26 +210,26 @@ class robust_reconstruction {
   }
 
   [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
-    return samples.subset(detail::some_of(samples.size(), count, start_.seed));
+    return samples.subset(detail::some_of(samples.size(), count, options_.seed));
   }
 
   /// Steps 1 to 3.
-  [[nodiscard]] beginning begin(const located_samples& some) const {
+  [[nodiscard]] initial_state initial_state_of(const located_samples& some) const {
     const automatic_weights weighting = weights_of(some);
     const channel_values measured = some.channels();
     const Eigen::Array3f offsets = automatic_weights::offsets(measured);
     const detail::reweighted_combination<Metric> combination(materials_, some, threads_);
 
-    const nearest_material<Metric> nearest(materials_, start_.seed, threads_);
+    const nearest_material<Metric> nearest(materials_, options_.seed, threads_);
     const std::array<scaled_material, 3> chosen = nearest.choose(some);
     channel_values estimates = nearest.values(chosen, some.at);
     solution found;
-    for (int i = 0; i < start_.combinations; ++i) {
+    for (int i = 0; i < options_.combinations; ++i) {
       found = combination.solve(weighting.weigh(measured, estimates) * combination.relative(estimates, offsets));
       estimates = combination.values(found);
     }
     run_type rough{initial_type{materials_, found}, corrections_, some, weighting, nnls{}, limits_, threads_};
-    for (int i = 0; i < start_.corrections; ++i) detail::tamed_step(rough, rough.trust());
+    for (int i = 0; i < options_.corrections; ++i) detail::damped_step(rough, rough.inlier_weights());
 
     const automatic_weights whole{.down_weight_tail = false, .regions = weighting.regions};
     const detail::reweighted_combination<Metric> expected(materials_, expectation(nearest, chosen), threads_);
@@ -242,14 +246,14 @@ class robust_reconstruction {
     for (std::size_t i = 0; i < count; ++i) expected.at.push_back(locate_cell(cells, i * cells.size() / count));
     expected.values = nearest.values(chosen, expected.at).template cast<double>().matrix().transpose();
     expected.weights =
-        Eigen::MatrixXd::Constant(std::ssize(expected.at), 1, start_.expectation / static_cast<double>(count));
+        Eigen::MatrixXd::Constant(std::ssize(expected.at), 1, options_.expectation / static_cast<double>(count));
     return expected;
   }
 
   measured<Metric> materials_;
   correction corrections_;
   correction_limits limits_;
-  robust_start start_;
+  robust_start options_;
   thread_count threads_;
 };
 

@@ -69,7 +69,7 @@ class sampled_functions {
 
   /// m = A'Vb alone, k x 3 for the three channels, where Q is known; weights and values are 3 x n. The rows that count
   /// are those of `normal`, and rounding leaves m where Q can reach it. Reads the rows once, which is what it costs.
-  [[nodiscard]] Eigen::MatrixXd moments(const channel_values& weights, const channel_values& values) const {
+  [[nodiscard]] Eigen::MatrixXd rhs(const channel_values& weights, const channel_values& values) const {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
     std::array<float, 3> least{};
     for (std::size_t c = 0; c < 3; ++c) least[c] = least_weight(weights.row(static_cast<Eigen::Index>(c)));

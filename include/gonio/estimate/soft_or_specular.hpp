@@ -1,10 +1,10 @@
 #pragma once
 /// A prior for soft and one for specular materials, of which the measurements choose.
 /// Nielsen, Jensen and Ramamoorthi 2015, section 8: whether a material is specular is told by the ratio of an in-peak
-/// to an out-of-peak sample; what ratio exactly says basis/highlight_contrast.hpp.
+/// to an out-of-peak sample; what ratio exactly says estimate/highlight_contrast.hpp.
 
-#include <gonio/basis/highlight_contrast.hpp>
 #include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/highlight_contrast.hpp>
 
 #include <string>
 #include <type_traits>

@@ -4,7 +4,7 @@
 /// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia
 /// 2015, Eq. 1-2 (mapping, cosine weight).
 
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
 
 #include <limits>
@@ -17,7 +17,7 @@ struct comparison {
   rgb mapped_rms = rgb::Zero();
   /// The same of the difference of reflectance times max(cos_i cos_o, 0.001) (Eq. 2), in sr^-1.
   rgb cosine_rms = rgb::Zero();
-  /// Mean CIELAB difference of spheres under the two lights and under the environment; see appearance_judge.
+  /// Mean CIELAB difference of spheres under the two lights and under the environment; see appearance_metric.
   double delta_e_lights = 0.0;
   double delta_e_env = 0.0;
   /// Peak of the estimate over that of the truth; see highlight_peak. If the truth's is zero: 1 if the estimate's
@@ -88,7 +88,7 @@ template <error_metric Metric>
 /// `judge` must be over the truth's cells, otherwise gonio::error is thrown. Same bytes for any number of threads.
 template <error_metric Metric>
 [[nodiscard]] comparison compare(const brdf_table& estimate, const brdf_table& truth, const Metric& metric,
-                                 const appearance_judge& judge, thread_count threads = {}) {
+                                 const appearance_metric& judge, thread_count threads = {}) {
   if (!(estimate.cells() == truth.cells()))
     return compare(resample(estimate, truth.cells(), threads), truth, metric, judge, threads);
 

@@ -27,14 +27,13 @@ struct measurement_defects {
 template <class Generator>
 [[nodiscard]] direction misplaced(const direction& w, double angle, Generator& generator) {
   std::uniform_real_distribution<double> any_side(0.0, 2.0 * std::numbers::pi);
-  const direction elsewhere = turned(w, angle, any_side(generator));
-  return elsewhere.z() > 0.0 ? elsewhere : w;
+  return turned_above_horizon(w, angle, any_side(generator));
 }
 
 /// The table's values, interpolated, where light and viewer are each off their directions by an angle in radians, as
 /// samples of the directions that were meant.
-[[nodiscard]] sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs, double angle,
-                                           std::uint64_t seed = 0);
+[[nodiscard]] sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
+                                                double angle, std::uint64_t seed = 0);
 
 /// How many of `all` a share of them, between 0 and 1, is: at least one.
 [[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
@@ -55,8 +54,8 @@ template <class Generator>
 /// Gives samples defects, which come from the seed alone: `any_value(generator)` is what an outlier's value becomes.
 /// Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
 template <class AnyValue>
-[[nodiscard]] sample_set spoil(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
-                               AnyValue&& any_value) {
+[[nodiscard]] sample_set corrupt(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
+                                 AnyValue&& any_value) {
   if (!(defects.outlier_ratio >= 0.0 && defects.outlier_ratio <= 1.0))
     throw error("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
@@ -81,18 +80,18 @@ template <class AnyValue>
 }
 
 /// The table's values at cells, at the cells' own angles, with defects: an outlier has the value of a random cell.
-/// Throws as `spoil` does.
-[[nodiscard]] sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
-                                 const measurement_defects& defects = {}, std::uint64_t seed = 0);
+/// Throws as `corrupt` does.
+[[nodiscard]] sample_set sample_table(const brdf_table& table, std::span<const std::size_t> cells,
+                                      const measurement_defects& defects = {}, std::uint64_t seed = 0);
 
 /// Measurements parted in two.
-struct parted_samples {
+struct sample_split {
   sample_set some, others;
 };
 
 /// `count` of the samples, at random, and the others, both in their order. Throws gonio::error if there are not as
 /// many.
-[[nodiscard]] parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed);
+[[nodiscard]] sample_split split_samples(const sample_set& samples, std::size_t count, std::uint64_t seed);
 
 }  // namespace gonio
 

@@ -21,7 +21,7 @@ inline constexpr std::uint64_t believable_expansion = 64;
   return claimed <= freely || (claimed - freely) / believable_expansion <= compressed;
 }
 
-/// How many pixels a kind of picture may have whatever its file's size, and beyond that, how many pixels one byte of
+/// How many pixels a kind of image may have whatever its file's size, and beyond that, how many pixels one byte of
 /// the file may stand for.
 struct pixel_claims {
   std::size_t freely, per_byte;

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures: PNG, 8 bits in sRGB, and Radiance HDR (RGBE), to and from linear light. Needs zlib and stb.
+/// Images: PNG, 8 bits in sRGB, and Radiance HDR (RGBE), to and from linear light. Needs zlib and stb.
 ///
 /// Only stb's declarations are included. Debian's libstb, which gonio::image links, brings the code;
 /// elsewhere one source file of the program defines STB_IMAGE_IMPLEMENTATION and
@@ -89,7 +89,7 @@ struct byte_source {
   static int eof(void* user) { return static_cast<byte_source*>(user)->left.empty() ? 1 : 0; }
 };
 
-/// The fewest bytes that the pixels of an HDR picture can take: all rows in runs of 127.
+/// The fewest bytes that the pixels of an HDR image can take: all rows in runs of 127.
 [[nodiscard]] inline std::size_t least_hdr_size(std::size_t rows, std::size_t columns) noexcept {
   const std::size_t flat = 4 * columns;
   return rows * (columns < 8 ? flat : std::min(flat, 4 + 8 * ((columns + 126) / 127)));
@@ -114,7 +114,7 @@ struct stb_extents {
   int rows = 0;
 };
 
-/// Checks a picture before it is written; `brightest` is the largest value that the format can hold.
+/// Checks an image before it is written; `brightest` is the largest value that the format can hold.
 [[nodiscard]] stb_extents check_pixels(const image& picture, float brightest, const std::string& name);
 
 }  // namespace detail
@@ -139,11 +139,11 @@ struct stored_codes {
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
 void write_png(const std::filesystem::path& path, const image& picture);
 
-/// Reads a Radiance HDR picture whose rows run from top to bottom, as nearly all do. EXPOSURE is not
+/// Reads a Radiance HDR image whose rows run from top to bottom, as nearly all do. EXPOSURE is not
 /// applied: values are those stored.
 [[nodiscard]] image read_hdr(const std::filesystem::path& path);
 
-/// Writes a Radiance HDR picture. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,
+/// Writes a Radiance HDR image. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,
 /// are refused.
 void write_hdr(const std::filesystem::path& path, const image& picture);
 

@@ -1,9 +1,9 @@
 #pragma once
-/// Text files that say how a picture of a flat sample was taken: a line for each entry, angles in degrees, lengths in
+/// Text files that say how an image of a flat sample was taken: a line for each entry, angles in degrees, lengths in
 /// any one unit, the sample in the plane z = 0. docs/formats.md has all the entries.
 ///
 /// ```
-/// size 640 480           # of the picture: columns, rows
+/// size 640 480           # of the image: columns, rows
 /// focal_length 1210.5    # in pixels
 /// position 0.5 0 0.3     # of the camera, which looks at the target
 /// target 0 0 0
@@ -115,7 +115,7 @@ class setup_text {
 /// entry that is missing, and as `require_usable` does; `name` is what errors call the text.
 [[nodiscard]] capture::near_field_setup parse_near_field_setup(std::string_view text, const std::string& name);
 
-/// Reads the set-up of a picture. Throws gonio::error naming the file and the line.
+/// Reads the set-up of an image. Throws gonio::error naming the file and the line.
 [[nodiscard]] capture::near_field_setup read_near_field_setup(const std::filesystem::path& path);
 
 }  // namespace gonio::io

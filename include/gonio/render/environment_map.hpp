@@ -1,5 +1,5 @@
 #pragma once
-/// Light measured all around, as a latitude-longitude picture (P. Debevec, "Rendering Synthetic Objects into Real
+/// Light measured all around, as a latitude-longitude image (P. Debevec, "Rendering Synthetic Objects into Real
 /// Scenes", SIGGRAPH 1998), and as directional lights: one for each pixel, or a few drawn by importance along a
 /// Hilbert curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the Hilbert Curve", Journal of
 /// Graphics Tools 8(3), 2003). The light under which Noell et al. 2014, Sec. 3.1, judge BRDFs: their spheres stand in
@@ -23,16 +23,16 @@
 
 namespace gonio::render {
 
-/// Radiance from everywhere, constant within each pixel of a picture that is twice as wide as high.
+/// Radiance from everywhere, constant within each pixel of an image that is twice as wide as high.
 ///
-/// The picture is what someone sees who stands at the sphere, upright, and turns around. World axes are those of
+/// The image is what someone sees who stands at the sphere, upright, and turns around. World axes are those of
 /// render/lighting.hpp, and the convention is that of Debevec's High-Resolution Light Probe Image Gallery: its centre
 /// is what the camera looks at, behind the sphere (-z); its left and right edges are what is behind the camera (+z); a
 /// quarter from the right is the camera's right (+x); the top row is up (+y). The point u of the way from left to right
 /// and v from top to bottom is the direction (sin t sin l, cos t, -sin t cos l) with t = pi v, l = 2 pi u - pi.
 class environment_map {
  public:
-  /// Takes a picture of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
+  /// Takes an image of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
   /// and not negative and at least one is positive. O(pixels).
   explicit environment_map(image latitude_longitude);
 
@@ -99,13 +99,13 @@ class environment_map {
 namespace detail {
 
 /// Calls `visit(row, column)` for all pixels in the order of Hilbert's curve through the smallest square of a power of
-/// two that holds the picture: pixels that are near in the order are near in the picture.
+/// two that holds the image: pixels that are near in the order are near in the image.
 template <class Visit>
 void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&& visit) {
   const std::size_t side = std::bit_ceil(std::max(rows, columns));
   for (std::size_t place = 0; place < side * side; ++place) {
     // Two bits of the place choose a quadrant at each level, from the finest on; the curve within is turned to fit. It
-    // runs through both columns' quadrants of the upper half first, so that a picture twice as wide as high has no gap.
+    // runs through both columns' quadrants of the upper half first, so that an image twice as wide as high has no gap.
     std::size_t row = 0, column = 0, rest = place;
     for (std::size_t half = 1; half < side; half *= 2, rest /= 4) {
       const bool lower = (rest & 2) != 0, right = lower != ((rest & 1) != 0);
@@ -128,7 +128,7 @@ void for_each_along_hilbert_curve(std::size_t rows, std::size_t columns, Visit&&
 /// A fixed set of directional lights that stands for the map: `count` pixels drawn with probability proportional to
 /// luminance times solid angle, one in each of `count` equal strata of the total along a Hilbert curve. Each has the
 /// pixel's radiance * solid angle / (count * probability), hence the same luminance; a pixel drawn several times is one
-/// light with the sum. The expectation over seeds of any picture is its picture under `all_lights`.
+/// light with the sum. The expectation over seeds of any image is its image under `all_lights`.
 ///
 /// The rougher the surface, the fewer lights stand for the map: a mirror shows each of them as a dot, and no affordable
 /// number helps. There `environment_lighting(90, 72, map)`, whose bins are dense where highlights are, is the better

@@ -1,5 +1,5 @@
 #pragma once
-/// How bright pictures of spheres are shown: those that are compared with one another, all alike.
+/// How bright images of spheres are shown: those that are compared with one another, all alike.
 
 #include <gonio/table/image.hpp>
 
@@ -8,7 +8,7 @@
 namespace gonio::render {
 
 /// What a share of a sphere's pixels does not exceed in its brightest channel; `picture` is one of `render_sphere`,
-/// whose surroundings do not count. Throws gonio::error if the picture is not square.
+/// whose surroundings do not count. Throws gonio::error if the image is not square.
 [[nodiscard]] double brightness_of_sphere(const image& picture, double share = 0.99);
 
 /// The factor at which the brightest of some spheres is white at its 99th percentile: what is brighter, a highlight of

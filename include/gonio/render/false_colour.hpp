@@ -1,5 +1,5 @@
 #pragma once
-/// A number as a colour, from blue over green to red, for pictures of differences. Noell, Koehler and Stricker 2014,
+/// A number as a colour, from blue over green to red, for images of differences. Noell, Koehler and Stricker 2014,
 /// Fig. 3: CIELAB differences "from blue (0.0), over green to red (20.0 and higher)".
 
 #include <gonio/core/assertion.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// A table as pictures show it: between cells the reflected light is interpolated, f times both cosines, instead of f.
+/// A table as images show it: between cells the reflected light is interpolated, f times both cosines, instead of f.
 ///
 /// A cell whose centre lies just above the horizon says nearly nothing of f: in Eq. 1 of Nielsen, Jensen and
 /// Ramamoorthi 2015 (doi:10.1145/2816795.2818085) a deviation of epsilon is one of epsilon / (cos theta_i cos theta_o)

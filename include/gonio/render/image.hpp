@@ -1,5 +1,5 @@
 #pragma once
-/// Placing several pictures in one.
+/// Placing several images in one.
 
 #include <gonio/table/image.hpp>
 
@@ -8,15 +8,15 @@
 
 namespace gonio::render {
 
-/// Copies a picture into a larger one, its top left corner at (row, column).
+/// Copies an image into a larger one, its top left corner at (row, column).
 void paste(image& canvas, const image& picture, std::size_t row, std::size_t column);
 
-/// Pictures from left to right, their tops aligned, with `margin` pixels of `background` around each
+/// Images from left to right, their tops aligned, with `margin` pixels of `background` around each
 /// (neighbours share one margin).
 [[nodiscard]] image side_by_side(std::span<const image> pictures, std::size_t margin = 0,
                                  const rgb& background = rgb::Zero());
 
-/// Pictures from top to bottom, their left sides aligned; otherwise as `side_by_side`.
+/// Images from top to bottom, their left sides aligned; otherwise as `side_by_side`.
 [[nodiscard]] image stacked(std::span<const image> pictures, std::size_t margin = 0,
                             const rgb& background = rgb::Zero());
 

@@ -24,7 +24,7 @@ namespace gonio::render {
 
 /// A camera at infinity in front of the sphere, as in render/sphere.hpp.
 struct sampled_sphere_view {
-  int size = 256;                 ///< rows and columns of the picture
+  int size = 256;                 ///< rows and columns of the image
   int samples = 64;               ///< of the BRDF, and as many of the environment, for each pixel
   std::uint64_t seed = 1;         ///< decides all draws
   double white = 1.0;             ///< the mean luminance that a white Lambertian sphere would have
@@ -100,7 +100,7 @@ void add_sample(seen_light& seen, const Sampler& material, const environment_sam
 
 }  // namespace detail
 
-/// A picture of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have the
+/// An image of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have the
 /// mean luminance `view.white`. The material samples itself and has its BRDF as `brdf()`, such as
 /// `half_vector_sampler`. Same bytes for any number of threads. O(pixels x samples).
 template <direction_sampler Sampler>

@@ -1,5 +1,5 @@
 #pragma once
-/// The slice of a BRDF at phi_d = 90 degrees: one picture that shows diffuse colour, highlight, Fresnel effect and
+/// The slice of a BRDF at phi_d = 90 degrees: one image that shows diffuse colour, highlight, Fresnel effect and
 /// retro-reflection apart. B. Burley, "Physically-Based Shading at Disney", SIGGRAPH 2012 course; J. B. Nielsen's
 /// thesis (2016), Sec. 2.2.3 and Fig. 2.8.
 
@@ -12,9 +12,9 @@
 
 namespace gonio::render {
 
-/// How theta_h runs along the picture.
+/// How theta_h runs along the image.
 enum class slice_axis {
-  /// In steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the picture.
+  /// In steps of sqrt(theta_h), as in MERL's tables: a highlight of a few degrees fills a quarter of the image.
   square_root,
   /// In steps of theta_h.
   linear,
@@ -30,7 +30,7 @@ struct slice_view {
 /// f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90 degrees
 /// and taken at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
 /// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom, and all of
-/// it is above the horizon. On MERL's grid the default picture has one pixel for each cell; read through a
+/// it is above the horizon. On MERL's grid the default image has one pixel for each cell; read through a
 /// nearest_lookup, whose cells there are at 90.5 degrees, the grazing corner at the top right is black.
 template <brdf Brdf>
 [[nodiscard]] image render_slice(const Brdf& f, const slice_view& view = {}, thread_count threads = {}) {

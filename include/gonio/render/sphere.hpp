@@ -1,10 +1,10 @@
 #pragma once
-/// Orthographic pictures of a sphere made of a BRDF, for any `brdf`, and the same picture as a linear map of
+/// Orthographic images of a sphere made of a BRDF, for any `brdf`, and the same image as a linear map of
 /// a table's values for judging many tables quickly.
 ///
 /// Pixel centres are a regular grid over the square around the unit disc; those strictly inside belong to the
 /// sphere (1020 of 36 x 36). Exposure: the lighting is scaled such that a white Lambertian sphere (f = 1/pi)
-/// has mean luminance 1 over the sphere's pixels. Nothing else about the picture depends on the BRDF.
+/// has mean luminance 1 over the sphere's pixels. Nothing else about the image depends on the BRDF.
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
@@ -22,7 +22,7 @@ namespace gonio::render {
 
 /// What the camera sees of the sphere.
 struct sphere_view {
-  /// Rows and columns of the picture.
+  /// Rows and columns of the image.
   int size = 256;
   /// Samples per pixel along each axis.
   int supersampling = 1;
@@ -30,7 +30,7 @@ struct sphere_view {
   rgb background = rgb::Zero();
 };
 
-/// A point of the sphere that a sample of the picture sees.
+/// A point of the sphere that a sample of the image sees.
 struct sphere_point {
   std::uint32_t row = 0;
   std::uint32_t column = 0;
@@ -54,7 +54,7 @@ inline constexpr std::size_t sphere_block = 32;
 
 }  // namespace detail
 
-/// A picture of a sphere, in linear light. Same bytes for any number of threads.
+/// An image of a sphere, in linear light. Same bytes for any number of threads.
 template <brdf Brdf, sphere_lighting Lighting>
 [[nodiscard]] image render_sphere(const Brdf& f, const Lighting& lighting, const sphere_view& view = {},
                                   thread_count threads = {}) {
@@ -91,7 +91,7 @@ template <brdf Brdf, sphere_lighting Lighting>
 /// One colour for each point of a sphere, in the order of `sphere_points`; linear light.
 using sphere_colours = Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// The picture of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the
+/// The image of a sphere as a sparse linear map of the values of a table over given cells. Look-up is at the
 /// nearest cell, and a direction whose cell is invalid contributes nothing: `apply(table)` equals
 /// `render_sphere(nearest_lookup{table}, ...)` up to the rounding of weights to float.
 ///
@@ -149,7 +149,7 @@ class sphere_operator {
   /// the table is over other cells.
   [[nodiscard]] sphere_colours apply(const brdf_table& table, thread_count threads = {}) const;
 
-  /// The colours as a picture.
+  /// The colours as an image.
   [[nodiscard]] image to_image(const sphere_colours& colours, const rgb& background = rgb::Zero()) const;
 
  private:

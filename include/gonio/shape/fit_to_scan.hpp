@@ -23,7 +23,7 @@ struct fit_to_scan_options {
   /// How far vertices are from where they should be on the scan though the weights are right, mm: by what the family
   /// cannot say, and because the closest place of a scan is not the corresponding one. Decides how much the scan is
   /// trusted against the family; where the scan is noisier than this, it is trusted less.
-  double misplacement = 0.3;
+  double position_error = 0.3;
   /// Are places that are far off for their number hardly trusted? Noise at the edges of holes is then left out, but a
   /// scan of something else is not told by its weights.
   bool robust = false;
@@ -33,10 +33,10 @@ struct fit_to_scan_options {
 
 /// A model on a scan.
 struct fit_to_scan_result {
-  similarity_transform pose;  ///< from the scan to the model
-  fitted_shape fit;           ///< in the model's space, by the components that took part, with their motion last
-  known_vertices places;      ///< where the scan shows the vertices
-  tikhonov solver;            ///< what found the weights
+  similarity_transform pose;   ///< from the scan to the model
+  fitted_shape fit;            ///< in the model's space, by the components that took part, with their motion last
+  vertex_observations places;  ///< where the scan shows the vertices
+  tikhonov solver;             ///< what found the weights
   int iterations = 0;
 
   /// The vertices in the model's space, where the pose has taken their motion.
@@ -52,13 +52,14 @@ struct fit_to_scan_result {
 };
 
 /// Throws gonio::error unless a scan shows enough vertices of a model to be aligned by.
-void require_shown(const known_vertices& places, const shape_model& model);
+void require_shown(const vertex_observations& places, const shape_model& model);
 
 namespace detail {
 
 /// How far to trust places on a scan (Geman and McClure's weights): nearly in full up to three times the misplacement
 /// or, while the shape is far off, three times what is usual; at noisy edges of holes and spurious triangles hardly.
-[[nodiscard]] Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement);
+[[nodiscard]] Eigen::VectorXd inlier_weights(const vertex_observations& places, const point_columns& shape,
+                                             double position_error);
 
 }  // namespace detail
 

@@ -23,23 +23,23 @@ namespace gonio::shape {
 /// A place found on a scan is known across the surface only: along it nothing tells one place from the next. So there
 /// may be a unit normal for each, and what is known along the surface then counts less, `tangential` times the square
 /// of what is off. The paper has no normals: a place counts in full.
-struct known_vertices {
+struct vertex_observations {
   std::vector<Eigen::Index> vertices;
   point_columns positions;
-  point_columns normals = {};  ///< none, or one for each
-  double tangential = 0.01;    ///< if there are normals
-  Eigen::VectorXd trust = {};  ///< none, or how much the square of what is off at each counts, not negative
+  point_columns normals = {};    ///< none, or one for each
+  double tangential = 0.01;      ///< if there are normals
+  Eigen::VectorXd weights = {};  ///< none, or how much the square of what is off at each counts, not negative
 
   /// Those of a shape whose mark is set.
-  [[nodiscard]] static known_vertices marked(const point_columns& shape, const std::vector<bool>& known);
+  [[nodiscard]] static vertex_observations marked(const point_columns& shape, const std::vector<bool>& known);
 };
 
 /// Which of so many vertices are known.
-[[nodiscard]] std::vector<bool> marks_of(const known_vertices& known, Eigen::Index vertices);
+[[nodiscard]] std::vector<bool> marks_of(const vertex_observations& known, Eigen::Index vertices);
 
 /// What `decomposition` measures of a shape. Throws gonio::error if no vertex is known, one does not exist or is not
 /// finite, or for another number of positions or normals.
-[[nodiscard]] located_samples locate_samples(const vertex_coordinates& coordinates, const known_vertices& known,
+[[nodiscard]] located_samples locate_samples(const vertex_coordinates& coordinates, const vertex_observations& known,
                                              thread_count /*threads*/ = {});
 
 /// A shape held as the weights of a basis, and what the solver said about it.
@@ -63,7 +63,7 @@ class fitted_shape {
   solution found_;
 };
 
-static_assert(measured_over<known_vertices, vertex_coordinates>);
+static_assert(measured_over<vertex_observations, vertex_coordinates>);
 
 }  // namespace gonio::shape
 

@@ -13,14 +13,14 @@ namespace gonio::shape {
 struct recovery_options {
   fit_to_scan_options coarse;  ///< finds the pose, and whether the scan is of the family
   /// What is recovered: nearly all components, on a scan whose noise is this small.
-  fit_to_scan_options fine{.correspondence = {}, .explained_variance = 0.9999, .misplacement = 0.05, .robust = true};
+  fit_to_scan_options fine{.correspondence = {}, .explained_variance = 0.9999, .position_error = 0.05, .robust = true};
   double confidence = 0.999;  ///< that a shape of the family is not refused
 };
 
 /// A recovered surface. All is in the model's space; `pose.inverse()` takes it to the scan's.
 struct recovered_shape {
   triangle_mesh surface;
-  known_vertices known;       ///< the vertices that the scan shows, and where
+  vertex_observations known;  ///< the vertices that the scan shows, and where
   similarity_transform pose;  ///< from the scan to the model
   fit_to_scan_result fit;     ///< what the recovery is, or began with
 };
@@ -36,7 +36,7 @@ struct recovered_shape {
                                       thread_count threads = {});
 
 /// The rounds of Algorithm 1.
-struct published_recovery_options {
+struct algorithm_1_options {
   fit_to_scan_options coarse;  ///< that the rounds begin with
   correspondence_options correspondence{.reach = 3.0, .normal_agreement = 0.5, .tangential = 1.0};
   double first_explained_variance = 0.30;
@@ -50,17 +50,16 @@ struct published_recovery_options {
 namespace detail {
 
 /// Algorithm 1's explained variance in a round.
-[[nodiscard]] double explained_variance_in(int round, const published_recovery_options& options);
+[[nodiscard]] double explained_variance_in(int round, const algorithm_1_options& options);
 
 }  // namespace detail
 
 /// Algorithm 1: the same as `recover` by truncated singular values and closest places, which count in full.
 /// `recover` comes closer to the surface (docs/shapes.md); this is what the paper compares with others. The fit that it
 /// returns is the one that it began with. Throws as `recover` does.
-[[nodiscard]] recovered_shape recover_as_published(const shape_model& model, const surface_index& scan,
-                                                   const similarity_transform& pose,
-                                                   const published_recovery_options& options = {},
-                                                   thread_count threads = {});
+[[nodiscard]] recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
+                                                  const similarity_transform& pose,
+                                                  const algorithm_1_options& options = {}, thread_count threads = {});
 
 }  // namespace gonio::shape
 

@@ -64,7 +64,7 @@ static_assert(tabulated_basis<shape_basis>);
 
 /// The fewest components that explain a share of the shapes' variance. Throws gonio::error unless the share is above 0
 /// and at most 1.
-[[nodiscard]] shape_basis explaining(const shape_basis& basis, double share);
+[[nodiscard]] shape_basis truncated_to_variance(const shape_basis& basis, double share);
 
 /// How many functions `with_motion` adds.
 inline constexpr Eigen::Index motions = 6;

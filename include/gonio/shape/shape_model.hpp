@@ -37,8 +37,8 @@ class shape_model {
   /// M(c) (Eq. 2) of weights: see `shape_of`.
   [[nodiscard]] triangle_mesh shape(const Eigen::VectorXd& weights) const { return mesh(shape_of(basis_, weights)); }
 
-  /// The model of the components that explain a share of the variance alone: see `explaining`.
-  [[nodiscard]] shape_model explaining(double share) const;
+  /// The model of the components that explain a share of the variance alone: see `truncated_to_variance`.
+  [[nodiscard]] shape_model truncated_to_variance(double share) const;
 
  private:
   struct surface_template {

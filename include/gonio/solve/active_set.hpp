@@ -35,16 +35,16 @@ class active_set {
   /// `lambda` >= 0. Keeps a reference to `normal`.
   active_set(const normal_equations& normal, Eigen::Index right_hand_side, double lambda = 0.0)
       : gram_(normal.gram()),
-        moment_(normal.moment().col(right_hand_side)),
+        rhs_(normal.rhs().col(right_hand_side)),
         lambda_(lambda),
         factor_(normal.unknowns()),
         sign_(Eigen::VectorXd::Zero(normal.unknowns())),
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
-        descent_(moment_),
+        descent_(rhs_),
         norms_(gram_.diagonal().cwiseSqrt()),
         barred_(static_cast<std::size_t>(normal.unknowns()), false) {
     for (Eigen::Index j = 0; j < norms_.size(); ++j)
-      if (norms_[j] > 0.0) moment_scale_ = std::max(moment_scale_, std::abs(moment_[j]) / norms_[j]);
+      if (norms_[j] > 0.0) rhs_scale_ = std::max(rhs_scale_, std::abs(rhs_[j]) / norms_[j]);
     choose_entering();
   }
 
@@ -143,7 +143,7 @@ class active_set {
     Eigen::VectorXd z(std::ssize(passive_));
     for (Eigen::Index i = 0; i < z.size(); ++i) {
       const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
-      z[i] = moment_[j] - lambda_ * sign_[j];
+      z[i] = rhs_[j] - lambda_ * sign_[j];
     }
     factor_.solve(z);
     return z;
@@ -187,7 +187,7 @@ class active_set {
     for (int round = 0; round < 3; ++round) {
       for (Eigen::Index i = 0; i < z.size(); ++i) {
         const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
-        compensated_sum misfit(moment_[row]);
+        compensated_sum misfit(rhs_[row]);
         misfit.add(-lambda_ * sign_[row]);
         for (Eigen::Index j = 0; j < z.size(); ++j)
           misfit.add_product(-gram_(passive_[static_cast<std::size_t>(j)], row), z[j]);
@@ -205,7 +205,7 @@ class active_set {
 
   /// m - Q x.
   void update_descent() {
-    descent_ = moment_;
+    descent_ = rhs_;
     for (const Eigen::Index j : passive_) descent_ -= x_[j] * gram_.col(j);
   }
 
@@ -241,7 +241,7 @@ class active_set {
 
   /// The size of what cancels in the gradient, in columns of length 1.
   [[nodiscard]] double terms() const {
-    double sum = moment_scale_;
+    double sum = rhs_scale_;
     for (const Eigen::Index j : passive_) sum += std::abs(x_[j]) * norms_[j];
     return sum;
   }
@@ -260,14 +260,14 @@ class active_set {
   }
 
   const Eigen::MatrixXd& gram_;
-  Eigen::VectorXd moment_;
+  Eigen::VectorXd rhs_;
   double lambda_;
   growing_cholesky factor_;
   std::vector<Eigen::Index> passive_;  // in the order of the factor
   Eigen::VectorXd sign_;               // 0: not passive
   Eigen::VectorXd x_, descent_, norms_;
   std::vector<bool> barred_;
-  double moment_scale_ = 0.0;
+  double rhs_scale_ = 0.0;
   Eigen::Index entering_ = -1;
 };
 

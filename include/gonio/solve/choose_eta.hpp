@@ -2,7 +2,7 @@
 /// The penalty of a Tikhonov solver, chosen by how well each observation is predicted from the others.
 /// Leave-one-out (PRESS): Allen, Technometrics 16, 1974. Generalised cross-validation: Golub, Heath and Wahba,
 /// Technometrics 21, 1979. Both take the rows' errors for independent and fail where they go together, as those of a
-/// picture's pixels do if light or camera are off their places (docs/directions.md, docs/eta.md).
+/// image's pixels do if light or camera are off their places (docs/directions.md, docs/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 
@@ -99,7 +99,7 @@ void require_etas(const eta_range& range);
                                 const eta_range& plausible = {});
 
 /// `tikhonov` with the eta that `choose_eta` chooses for each problem. It needs the rows: normal equations alone do not
-/// tell observations apart. The penalty in the objective and in the certificate is that of the chosen eta.
+/// tell observations apart. The penalty in the objective and in the KKT residual is that of the chosen eta.
 class automatic_tikhonov {
  public:
   /// Throws gonio::error for an impossible range.

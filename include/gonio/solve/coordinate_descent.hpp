@@ -24,7 +24,7 @@ class coordinate_descent {
         right_hand_side_(right_hand_side),
         lambda_(lambda),
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
-        descent_(normal.moment().col(right_hand_side)) {}
+        descent_(normal.rhs().col(right_hand_side)) {}
 
   /// Sweeps, or finishes.
   void step() {

@@ -28,13 +28,12 @@ class dual_active_set {
   using vector = Eigen::VectorXd;
 
   /// Starts with the constraints of `start` as equations, without those whose multipliers have the wrong sign: without
-  /// inequalities if there are none, as Goldfarb and Idnani do. Keeps a reference to `program`; `moment` is q.
-  dual_active_set(const scaled_program& program, vector moment, const active_constraints& start = {},
-                  double shift = 0.0);
+  /// inequalities if there are none, as Goldfarb and Idnani do. Keeps a reference to `program`; `rhs` is q.
+  dual_active_set(const scaled_program& program, vector rhs, const active_constraints& start = {}, double shift = 0.0);
 
   /// The neighbour, whose G had a shift, without it: solves for the free weights whose columns are independent of one
   /// another, keeps the others as they are and does not change what is active.
-  [[nodiscard]] static dual_active_set polished(const dual_active_set& neighbour, vector moment);
+  [[nodiscard]] static dual_active_set polished(const dual_active_set& neighbour, vector rhs);
 
   /// Adds one constraint. Throws gonio::error if the constraints contradict one another.
   void step();
@@ -74,7 +73,7 @@ class dual_active_set {
     double length = std::numeric_limits<double>::infinity();
   };
 
-  dual_active_set(const scaled_program& program, vector moment, double shift);
+  dual_active_set(const scaled_program& program, vector rhs, double shift);
 
   [[nodiscard]] bool is_row(Eigen::Index constraint) const { return constraint >= program_.unknowns(); }
   [[nodiscard]] bool is_equality(Eigen::Index constraint) const {
@@ -140,8 +139,8 @@ class dual_active_set {
   [[nodiscard]] double row_misfit(Eigen::Index i) const;
 
   const scaled_program& program_;
-  vector moment_;
-  double moment_size_;  // the largest of it
+  vector rhs_;
+  double rhs_size_;  // the largest of it
   double shift_;
   working_set set_;
   vector y_, bound_multiplier_, row_multiplier_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Certificates of optimality: how far weights are from the Karush-Kuhn-Tucker conditions of their problem, computed
+/// KKT residuals of optimality: how far weights are from the Karush-Kuhn-Tucker conditions of their problem, computed
 /// from the problem and the weights alone, so that nobody has to trust a solver.
 
 #include <gonio/solve/normal_equations.hpp>
@@ -12,11 +12,11 @@
 namespace gonio {
 
 /// The gradient Q x - m of one right-hand side, in units in which every column of A has length 1: entry j is divided by
-/// sqrt(Q_jj) (by 1 for a column of zeros), which makes certificates independent of the columns' scales.
+/// sqrt(Q_jj) (by 1 for a column of zeros), which makes KKT residuals independent of the columns' scales.
 struct scaled_gradient {
   Eigen::VectorXd value;
   /// The largest sum of magnitudes, |m_j| + sum over i of |Q_ji x_i|, that went into an entry, never 0: rounding alone
-  /// leaves about 1e-16 of it in the gradient at the exact optimum. Certificates are relative to it.
+  /// leaves about 1e-16 of it in the gradient at the exact optimum. KKT residuals are relative to it.
   double scale = 1.0;
   Eigen::VectorXd column_norms;
 };

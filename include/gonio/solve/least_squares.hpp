@@ -20,10 +20,10 @@ namespace gonio {
 /// Normal equations alone are solved by an eigendecomposition of Q scaled to unit diagonal, O(k^3). Rounding hides
 /// there whatever is below about sqrt(epsilon) of the largest singular value: see `gram_threshold`.
 ///
-/// The certificate is that all of the gradient vanishes, also where the rank was truncated: `stationarity` for normal
+/// The KKT residual is that all of the gradient vanishes, also where the rank was truncated: `stationarity` for normal
 /// equations, and the same from the rows (relative to |b| + sum of |a_i| |x_i|) where there are rows. Truncation leaves
 /// at most about its threshold there. That is far below 1e-9 by default where there are rows. For normal equations
-/// alone it can be up to 1e-7, if the columns have singular values which Q cannot tell from zero: the certificate then
+/// alone it can be up to 1e-7, if the columns have singular values which Q cannot tell from zero: the KKT residual then
 /// says how much of the gradient they hold, and only the rows can give a better solution.
 class least_squares {
  public:

@@ -44,7 +44,7 @@ struct local_minimum {
   double value = 0.0;
   std::size_t evaluations = 0;
   bool converged = false;  ///< false: the limit of iterations came first
-  /// The certificate: by how much the parabola still falls within the bounds, as a share of the value at the start.
+  /// The KKT residual: by how much the parabola still falls within the bounds, as a share of the value at the start.
   double promised_gain = 0.0;
 };
 

@@ -38,7 +38,7 @@ class block_pivoting {
 
   const normal_equations& normal_;
   Eigen::Index right_hand_side_;
-  Eigen::VectorXd moment_;
+  Eigen::VectorXd rhs_;
   Eigen::VectorXd x_;
   std::vector<bool> free_;
   std::vector<Eigen::Index> wrong_;

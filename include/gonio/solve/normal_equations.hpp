@@ -22,20 +22,20 @@ namespace gonio {
 /// the columns is a submatrix, so that leave-one-out problems never touch the data again.
 class normal_equations {
  public:
-  /// `gram` is Q, k x k, symmetric and positive semidefinite; `moment` is m, k x r; `energy` holds b'Wb of each
+  /// `gram` is Q, k x k, symmetric and positive semidefinite; `rhs` is m, k x r; `rhs_squared_norm` holds b'Wb of each
   /// right-hand side (zeros if empty: `residual` is then meaningless). Throws gonio::error if sizes do not match, there
   /// is nothing, or a number is not finite, naming the column. Symmetry is the caller's word. O(k^2 + k r).
-  normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy = {});
+  normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd rhs, Eigen::VectorXd rhs_squared_norm = {});
 
   /// Q, both triangles.
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
   /// m: k x r.
-  [[nodiscard]] const Eigen::MatrixXd& moment() const noexcept { return moment_; }
+  [[nodiscard]] const Eigen::MatrixXd& rhs() const noexcept { return rhs_; }
   /// b'Wb: r.
-  [[nodiscard]] const Eigen::VectorXd& energy() const noexcept { return energy_; }
+  [[nodiscard]] const Eigen::VectorXd& rhs_squared_norm() const noexcept { return rhs_squared_norm_; }
 
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return gram_.rows(); }
-  [[nodiscard]] Eigen::Index right_hand_sides() const noexcept { return moment_.cols(); }
+  [[nodiscard]] Eigen::Index right_hand_sides() const noexcept { return rhs_.cols(); }
   [[nodiscard]] const normal_equations& normal() const noexcept { return *this; }
 
   /// 1/2 x'Q x - m'x for each right-hand side, given its x as a column. O(k^2 r).
@@ -57,8 +57,8 @@ class normal_equations {
   void require_consistent() const;
 
   Eigen::MatrixXd gram_;
-  Eigen::MatrixXd moment_;
-  Eigen::VectorXd energy_;
+  Eigen::MatrixXd rhs_;
+  Eigen::VectorXd rhs_squared_norm_;
 };
 
 [[nodiscard]] normal_equations operator+(const normal_equations& a, const normal_equations& b);

@@ -25,8 +25,8 @@ struct program_optimum {
   Eigen::VectorXd weights;
   constraint_multipliers multipliers;
   active_constraints active;
-  double certificate = std::numeric_limits<double>::infinity();  ///< see `kkt_violation`
-  int iterations = 0;                                            ///< constraints added or dropped
+  double kkt_residual = std::numeric_limits<double>::infinity();  ///< see `kkt_violation`
+  int iterations = 0;                                             ///< constraints added or dropped
 };
 
 /// The solver of one quadratic program, for any of its right-hand sides.
@@ -45,7 +45,7 @@ class program_solver {
   [[nodiscard]] program_optimum solve(Eigen::Index right_hand_side, const active_constraints* start = nullptr) const;
 
  private:
-  static constexpr double good = 1e-11;        // certificate
+  static constexpr double good = 1e-11;        // KKT residual
   static constexpr double sufficient = 1e-10;  // of the proximal points, which approach some optima slowly
   static constexpr double largest_shift = 1e-9, smallest_shift = 1e-11;  // the diagonal of G is about 1
   static constexpr int patience = 20, proximal_limit = 200;              // points
@@ -65,8 +65,9 @@ class program_solver {
   [[nodiscard]] program_optimum solve_by_proximal_points(Eigen::Index right_hand_side, const vector& q,
                                                          active_constraints active, int changes) const;
 
-  /// A certificate is relative to the gradient's terms, and weights that are large enough certify themselves. Are these
-  /// larger than a least-squares problem in double precision can explain, or unexplained and not optimal without them?
+  /// A KKT residual is relative to the gradient's terms, and weights that are large enough certify themselves. Are
+  /// these larger than a least-squares problem in double precision can explain, or unexplained and not optimal without
+  /// them?
   [[nodiscard]] bool is_suspicious(const program_optimum& found, const vector& y, const vector& q) const;
 
   /// The proximal point, or what comes of it without the shift if that is good.
@@ -105,17 +106,17 @@ template <quadratic_problem Problem, class SolveOne>
   const bool second_chance = has_rows && constraints.d.size() == 0 && constraints.e.size() == 0;
   solution found;
   found.weights.resize(normal.unknowns(), normal.right_hand_sides());
-  found.certificate.resize(normal.right_hand_sides());
+  found.kkt_residual.resize(normal.right_hand_sides());
   for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
     try {
       const program_optimum optimum = solve_one(solver, column);
       found.weights.col(column) = optimum.weights;
-      found.certificate[column] = optimum.certificate;
+      found.kkt_residual[column] = optimum.kkt_residual;
       found.iterations += optimum.iterations;
     } catch (const error&) {
       if (!second_chance) throw;
       found.weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
-      found.certificate[column] = std::numeric_limits<double>::infinity();
+      found.kkt_residual[column] = std::numeric_limits<double>::infinity();
     }
   }
   return certified_program(problem, constraints, std::move(found));

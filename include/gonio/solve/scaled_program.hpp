@@ -30,8 +30,8 @@ struct scaled_program {
   [[nodiscard]] Eigen::Index rows() const noexcept { return b.size(); }
 
   /// q of one right-hand side.
-  [[nodiscard]] vector moment(const normal_equations& normal, Eigen::Index right_hand_side) const {
-    return normal.moment().col(right_hand_side).cwiseProduct(inverse_scale);
+  [[nodiscard]] vector rhs(const normal_equations& normal, Eigen::Index right_hand_side) const {
+    return normal.rhs().col(right_hand_side).cwiseProduct(inverse_scale);
   }
   /// x of y.
   [[nodiscard]] vector weights(const vector& y) const { return y.cwiseProduct(inverse_scale); }

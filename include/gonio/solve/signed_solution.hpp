@@ -24,11 +24,11 @@ struct signed_task {
 
 /// Weights at which a solver arrived (not a number where it did not), as a solution. Those of a right-hand side are
 /// found again unless
-/// - their certificate is at most 1e-9,
+/// - their KKT residual is at most 1e-9,
 /// - the objective is in [-b'Wb/2, 0] but for rounding: no weights explain more than all, and those of zero are
 /// allowed,
 /// - rounding of the weights alone moves A x by less than 1e-5 |b| (larger weights certify themselves, since a
-///   certificate is relative to them).
+///   KKT residual is relative to them).
 /// Throws gonio::error naming the method if that does not help.
 [[nodiscard]] solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights);
 

@@ -15,18 +15,18 @@ namespace gonio {
 
 /// What a solver found, one column or entry for each right-hand side of the problem.
 struct solution {
-  Eigen::MatrixXd weights;      ///< k x r
-  Eigen::VectorXd residual;     ///< weighted norm of A x - b
-  Eigen::VectorXd objective;    ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
-  Eigen::VectorXd certificate;  ///< violation of the solver's own optimality (KKT) conditions, see kkt.hpp
-  int iterations = 0;           ///< of all right-hand sides together; 0 for a direct solver
+  Eigen::MatrixXd weights;       ///< k x r
+  Eigen::VectorXd residual;      ///< weighted norm of A x - b
+  Eigen::VectorXd objective;     ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
+  Eigen::VectorXd kkt_residual;  ///< violation of the solver's own optimality (KKT) conditions, see kkt.hpp
+  int iterations = 0;            ///< of all right-hand sides together; 0 for a direct solver
 };
 
 /// Solutions of several problems in the same unknowns as one, right-hand side by right-hand side.
-[[nodiscard]] solution side_by_side(std::span<const solution> parts);
+[[nodiscard]] solution concatenate_columns(std::span<const solution> parts);
 
 /// A solution in some of `unknowns` columns as one in all of them: the other weights are zero.
-[[nodiscard]] solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
+[[nodiscard]] solution scatter_columns(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns);
 
 /// A solution of a problem's normal equations as one of the problem: the residual is that of its rows, which normal
 /// equations hold to half of the digits only.
@@ -34,17 +34,17 @@ struct solution {
 
 namespace detail {
 
-/// At most this is the certificate of a success.
-inline constexpr double certificate_limit = 1e-9;
+/// At most this is the KKT residual of a success.
+inline constexpr double kkt_residual_limit = 1e-9;
 
-/// Throws gonio::error naming the solver unless its certificates are that small.
+/// Throws gonio::error naming the solver unless its KKT residuals are that small.
 [[nodiscard]] solution require_certified(solution found, std::string_view solver);
 
 }  // namespace detail
 
 /// Finds the weights of a least-squares problem under the solver's own penalty or constraints.
 ///
-/// What the compiler cannot check, and a model must keep: the certificate is computed from the problem and
+/// What the compiler cannot check, and a model must keep: the KKT residual is computed from the problem and
 /// the returned weights, not from the solver's internal state, and is at most 1e-9 on success (`least_squares` says
 /// where normal equations alone do not hold that much); a solver that does not reach it finds the optimum in another
 /// way or throws gonio::error; solving is const and thread safe.
@@ -53,7 +53,7 @@ inline constexpr double certificate_limit = 1e-9;
 /// struct ordinary_least_squares {
 ///   gonio::solution solve(const gonio::least_squares_problem& problem) const {
 ///     const gonio::normal_equations& normal = problem.normal();
-///     const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.moment());
+///     const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.rhs());
 ///     return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
 ///   }
 /// };

@@ -16,7 +16,7 @@ namespace gonio {
 /// The squares are computed as eigenvalues, so that a share of 1 means all but the smallest ones that sum to less than
 /// epsilon times their number of the total: they are rounding. Use `least_squares` where such directions matter.
 ///
-/// The certificate is computed from the problem and an orthonormal basis V of the subspace, and is the largest of
+/// The KKT residual is computed from the problem and an orthonormal basis V of the subspace, and is the largest of
 /// - what A'WA leads out of the subspace, |(I - VV') A'WA V|, relative to the largest eigenvalue of A'WA: V is spanned
 ///   by singular vectors;
 /// - the gradient in the subspace, |V'(A'W(A x - b))|, relative to |A'Wb| + that eigenvalue times |x|;

@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures in memory.
+/// Images in memory.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
@@ -11,10 +11,10 @@
 
 namespace gonio {
 
-/// A picture of shape (rows, columns, 3), top row first: linear light in Rec. 709 primaries.
+/// An image of shape (rows, columns, 3), top row first: linear light in Rec. 709 primaries.
 using image = xt::xtensor<float, 3>;
 
-/// A picture of one colour.
+/// An image of one colour.
 [[nodiscard]] image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour = rgb::Zero());
 
 [[nodiscard]] inline rgb pixel(const image& picture, std::size_t row, std::size_t column) noexcept {

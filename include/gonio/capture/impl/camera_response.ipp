@@ -100,7 +100,7 @@ class response_equations {
  public:
   response_equations(Eigen::Index knots, double spacing, double saturation)
       : gram_(Eigen::MatrixXd::Zero(knots, knots)),
-        moment_(Eigen::VectorXd::Zero(knots)),
+        rhs_(Eigen::VectorXd::Zero(knots)),
         spacing_(spacing),
         saturation_(saturation) {}
 
@@ -108,7 +108,7 @@ class response_equations {
   void add(const exposure_counts& counts, Eigen::Index pixel, const std::vector<double>& log_times);
 
   [[nodiscard]] const Eigen::MatrixXd& gram() const noexcept { return gram_; }
-  [[nodiscard]] const Eigen::VectorXd& moment() const noexcept { return moment_; }
+  [[nodiscard]] const Eigen::VectorXd& rhs() const noexcept { return rhs_; }
   /// Of all rows of pixels that have two or more: one alone says nothing.
   [[nodiscard]] double weight() const noexcept { return weight_; }
   /// Of the same rows.
@@ -116,26 +116,26 @@ class response_equations {
 
  private:
   Eigen::MatrixXd gram_;
-  Eigen::VectorXd moment_;
+  Eigen::VectorXd rhs_;
   double spacing_ = 1.0, saturation_ = 1.0, weight_ = 0.0;
   double smallest_count_ = std::numeric_limits<double>::infinity();
 };
 
 GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::Index pixel,
                                           const std::vector<double>& log_times) {
-  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(moment_.size());
+  Eigen::VectorXd row_sum = Eigen::VectorXd::Zero(rhs_.size());
   double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
   int rows = 0;
   for (Eigen::Index j = 0; j < counts.cols(); ++j) {
     const double count = counts(pixel, j), log_time = log_times[static_cast<std::size_t>(j)];
     const double weight = std::pow(hat(count, saturation_), 2);
     if (!(weight > 0.0)) continue;
-    const auto [left, share] = camera_response::place_of(count, spacing_, moment_.size());
+    const auto [left, share] = camera_response::place_of(count, spacing_, rhs_.size());
     const std::array<double, 2> row{1.0 - share, share};
     for (Eigen::Index a = 0; a < 2; ++a) {
       const double weighted = weight * row[static_cast<std::size_t>(a)];
       for (Eigen::Index b = 0; b < 2; ++b) gram_(left + a, left + b) += weighted * row[static_cast<std::size_t>(b)];
-      moment_[left + a] += weighted * log_time;
+      rhs_[left + a] += weighted * log_time;
       row_sum[left + a] += weighted;
     }
     darkest = std::min(darkest, count);
@@ -146,7 +146,7 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   if (rows == 0) return;
   for (Eigen::Index k = 0; k < row_sum.size(); ++k)
     if (row_sum[k] != 0.0) gram_.col(k) -= row_sum[k] / weights * row_sum;
-  moment_ -= time_sum / weights * row_sum;
+  rhs_ -= time_sum / weights * row_sum;
   if (rows < 2) return;
   weight_ += weights;
   smallest_count_ = darkest;
@@ -192,7 +192,7 @@ GONIO_INLINE camera_response estimate_response(const exposure_counts& counts, st
   for (Eigen::Index k = 1; k < knots - 1; ++k) gram(k, k) += options.smoothness;
   const linear_constraints never_falls{-basis.slopes, Eigen::VectorXd::Zero(knots - 1)};
   const solution found =
-      quadratic_program(never_falls).solve(normal_equations(std::move(gram), product(to_slopes, equations.moment())));
+      quadratic_program(never_falls).solve(normal_equations(std::move(gram), product(to_slopes, equations.rhs())));
   return {largest_count, detail::never_falling(product(basis.values, found.weights)), equations.smallest_count()};
 }
 

@@ -79,11 +79,11 @@ namespace gonio::capture::detail {
 GONIO_INLINE void require_unwrappable(const image& probe, const unwrap_options& options) {
   const std::size_t pixels = probe.shape(0);
   if (probe.shape(1) != pixels || probe.shape(2) != 3 || pixels < 8)
-    throw error("a picture of a mirror sphere must be square and have 8 pixels a side or more, not " +
+    throw error("an image of a mirror sphere must be square and have 8 pixels a side or more, not " +
                 std::to_string(probe.shape(0)) + " x " + std::to_string(probe.shape(1)));
   if (!std::all_of(probe.data(), probe.data() + probe.size(),
                    [](float value) { return std::isfinite(value) && value >= 0.0f; }))
-    throw error("a picture of a mirror sphere must be finite and not negative");
+    throw error("an image of a mirror sphere must be finite and not negative");
   if (options.rows == 0 || options.samples < 0)
     throw error("an unwrapped map needs rows, and no negative number of directions across each pixel");
   if (!(options.reflectance > 0.0 && options.reflectance <= 1.0))

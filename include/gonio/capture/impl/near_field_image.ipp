@@ -5,7 +5,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/picture_samples.hpp>
+#include <gonio/table/image_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -44,12 +44,12 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
     const camera_intrinsics& whole = setup.camera.intrinsics();
     refuse_unless(
         inside(window->column, window->columns, whole.columns) && inside(window->row, window->rows, whole.rows),
-        "the window must have pixels, all of them in the picture of " + std::to_string(whole.columns) + " x " +
+        "the window must have pixels, all of them in the image of " + std::to_string(whole.columns) + " x " +
             std::to_string(whole.rows));
   }
   refuse_unless(
       setup.mask.empty() || setup.mask.size() == setup.camera.intrinsics().rows * setup.camera.intrinsics().columns,
-      "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the picture");
+      "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the image");
   if (setup.saturation) refuse_unless(*setup.saturation > 0.0, "the saturation must be positive");
   refuse_unless(setup.block > 0, "a block needs at least one pixel a side");
 }
@@ -72,7 +72,7 @@ GONIO_INLINE void add_pixel(const image& picture, const near_field_setup& setup,
   const std::optional<direction> view = view_of_pixel(setup, row, column);
   if (!view) return;
   const rgb value = pixel(picture, row, column);
-  // In float, as the picture is. Several exposures in one may hold infinity where all of them were saturated.
+  // In float, as the image is. Several exposures in one may hold infinity where all of them were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
     throw error("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
@@ -87,9 +87,9 @@ GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& in
   const auto size = [](std::size_t columns, std::size_t rows) {
     return std::to_string(columns) + " x " + std::to_string(rows);
   };
-  if (picture.shape(2) != 3) throw error("a picture of " + std::to_string(picture.shape(2)) + " channels, expected 3");
+  if (picture.shape(2) != 3) throw error("an image of " + std::to_string(picture.shape(2)) + " channels, expected 3");
   if (picture.shape(0) != intrinsics.rows || picture.shape(1) != intrinsics.columns)
-    throw error("the picture has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
+    throw error("the image has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
                 size(intrinsics.columns, intrinsics.rows));
 }
 
@@ -108,7 +108,7 @@ GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& s
   return seen;
 }
 
-GONIO_INLINE picture_samples near_field_pairs(const image& picture, const near_field_setup& setup) {
+GONIO_INLINE image_samples near_field_pairs(const image& picture, const near_field_setup& setup) {
   require_usable(setup);
   const camera_intrinsics& whole = setup.camera.intrinsics();
   detail::require_size(picture, whole);
@@ -118,7 +118,7 @@ GONIO_INLINE picture_samples near_field_pairs(const image& picture, const near_f
   const rgb reflected = setup.light.irradiance * setup.light.towards.z();
   const double pixels_of_block = static_cast<double>(setup.block) * static_cast<double>(setup.block);
 
-  picture_samples samples;
+  image_samples samples;
   bool any_saturated = false;
   for (std::size_t row = window.row; row < last_row; row = end(row, last_row))
     for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {
@@ -135,8 +135,8 @@ GONIO_INLINE picture_samples near_field_pairs(const image& picture, const near_f
       samples.push_back({seen, block.radiance / (pixels * reflected), pixels / pixels_of_block});
     }
   if (samples.empty())
-    throw error(any_saturated ? "all that the picture sees of the sample is saturated"
-                              : "the picture sees nothing of the sample: no pixel's ray meets the region of interest");
+    throw error(any_saturated ? "all that the image sees of the sample is saturated"
+                              : "the image sees nothing of the sample: no pixel's ray meets the region of interest");
   return samples;
 }
 

@@ -20,14 +20,14 @@ namespace gonio::design {
 
 GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const cell_matrix& components,
                                               expected_error criterion, capture_constraint constraint,
-                                              thread_count threads, std::span<const double> own_etas)
+                                              thread_count threads, std::span<const double> sample_noise_penalties)
     : geometry_(cells, std::move(constraint)),
       criterion_(std::move(criterion)),
       materials_(static_cast<Eigen::Index>(cells.size()), criterion_.coefficients().rows()),
       weighted_(materials_.rows(), materials_.cols()),
-      own_etas_(Eigen::ArrayXf::Constant(materials_.rows(), static_cast<float>(criterion_.noise_eta()))),
+      sample_noise_penalties_(Eigen::ArrayXf::Constant(materials_.rows(), static_cast<float>(criterion_.noise_eta()))),
       threads_(threads) {
-  if (!own_etas.empty()) own_etas_ += checked(own_etas, size());
+  if (!sample_noise_penalties.empty()) sample_noise_penalties_ += checked(sample_noise_penalties, size());
   const Eigen::MatrixXf to_materials = criterion_.coefficients().cast<float>();
   const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().cast<float>();
   for (std::size_t cell = 0; cell < size(); ++cell)
@@ -53,7 +53,7 @@ GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const std::
     const auto cell = static_cast<Eigen::Index>(cells[static_cast<std::size_t>(i)]);
     rows.materials().row(i) = materials_.row(cell).cast<double>();
     rows.weighted().row(i) = weighted_.row(cell).cast<double>();
-    rows.own_eta[i] = double{own_etas_[cell]};
+    rows.sample_noise_penalty[i] = double{sample_noise_penalties_[cell]};
   }
   return rows;
 }
@@ -72,7 +72,7 @@ GONIO_INLINE cell_candidates::with_one_more::with_one_more(const cell_candidates
 
 GONIO_INLINE double cell_candidates::with_one_more::operator()(std::size_t cell) const {
   const expected_error::rows row = candidates_->rows_of({&cell, 1});
-  return with_(row.materials(), row.weighted(), row.own_eta.array())[0];
+  return with_(row.materials(), row.weighted(), row.sample_noise_penalty.array())[0];
 }
 
 GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const std::size_t> cells) const {
@@ -82,21 +82,25 @@ GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<cons
       size(), 128,
       [&](block range) {
         const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
-        Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) = with(
-            materials_.middleRows(begin, count), weighted_.middleRows(begin, count), own_etas_.segment(begin, count));
+        Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) =
+            with(materials_.middleRows(begin, count), weighted_.middleRows(begin, count),
+                 sample_noise_penalties_.segment(begin, count));
       },
       threads_);
   for (const std::size_t cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
   return errors;
 }
 
-GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> own_etas, std::size_t cells) {
-  if (own_etas.size() != cells)
-    throw error(std::to_string(own_etas.size()) + " etas of their own for " + std::to_string(cells) + " cells");
-  for (const double eta : own_etas)
+GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> sample_noise_penalties,
+                                                     std::size_t cells) {
+  if (sample_noise_penalties.size() != cells)
+    throw error(std::to_string(sample_noise_penalties.size()) + " etas of their own for " + std::to_string(cells) +
+                " cells");
+  for (const double eta : sample_noise_penalties)
     if (!(eta >= 0.0 && std::isfinite(eta)))
       throw error("a cell's own eta must be finite and not negative, not " + std::to_string(eta));
-  return Eigen::Map<const Eigen::ArrayXd>(own_etas.data(), std::ssize(own_etas)).cast<float>();
+  return Eigen::Map<const Eigen::ArrayXd>(sample_noise_penalties.data(), std::ssize(sample_noise_penalties))
+      .cast<float>();
 }
 
 }  // namespace gonio::design

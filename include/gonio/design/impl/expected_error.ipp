@@ -64,7 +64,7 @@ GONIO_INLINE expected_error::rows expected_error::prepare(const Eigen::MatrixXd&
   measured.materials().transpose() = product(coefficients_, transposed);
   measured.weighted().transpose() = product(weighted_, transposed);
   measured.noise = std::move(noise);
-  measured.own_eta.setConstant(noise_eta());
+  measured.sample_noise_penalty.setConstant(noise_eta());
   return measured;
 }
 
@@ -90,7 +90,7 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   const matrix_view both = measured.both.transpose();  // Y' beside W': m x 2n
   const Eigen::MatrixXd products = product(measured.materials(), both);
   Eigen::MatrixXd k = products.leftCols(n);
-  for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.own_eta[i];
+  for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.sample_noise_penalty[i];
   left.inverse = cholesky(k).solve(Eigen::MatrixXd::Identity(n, n));
   // b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w), for all observations by one product with Y and W.
   const Eigen::MatrixXd spread = product(left.inverse, product(products.rightCols(n), left.inverse));
@@ -105,7 +105,7 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
     const matrix_view y = both.leftCols(n);
     leave_each_out(measured, product(y, left.inverse), product(y, spread), left);
   }
-  left.own_variances = measured.own_eta / static_cast<double>(m);
+  left.own_variances = measured.sample_noise_penalty / static_cast<double>(m);
   for (Eigen::Index i = 0; i < n; ++i) left.own_energy += left.own_variances[i] * spread(i, i);
   for (double& squared : left.squared_errors) squared += left.own_energy;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -180,7 +180,7 @@ auto extended_error<Scalar>::take_away(columns& both, columns& twice) const -> k
 
 template <class Scalar>
 auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const Eigen::Ref<const matrix>& w,
-                                        const Eigen::Ref<const column>& own_eta) const -> column {
+                                        const Eigen::Ref<const column>& sample_noise_penalty) const -> column {
   const Eigen::Index m = y.cols();
   columns both(2 * m, y.rows()), twice;
   both.topRows(m) = y.transpose();
@@ -189,8 +189,8 @@ auto extended_error<Scalar>::operator()(const Eigen::Ref<const matrix>& y, const
   column found(y.rows());
   for (Eigen::Index i = 0; i < y.rows(); ++i) {
     const auto t = both.col(i).head(m), once = both.col(i).tail(m);
-    const Scalar d = eta_ + own_eta[i] + y.row(i).dot(t), r = t.dot(once);
-    const Scalar grown = own_growth(known, i, own_eta[i], d, r);
+    const Scalar d = eta_ + sample_noise_penalty[i] + y.row(i).dot(t), r = t.dot(once);
+    const Scalar grown = own_growth(known, i, sample_noise_penalty[i], d, r);
     if (missed_.rows() > 0) {
       found[i] = mean_left_out(&both(0, i), &twice(0, i), d, r, own_energy_ + grown);
     } else {
@@ -225,9 +225,9 @@ Scalar extended_error<Scalar>::mean_left_out(const Scalar* t, const Scalar* w, S
 
 /// By how much errors of their own add to each squared error, beyond what they do now.
 template <class Scalar>
-Scalar extended_error<Scalar>::own_growth(const knowledge& known, Eigen::Index candidate, Scalar own_eta, Scalar d,
-                                          Scalar r) const {
-  Scalar squares = own_eta / static_cast<Scalar>(squared_errors_.size()), products = Scalar(0);
+Scalar extended_error<Scalar>::own_growth(const knowledge& known, Eigen::Index candidate, Scalar sample_noise_penalty,
+                                          Scalar d, Scalar r) const {
+  Scalar squares = sample_noise_penalty / static_cast<Scalar>(squared_errors_.size()), products = Scalar(0);
   for (Eigen::Index i = 0; i < y_.rows(); ++i) {
     const Scalar known_once = own_variances_[i] * known.once(i, candidate);
     squares += known_once * known.once(i, candidate);

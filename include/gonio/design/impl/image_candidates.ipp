@@ -28,7 +28,7 @@ GONIO_INLINE expected_error::rows joined(std::span<const expected_error::rows* c
     all.materials().middleRows(begin, count) = part->materials();
     all.weighted().middleRows(begin, count) = part->weighted();
     all.noise.segment(begin, count) = part->noise;
-    all.own_eta.segment(begin, count) = part->own_eta;
+    all.sample_noise_penalty.segment(begin, count) = part->sample_noise_penalty;
     begin += count;
   }
   return all;

@@ -15,12 +15,12 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE correction_round describe_round(const channel_values& trust, const channel_values& weights,
+GONIO_INLINE correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                              const channel_values& wanted, const channel_values& found) {
   const double total = weights.cast<double>().sum();
   const double squares = (weights.cast<double>() * (wanted.cast<double>() - 1.0).square()).sum();
   return {total > 0.0 ? std::sqrt(squares / total) : 0.0, (found - 1.0f).abs().cast<double>().mean(),
-          (trust < 0.5f).cast<double>().mean()};
+          (inlier_weights < 0.5f).cast<double>().mean()};
 }
 
 GONIO_INLINE brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,

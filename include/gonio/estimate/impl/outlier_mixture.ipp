@@ -46,10 +46,10 @@ GONIO_INLINE outlier_mixture estimate_mixture(const std::vector<double>& residua
     const Eigen::ArrayXd shares = now.probability(all, densities);
     const double good = shares.sum();
     const double squares = (nu + 1.0) / nu * (shares * now.tail_weight(all) * all.square()).sum();
-    outlier_mixture next{now.good_share, std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
-    next.good_share = detail::most_probable_share(next.good_density(all), densities);
-    const bool settled =
-        std::abs(next.good_share - now.good_share) < 1e-4 && std::abs(next.scale - now.scale) < 1e-3 * now.scale;
+    outlier_mixture next{now.inlier_fraction, std::max(std::sqrt(squares / good), outlier_mixture::smallest_scale)};
+    next.inlier_fraction = detail::most_probable_share(next.good_density(all), densities);
+    const bool settled = std::abs(next.inlier_fraction - now.inlier_fraction) < 1e-4 &&
+                         std::abs(next.scale - now.scale) < 1e-3 * now.scale;
     now = next;
     if (settled) break;
   }
@@ -65,10 +65,10 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
   found.distance *= static_cast<float>(mixture.scale / scale_of_distances(found, density, mixture));
   Eigen::ArrayXd weights(measured.cols());
   if (regions) {
-    const double typical = half_of_the_good(found.distance, regions->all(), mixture.good_share);
+    const double typical = half_of_the_good(found.distance, regions->all(), mixture.inlier_fraction);
     for (std::size_t region = 0; region < regions->count(); ++region) {
       const std::span<const std::size_t> here = (*regions)[region];
-      const double ratio = half_of_the_good(found.distance, here, mixture.good_share) / typical;
+      const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
       weights(here) = weigh(rescaled(mixture, ratio), found, density, here);
     }
   } else {
@@ -124,17 +124,17 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
 }
 
 GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
-                                                        std::span<const std::size_t> samples, double good_share) {
+                                                        std::span<const std::size_t> samples, double inlier_fraction) {
   std::vector<float> sorted;
   for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
   const auto middle =
-      sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * good_share * static_cast<double>(sorted.size()));
+      sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
   std::ranges::nth_element(sorted, middle);
   return std::max(double{*middle}, 1e-6);
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& mixture, double ratio) {
-  return {mixture.good_share,
+  return {mixture.inlier_fraction,
           std::clamp(ratio * mixture.scale, outlier_mixture::smallest_scale, std::max(mixture.scale, 1.0))};
 }
 

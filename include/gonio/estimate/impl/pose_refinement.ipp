@@ -26,9 +26,10 @@ namespace gonio::detail {
   return cosine * w + along * axis + std::sin(angle) * cross_product(axis, w);
 }
 
-/// One sample of a picture after the turns; where that would be below the horizon, as it was. Its radiance is what was
+/// One sample of an image after the turns; where that would be below the horizon, as it was. Its radiance is what was
 /// measured: reflectance is radiance over irradiance and the light's cosine, which turns with the light.
-[[nodiscard]] GONIO_INLINE sample turned_sample(const pair_sample& s, const picture_turns& turns, bool by_irradiance) {
+[[nodiscard]] GONIO_INLINE sample turned_sample(const pair_sample& s, const pose_correction& turns,
+                                                bool by_irradiance) {
   const auto& [nominal_wi, nominal_wo] = s.directions;
   const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
   if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {to_half_difference(nominal_wi, nominal_wo), s.value, s.weight};
@@ -36,7 +37,7 @@ namespace gonio::detail {
   return {to_half_difference(wi, wo), cosines * s.value, s.weight};
 }
 
-GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<picture_samples>> materials,
+GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<image_samples>> materials,
                                             const pose_refinement_options& options, Eigen::Index components,
                                             Eigen::Index observations, const reader& read)
     : materials_(std::move(materials)), options_(options), components_(components), observations_(observations) {
@@ -51,14 +52,14 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
     throw error("light and camera may be off by 0 to 45 degrees, not by " +
                 std::to_string(degrees(options_.deviation)));
-  if (materials_.empty() || materials_.front().empty()) throw error("there is no picture");
+  if (materials_.empty() || materials_.front().empty()) throw error("there is no image");
   const std::size_t count = materials_.front().size();
   for (std::size_t m = 0; m < materials_.size(); ++m)
     if (materials_[m].size() != count)
-      throw error{"material ", m + 1, " is in ", materials_[m].size(), " pictures, the first in ", count};
+      throw error{"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count};
   for (std::size_t p = 0; p < count; ++p) {
     sample_set all;
-    for (const std::vector<picture_samples>& pictures : materials_) {
+    for (const std::vector<image_samples>& pictures : materials_) {
       const sample_set own = as_sample_set(pictures[p]);
       all.insert(all.end(), own.begin(), own.end());
     }
@@ -66,7 +67,7 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   }
 }
 
-GONIO_INLINE sample pose_iteration::turned(const pair_sample& s, const picture_turns& turns) const {
+GONIO_INLINE sample pose_iteration::turned(const pair_sample& s, const pose_correction& turns) const {
   return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
 }
 
@@ -81,7 +82,7 @@ GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material
 
 GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
   require_material(material);
-  const std::vector<picture_samples>& pictures = materials_[material];
+  const std::vector<image_samples>& pictures = materials_[material];
   sample_set all;
   for (std::size_t p = 0; p < pictures.size(); ++p)
     for (const pair_sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
@@ -91,7 +92,7 @@ GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
 GONIO_INLINE void pose_iteration::step(const reader& read) {
   const Eigen::VectorXd whole = newton_step(read);
   for (double length = 1.0; length > 0.01; length /= 2.0) {
-    const std::vector<picture_turns> tried = moved(length * whole);
+    const std::vector<pose_correction> tried = moved(length * whole);
     state candidate = at(tried, read);
     if (!(candidate.objective < state_.objective)) continue;
     converged_ = state_.objective - candidate.objective < 1e-6 * state_.objective;
@@ -106,8 +107,8 @@ GONIO_INLINE void pose_iteration::solve(const reader& read) {
   for (int i = 0; i < options_.iterations && !converged_; ++i) step(read);
 }
 
-GONIO_INLINE void pose_iteration::add_picture(const picture_samples& picture, const picture_turns& turns,
-                                              const reader& read, Eigen::Index begin, equations& out) const {
+GONIO_INLINE void pose_iteration::add_image(const image_samples& picture, const pose_correction& turns,
+                                            const reader& read, Eigen::Index begin, equations& out) const {
   for_each_block(
       picture.size(), 64,
       [&](block range) {
@@ -125,15 +126,15 @@ GONIO_INLINE void pose_iteration::add_picture(const picture_samples& picture, co
       options_.threads);
 }
 
-GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<picture_samples>& pictures,
-                                                        const std::vector<picture_turns>& turns,
+GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<image_samples>& pictures,
+                                                        const std::vector<pose_correction>& turns,
                                                         const reader& read) const {
   Eigen::Index n = 0;
-  for (const picture_samples& picture : pictures) n += std::ssize(picture);
+  for (const image_samples& picture : pictures) n += std::ssize(picture);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
   for (std::size_t p = 0; p < pictures.size(); ++p) {
-    add_picture(pictures[p], turns[p], read, begin, found.system);
+    add_image(pictures[p], turns[p], read, begin, found.system);
     begin += std::ssize(pictures[p]);
   }
   const equations& system = found.system;
@@ -146,14 +147,14 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<pictur
   return found;
 }
 
-GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<picture_turns>& turns,
+GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<pose_correction>& turns,
                                                       const reader& read) const {
   state found;
-  for (const std::vector<picture_samples>& pictures : materials_) {
+  for (const std::vector<image_samples>& pictures : materials_) {
     found.fits.push_back(fit_of(pictures, turns, read));
     found.objective += found.fits.back().objective;
   }
-  for (const picture_turns& t : turns)
+  for (const pose_correction& t : turns)
     found.objective += turn_penalty() * (t.light.squaredNorm() + t.camera.squaredNorm());
   return found;
 }
@@ -162,8 +163,8 @@ GONIO_INLINE double pose_iteration::turn_penalty() const {
   return 3.0 / (static_cast<double>(observations_) * options_.deviation * options_.deviation);
 }
 
-GONIO_INLINE std::vector<picture_turns> pose_iteration::moved(const Eigen::VectorXd& by) const {
-  std::vector<picture_turns> turns = turns_;
+GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::VectorXd& by) const {
+  std::vector<pose_correction> turns = turns_;
   for (std::size_t p = 0; p < turns.size(); ++p) {
     const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
     turns[p].light += by.segment<3>(first);
@@ -172,17 +173,17 @@ GONIO_INLINE std::vector<picture_turns> pose_iteration::moved(const Eigen::Vecto
   return turns;
 }
 
-/// How the misfit y - Q c of a picture changes with one of its unknowns, by central differences. They span what is
+/// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
                                                         const reader& read) const {
-  const picture_samples& samples = materials_[material][picture];
+  const image_samples& samples = materials_[material][picture];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
-    picture_turns turns = turns_[picture];
+    pose_correction turns = turns_[picture];
     (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
     equations there(components_, std::ssize(samples));
-    add_picture(samples, turns, read, 0, there);
+    add_image(samples, turns, read, 0, there);
     there.right -= product(there.columns.transpose(), state_.fits[material].weights);
     return there.right;
   };
@@ -194,7 +195,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, st
 /// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
 /// unknowns.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
-  const std::vector<picture_samples>& pictures = materials_[material];
+  const std::vector<image_samples>& pictures = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures));
   Eigen::Index begin = 0;

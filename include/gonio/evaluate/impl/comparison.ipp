@@ -2,7 +2,7 @@
 /// Bodies of evaluate/comparison.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/metric/error_metric.hpp>
 

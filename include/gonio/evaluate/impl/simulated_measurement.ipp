@@ -16,8 +16,8 @@
 
 namespace gonio {
 
-GONIO_INLINE sample_set measure_misplaced(const brdf_table& table, std::span<const direction_pair> pairs, double angle,
-                                          std::uint64_t seed) {
+GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::span<const direction_pair> pairs,
+                                               double angle, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   sample_set samples;
   for (const auto& [wi, wo] : pairs) {
@@ -61,22 +61,22 @@ GONIO_INLINE std::vector<std::size_t> cells_at(const valid_cells& cells, std::sp
   return chosen;
 }
 
-GONIO_INLINE sample_set measure(const brdf_table& table, std::span<const std::size_t> cells,
-                                const measurement_defects& defects, std::uint64_t seed) {
+GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const std::size_t> cells,
+                                     const measurement_defects& defects, std::uint64_t seed) {
   sample_set samples;
   samples.reserve(cells.size());
   for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
   std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
-  return spoil(std::move(samples), defects, seed,
-               [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
+  return corrupt(std::move(samples), defects, seed,
+                 [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
 }
 
-GONIO_INLINE parted_samples part(const sample_set& samples, std::size_t count, std::uint64_t seed) {
+GONIO_INLINE sample_split split_samples(const sample_set& samples, std::size_t count, std::uint64_t seed) {
   if (count > samples.size())
     throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
   std::vector<bool> chosen(samples.size());
   for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
-  parted_samples parts;
+  sample_split parts;
   for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
   return parts;
 }

@@ -28,15 +28,14 @@ namespace gonio::io::detail {
 
 GONIO_INLINE void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
-    throw error{name,        ": a picture of ", columns, " x ", rows, " pixels, expected from 1 to ",
-                image_limit, " each way"};
+    throw error{name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"};
 }
 
-/// Nobody's picture is so large and so empty; decoding it would take gigabytes.
+/// Nobody's image is so large and so empty; decoding it would take gigabytes.
 GONIO_INLINE void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
                                           std::size_t bytes, const std::string& name) {
   if (!claims.are_believable(rows * columns, bytes))
-    throw error{name, ": a picture of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"};
+    throw error{name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"};
 }
 
 GONIO_INLINE int stb_size(std::span<const std::byte> bytes, const std::string& name) {
@@ -174,7 +173,7 @@ GONIO_INLINE void byte_sink::write(void* user, void* data, int size) noexcept {
 
 GONIO_INLINE stb_extents check_pixels(const image& picture, float brightest, const std::string& name) {
   const std::size_t rows = picture.shape(0), columns = picture.shape(1);
-  if (picture.shape(2) != 3) throw error{name, ": a picture of ", picture.shape(2), " channels, expected 3"};
+  if (picture.shape(2) != 3) throw error{name, ": an image of ", picture.shape(2), " channels, expected 3"};
   check_image_size(rows, columns, name);
   const auto bad =
       std::find_if(picture.data(), picture.data() + picture.size(), [&](float v) { return !(v <= brightest); });
@@ -243,7 +242,7 @@ GONIO_INLINE void write_png(const std::filesystem::path& path, const image& pict
   detail::byte_sink sink;
   if (stbi_write_png_to_func(detail::byte_sink::write, &sink, columns, rows, 3, codes.data(), 3 * columns) == 0 ||
       sink.failed)
-    throw error{path.string(), ": the picture cannot be encoded"};
+    throw error{path.string(), ": the image cannot be encoded"};
   write_atomically(path, sink.bytes);
 }
 
@@ -282,7 +281,7 @@ GONIO_INLINE void write_hdr(const std::filesystem::path& path, const image& pict
     std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
   detail::byte_sink sink;
   if (stbi_write_hdr_to_func(detail::byte_sink::write, &sink, columns, rows, 3, rounded.data()) == 0 || sink.failed)
-    throw error{path.string(), ": the picture cannot be encoded"};
+    throw error{path.string(), ": the image cannot be encoded"};
   write_atomically(path, sink.bytes);
 }
 

@@ -144,13 +144,13 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
   if (bright.empty()) return found;
   // Columns of length one, so that a narrow lobe of huge values does not hide a dim one.
   Eigen::MatrixXd gram = entries(products, bright, bright),
-                  moment = entries(products, bright, numbers_from(count + shapes() + first, channels));
+                  rhs = entries(products, bright, numbers_from(count + shapes() + first, channels));
   const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
-    moment.row(i) *= scale[i];
+    rhs.row(i) *= scale[i];
     for (Eigen::Index j = 0; j < scale.size(); ++j) gram(i, j) *= scale[i] * scale[j];
   }
-  const Eigen::MatrixXd scaled = nnls().solve(normal_equations(std::move(gram), std::move(moment))).weights;
+  const Eigen::MatrixXd scaled = nnls().solve(normal_equations(std::move(gram), std::move(rhs))).weights;
   for (Eigen::Index i = 0; i < scale.size(); ++i)
     found.row(bright[static_cast<std::size_t>(i)]) = scale[i] * scaled.row(i);
   return found;

@@ -37,7 +37,7 @@ GONIO_INLINE void environment_map::check_shape() const {
   if (rows() == 0 || columns() != 2 * rows() || picture_.shape(2) != 3)
     throw error("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
                 std::to_string(picture_.shape(2)) +
-                "): a latitude-longitude picture is twice as wide as high and has 3 channels");
+                "): a latitude-longitude image is twice as wide as high and has 3 channels");
 }
 
 GONIO_INLINE void environment_map::check_values() const {

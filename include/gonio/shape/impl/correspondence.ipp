@@ -32,11 +32,11 @@ GONIO_INLINE std::optional<surface_point> posed_scan::along(const Eigen::Vector3
   return placed(*found);
 }
 
-GONIO_INLINE double posed_scan::trust_at(const surface_point& place) const {
-  if (trust.size() == 0) return 1.0;
+GONIO_INLINE double posed_scan::weight_at(const surface_point& place) const {
+  if (weights.size() == 0) return 1.0;
   double sum = 0.0;
   for (Eigen::Index corner = 0; corner < 3; ++corner)
-    sum += place.barycentric[corner] * trust[surface.mesh().triangles(corner, place.triangle)];
+    sum += place.barycentric[corner] * weights[surface.mesh().triangles(corner, place.triangle)];
   return sum;
 }
 
@@ -46,20 +46,20 @@ GONIO_INLINE surface_point posed_scan::placed(surface_point found) const {
   return found;
 }
 
-GONIO_INLINE known_vertices shown_vertices(const point_columns& places, const point_columns& normals,
-                                           const std::vector<char>& shown, double tangential) {
-  known_vertices found = known_vertices::marked(places, std::vector<bool>(shown.begin(), shown.end()));
+GONIO_INLINE vertex_observations shown_vertices(const point_columns& places, const point_columns& normals,
+                                                const std::vector<char>& shown, double tangential) {
+  vertex_observations found = vertex_observations::marked(places, std::vector<bool>(shown.begin(), shown.end()));
   found.normals = chosen_columns(normals, found.vertices);
   found.tangential = tangential;
   return found;
 }
 
-GONIO_INLINE known_vertices closest_places(const posed_scan& scan, const triangle_mesh& shape,
-                                           const correspondence_options& options, thread_count threads) {
+GONIO_INLINE vertex_observations closest_places(const posed_scan& scan, const triangle_mesh& shape,
+                                                const correspondence_options& options, thread_count threads) {
   const point_columns normals = vertex_normals(shape);
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
   point_columns places(3, shape.vertices.cols());
-  Eigen::VectorXd trust(shape.vertices.cols());
+  Eigen::VectorXd weights(shape.vertices.cols());
   std::vector<char> shown(count, 0);  // not bool: threads write neighbours
   for_each_block(
       count, 128,
@@ -68,17 +68,17 @@ GONIO_INLINE known_vertices closest_places(const posed_scan& scan, const triangl
           const auto vertex = static_cast<Eigen::Index>(i);
           const surface_point found = scan.closest(shape.vertices.col(vertex));
           places.col(vertex) = found.position;
-          trust[vertex] = scan.trust_at(found);
+          weights[vertex] = scan.weight_at(found);
           // What is missing in the scan is nearest to where it ends.
           shown[i] = !found.on_border && found.distance <= options.reach &&
                      scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
         }
       },
       threads);
-  known_vertices known = shown_vertices(places, normals, shown, options.tangential);
-  known.trust.resize(known.positions.cols());
+  vertex_observations known = shown_vertices(places, normals, shown, options.tangential);
+  known.weights.resize(known.positions.cols());
   for (std::size_t i = 0; i < known.vertices.size(); ++i)
-    known.trust[static_cast<Eigen::Index>(i)] = trust[known.vertices[i]];
+    known.weights[static_cast<Eigen::Index>(i)] = weights[known.vertices[i]];
   return known;
 }
 

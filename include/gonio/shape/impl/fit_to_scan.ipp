@@ -41,7 +41,7 @@ GONIO_INLINE double fit_to_scan_result::squared_distance() const {
 
 GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return {fit, places, solver}; }
 
-GONIO_INLINE void require_shown(const known_vertices& places, const shape_model& model) {
+GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
   constexpr std::size_t least = 10;
   if (places.vertices.size() < least)
     throw error{"the scan shows ",     places.vertices.size(),          " of the model's ",
@@ -53,7 +53,8 @@ GONIO_INLINE void require_shown(const known_vertices& places, const shape_model&
 
 namespace gonio::shape::detail {
 
-GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_columns& shape, double misplacement) {
+GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, const point_columns& shape,
+                                            double position_error) {
   std::vector<double> distances;
   distances.reserve(places.vertices.size());
   for (const Eigen::Index vertex : places.vertices) {
@@ -63,20 +64,20 @@ GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_
   std::vector<double> sorted = distances;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
   std::ranges::nth_element(sorted, middle);
-  const double usual = 3.0 * std::max(misplacement, *middle);
-  Eigen::VectorXd trust(places.positions.cols());
+  const double usual = 3.0 * std::max(position_error, *middle);
+  Eigen::VectorXd weights(places.positions.cols());
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;
-    trust[static_cast<Eigen::Index>(i)] = 1.0 / (root * root);
+    weights[static_cast<Eigen::Index>(i)] = 1.0 / (root * root);
   }
-  return trust;
+  return weights;
 }
 
 /// Where a scan is noisy, vertices are off by its noise besides their misplacement.
-[[nodiscard]] GONIO_INLINE Eigen::RowVectorXd trust_in_surface(const surface_index& scan, double misplacement) {
-  Eigen::RowVectorXd trust = noise_variances(scan.mesh(), scan.topology());
-  for (double& noise : trust) noise = 1.0 / (1.0 + noise / (misplacement * misplacement));
-  return trust;
+[[nodiscard]] GONIO_INLINE Eigen::RowVectorXd surface_weights(const surface_index& scan, double position_error) {
+  Eigen::RowVectorXd weights = noise_variances(scan.mesh(), scan.topology());
+  for (double& noise : weights) noise = 1.0 / (1.0 + noise / (position_error * position_error));
+  return weights;
 }
 
 /// The rigid motion that the last weights of a basis `with_motion` of a shape stand for.
@@ -97,12 +98,13 @@ GONIO_INLINE Eigen::VectorXd trust_in(const known_vertices& places, const point_
 }
 
 /// The places of a posed scan that a shape has, and how far to trust them.
-[[nodiscard]] GONIO_INLINE known_vertices trusted_places(const posed_scan& scan, const triangle_mesh& shape,
-                                                         const fit_to_scan_options& options, thread_count threads) {
-  known_vertices places = closest_places(scan, shape, options.correspondence, threads);
+[[nodiscard]] GONIO_INLINE vertex_observations trusted_places(const posed_scan& scan, const triangle_mesh& shape,
+                                                              const fit_to_scan_options& options,
+                                                              thread_count threads) {
+  vertex_observations places = closest_places(scan, shape, options.correspondence, threads);
   if (!options.robust || places.vertices.empty()) return places;
-  const Eigen::VectorXd trust = trust_in(places, shape.vertices, options.misplacement);
-  for (Eigen::Index i = 0; i < trust.size(); ++i) places.trust[i] *= trust[i];
+  const Eigen::VectorXd weights = inlier_weights(places, shape.vertices, options.position_error);
+  for (Eigen::Index i = 0; i < weights.size(); ++i) places.weights[i] *= weights[i];
   return places;
 }
 
@@ -114,14 +116,14 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
                                             const similarity_transform& pose, const fit_to_scan_options& options,
                                             thread_count threads) {
   constexpr double freedom = 1e3;
-  const shape_model part = model.explaining(options.explained_variance);
-  const tikhonov solver{static_cast<double>(part.shapes()) * options.misplacement * options.misplacement};
+  const shape_model part = model.truncated_to_variance(options.explained_variance);
+  const tikhonov solver{static_cast<double>(part.shapes()) * options.position_error * options.position_error};
   const auto k = static_cast<Eigen::Index>(part.basis().size());
   triangle_mesh shape = part.mean();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
-  posed_scan posed{scan, pose, detail::trust_in_surface(scan, options.misplacement)};
+  posed_scan posed{scan, pose, detail::surface_weights(scan, options.position_error)};
   for (int iteration = 1;; ++iteration) {
-    known_vertices places = detail::trusted_places(posed, shape, options, threads);
+    vertex_observations places = detail::trusted_places(posed, shape, options, threads);
     require_shown(places, part);
     fitted_shape fit = decomposition{with_motion(part.basis(), shape.vertices, freedom), solver, threads}.fit(places);
     // The scan moves, not the shape.

@@ -18,15 +18,16 @@
 
 namespace gonio::shape {
 
-GONIO_INLINE known_vertices known_vertices::marked(const point_columns& shape, const std::vector<bool>& known) {
-  known_vertices found;
+GONIO_INLINE vertex_observations vertex_observations::marked(const point_columns& shape,
+                                                             const std::vector<bool>& known) {
+  vertex_observations found;
   for (std::size_t v = 0; v < known.size(); ++v)
     if (known[v]) found.vertices.push_back(static_cast<Eigen::Index>(v));
   found.positions = chosen_columns(shape, found.vertices);
   return found;
 }
 
-GONIO_INLINE std::vector<bool> marks_of(const known_vertices& known, Eigen::Index vertices) {
+GONIO_INLINE std::vector<bool> marks_of(const vertex_observations& known, Eigen::Index vertices) {
   std::vector<bool> marks(static_cast<std::size_t>(vertices), false);
   for (const Eigen::Index vertex : known.vertices) marks[static_cast<std::size_t>(vertex)] = true;
   return marks;
@@ -58,18 +59,18 @@ GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex,
   return axes;
 }
 
-GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const known_vertices& known) {
+GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const vertex_observations& known) {
   const auto count = static_cast<Eigen::Index>(known.vertices.size());
   if (count == 0) throw error("no vertex is known: there is nothing to predict a shape from");
   const auto none_or_all = [&](Eigen::Index size) { return size == 0 || size == count; };
-  if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.trust.size()))
+  if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.weights.size()))
     throw error{count,
                 " known vertices have ",
                 known.positions.cols(),
                 " positions, ",
                 known.normals.cols(),
                 " normals and ",
-                known.trust.size(),
+                known.weights.size(),
                 " weights"};
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index vertex = known.vertices[static_cast<std::size_t>(i)];
@@ -85,7 +86,7 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const kno
 
 namespace gonio::shape {
 
-GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinates, const known_vertices& known,
+GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinates, const vertex_observations& known,
                                             thread_count /*threads*/) {
   detail::require_known(coordinates, known);
   located_samples found;
@@ -101,7 +102,7 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
     }
     detail::locate_along(axes, known.vertices[i], found.at);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      if (known.trust.size() != 0) found.weights(3 * column + axis, 0) *= known.trust[column];
+      if (known.weights.size() != 0) found.weights(3 * column + axis, 0) *= known.weights[column];
       found.values(3 * column + axis, 0) = axes.col(axis).dot(known.positions.col(column));
     }
   }

@@ -59,9 +59,8 @@ namespace gonio::shape::detail {
 
 /// Every vertex predicted from the known ones nearest to it along the mean shape.
 [[nodiscard]] GONIO_INLINE point_columns predict_locally(const shape_model& model, const triangle_mesh& mean,
-                                                         const known_vertices& known,
-                                                         const published_recovery_options& options,
-                                                         thread_count threads) {
+                                                         const vertex_observations& known,
+                                                         const algorithm_1_options& options, thread_count threads) {
   const truncated_svd solver{options.last_explained_variance};
   const std::vector<bool> marks = marks_of(known, model.vertices());
   std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
@@ -74,7 +73,8 @@ namespace gonio::shape::detail {
       [&](block range) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
           const auto vertex = static_cast<Eigen::Index>(i);
-          known_vertices near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours), {}};
+          vertex_observations near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours),
+                                   {}};
           std::vector<Eigen::Index> columns;
           for (const Eigen::Index neighbour : near.vertices)
             columns.push_back(place[static_cast<std::size_t>(neighbour)]);
@@ -88,7 +88,7 @@ namespace gonio::shape::detail {
   return predicted;
 }
 
-GONIO_INLINE double explained_variance_in(int round, const published_recovery_options& options) {
+GONIO_INLINE double explained_variance_in(int round, const algorithm_1_options& options) {
   const double progress = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1.0;
   return std::lerp(options.first_explained_variance, options.last_explained_variance, std::min(progress, 1.0));
 }
@@ -97,15 +97,15 @@ GONIO_INLINE double explained_variance_in(int round, const published_recovery_op
 
 namespace gonio::shape {
 
-GONIO_INLINE recovered_shape recover_as_published(const shape_model& model, const surface_index& scan,
-                                                  const similarity_transform& pose,
-                                                  const published_recovery_options& options, thread_count threads) {
+GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
+                                                 const similarity_transform& pose, const algorithm_1_options& options,
+                                                 thread_count threads) {
   fit_to_scan_result begin = fit_to_scan(model, scan, pose, options.coarse, threads);
   detail::require_of_family(begin, model, options.confidence);
   const triangle_mesh mean = model.mean();
   posed_scan posed{scan, begin.pose};
   triangle_mesh shape = model.mesh(begin.shape());
-  known_vertices known = closest_places(posed, shape, options.correspondence, threads);
+  vertex_observations known = closest_places(posed, shape, options.correspondence, threads);
   for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
     // Procrustes alignment of the shape to the mean, and of the scan with it.
     point_columns whole = shape.vertices;

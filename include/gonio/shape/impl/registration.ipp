@@ -36,10 +36,10 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
 namespace gonio::shape::detail {
 
 /// Where lines along the smoothed normals of a shape meet the scan.
-[[nodiscard]] GONIO_INLINE known_vertices places_along_normals(const posed_scan& scan, const shape_model& model,
-                                                               const triangle_mesh& shape,
-                                                               const registration_options& options,
-                                                               thread_count threads) {
+[[nodiscard]] GONIO_INLINE vertex_observations places_along_normals(const posed_scan& scan, const shape_model& model,
+                                                                    const triangle_mesh& shape,
+                                                                    const registration_options& options,
+                                                                    thread_count threads) {
   const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
   point_columns places(3, shape.vertices.cols());
@@ -96,7 +96,8 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
   for (int round = 0; round < options.rounds; ++round) {
     const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
-    const known_vertices places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
+    const vertex_observations places =
+        detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
     require_shown(places, model);
     point_columns next = smoothed.vertices;
     for (std::size_t i = 0; i < places.vertices.size(); ++i)

@@ -56,7 +56,7 @@ GONIO_INLINE double squared_mahalanobis(const shape_basis& basis, const Eigen::V
   return static_cast<double>(basis.names().size()) * weights.squaredNorm();
 }
 
-GONIO_INLINE shape_basis explaining(const shape_basis& basis, double share) {
+GONIO_INLINE shape_basis truncated_to_variance(const shape_basis& basis, double share) {
   if (!(share > 0.0 && share <= 1.0)) throw error{"the explained variance must be above 0 and at most 1, not ", share};
   const Eigen::VectorXd& sigma = basis.singular_values();
   const double enough = share * sigma.squaredNorm() * (1.0 - 1e-12);

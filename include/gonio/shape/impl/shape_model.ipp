@@ -17,9 +17,9 @@
 
 namespace gonio::shape {
 
-GONIO_INLINE shape_model shape_model::explaining(double share) const {
+GONIO_INLINE shape_model shape_model::truncated_to_variance(double share) const {
   shape_model fewer(*this);
-  fewer.basis_ = gonio::shape::explaining(basis_, share);
+  fewer.basis_ = gonio::shape::truncated_to_variance(basis_, share);
   return fewer;
 }
 

@@ -16,7 +16,7 @@
 
 namespace gonio::shape {
 
-GONIO_INLINE shape_uncertainty::shape_uncertainty(const fitted_shape& fit, const known_vertices& known,
+GONIO_INLINE shape_uncertainty::shape_uncertainty(const fitted_shape& fit, const vertex_observations& known,
                                                   const any_solver& solver)
     : basis_(fit.functions()) {
   const least_squares_problem problem = basis_equations<shape_basis>(basis_, known).problem();

@@ -30,7 +30,7 @@ class eta_scores {
     if (dual_)
       decompose_dual();
     else
-      decompose(problem.normal().gram(), problem.normal().moment());
+      decompose(problem.normal().gram(), problem.normal().rhs());
     if (!(largest() > 0.0)) throw error("eta cannot be chosen: all rows of positive weight are zero");
   }
 

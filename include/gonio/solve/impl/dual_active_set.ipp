@@ -18,15 +18,15 @@
 
 namespace gonio {
 
-GONIO_INLINE dual_active_set::dual_active_set(const scaled_program& program, vector moment,
+GONIO_INLINE dual_active_set::dual_active_set(const scaled_program& program, vector rhs,
                                               const active_constraints& start, double shift)
-    : dual_active_set(program, std::move(moment), shift) {
+    : dual_active_set(program, std::move(rhs), shift) {
   adopt(start);
   settle();
 }
 
-GONIO_INLINE dual_active_set dual_active_set::polished(const dual_active_set& neighbour, vector moment) {
-  dual_active_set result(neighbour.program_, std::move(moment), 0.0);
+GONIO_INLINE dual_active_set dual_active_set::polished(const dual_active_set& neighbour, vector rhs) {
+  dual_active_set result(neighbour.program_, std::move(rhs), 0.0);
   result.adopt(neighbour.active());
   result.set_.update();
   result.singular_ = false;
@@ -48,10 +48,10 @@ GONIO_INLINE active_constraints dual_active_set::active() const {
   return found;
 }
 
-GONIO_INLINE dual_active_set::dual_active_set(const scaled_program& program, vector moment, double shift)
+GONIO_INLINE dual_active_set::dual_active_set(const scaled_program& program, vector rhs, double shift)
     : program_(program),
-      moment_(std::move(moment)),
-      moment_size_(moment_.cwiseAbs().maxCoeff()),
+      rhs_(std::move(rhs)),
+      rhs_size_(rhs_.cwiseAbs().maxCoeff()),
       shift_(shift),
       set_(program, shift),
       y_(vector::Zero(program.unknowns())),
@@ -85,7 +85,7 @@ GONIO_INLINE void dual_active_set::settle() {
 
 GONIO_INLINE void dual_active_set::resolve() {
   set_.update();
-  vector a = set_.gather(moment_), c(std::ssize(set_.rows()));
+  vector a = set_.gather(rhs_), c(std::ssize(set_.rows()));
   for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = program_.b[set_.rows()[static_cast<std::size_t>(i)]];
   set_.solve(a, c);
   y_.setZero();
@@ -104,14 +104,14 @@ GONIO_INLINE void dual_active_set::advance(const vector& free_part, double free_
 }
 
 GONIO_INLINE void dual_active_set::update_bound_multipliers() {
-  bound_multiplier_ = -moment_;
+  bound_multiplier_ = -rhs_;
   for (Eigen::Index j = 0; j < y_.size(); ++j)
     if (y_[j] != 0.0) bound_multiplier_ += y_[j] * program_.G.col(j);
   for (const Eigen::Index i : set_.rows()) bound_multiplier_ -= row_multiplier_[i] * program_.normals.col(i);
   for (const Eigen::Index j : set_.free()) bound_multiplier_[j] = 0.0;
 }
 
-GONIO_INLINE double dual_active_set::terms() const { return moment_size_ + y_.cwiseAbs().maxCoeff(); }
+GONIO_INLINE double dual_active_set::terms() const { return rhs_size_ + y_.cwiseAbs().maxCoeff(); }
 
 GONIO_INLINE bool dual_active_set::drop_wrong_sign() {
   double worst = -rounding * terms();
@@ -282,7 +282,7 @@ GONIO_INLINE void dual_active_set::refine() {
 }
 
 GONIO_INLINE double dual_active_set::gradient_misfit(Eigen::Index j) const {
-  compensated_sum misfit(moment_[j]);
+  compensated_sum misfit(rhs_[j]);
   for (Eigen::Index i = 0; i < y_.size(); ++i)
     if (y_[i] != 0.0) misfit.add_product(-program_.G(i, j), y_[i]);
   misfit.add_product(-shift_, y_[j]);

@@ -40,14 +40,14 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
           threads)
           .symmetric();
 
-  Eigen::MatrixXd gram(k, k), moment(k, r);
-  Eigen::VectorXd energy(r);
+  Eigen::MatrixXd gram(k, k), rhs(k, r);
+  Eigen::VectorXd rhs_squared_norm(r);
   for (Eigen::Index column = 0; column < k; ++column) std::copy_n(&all(0, column), k, &gram(0, column));
   for (Eigen::Index column = 0; column < r; ++column) {
-    std::copy_n(&all(0, k + column), k, &moment(0, column));
-    energy[column] = all(k + column, k + column);
+    std::copy_n(&all(0, k + column), k, &rhs(0, column));
+    rhs_squared_norm[column] = all(k + column, k + column);
   }
-  return {std::move(gram), std::move(moment), std::move(energy)};
+  return {std::move(gram), std::move(rhs), std::move(rhs_squared_norm)};
 }
 
 }  // namespace gonio

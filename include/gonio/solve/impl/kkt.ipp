@@ -23,7 +23,7 @@ namespace detail {
   scaled_gradient result{Eigen::VectorXd(k), 1.0, Eigen::VectorXd(k)};
   Eigen::VectorXd magnitude(k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    result.value[j] = -normal.moment()(j, right_hand_side);
+    result.value[j] = -normal.rhs()(j, right_hand_side);
     magnitude[j] = std::abs(result.value[j]);
     result.column_norms[j] = std::sqrt(normal.gram()(j, j));
   }

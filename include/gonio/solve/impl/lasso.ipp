@@ -13,8 +13,8 @@ namespace gonio {
 
 GONIO_INLINE double largest_lambda(const normal_equations& normal, sign_rule signs) {
   double largest = 0.0;
-  for (const double moment : normal.moment().reshaped())
-    largest = std::max(largest, signs == sign_rule::any ? std::abs(moment) : moment);
+  for (const double rhs : normal.rhs().reshaped())
+    largest = std::max(largest, signs == sign_rule::any ? std::abs(rhs) : rhs);
   return largest;
 }
 

@@ -123,7 +123,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   for (Eigen::Index column = 0; column < found.residual.size(); ++column)
     found.objective[column] = 0.5 * (found.residual[column] * found.residual[column] -
                                      problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
-  found.certificate = detail::stationarity_of_rows(problem, found.weights);
+  found.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
   for (Eigen::Index column = 0; column < found.objective.size(); ++column) {
     const double residual = found.residual[column];
     if (!(found.objective[column] <= 1e-9 * (0.5 * residual * residual - found.objective[column])))
@@ -136,8 +136,8 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
 
 GONIO_INLINE solution least_squares::solve(const normal_equations& normal) const {
   const auto [lengths, values, vectors] = detail::factorise_normal(normal, threshold_);
-  const Eigen::MatrixXd moment = detail::scaled_rows(normal.moment(), lengths.cwiseInverse());
-  const Eigen::MatrixXd kept = detail::scaled_rows(product(vectors.transpose(), moment), values.cwiseInverse());
+  const Eigen::MatrixXd rhs = detail::scaled_rows(normal.rhs(), lengths.cwiseInverse());
+  const Eigen::MatrixXd kept = detail::scaled_rows(product(vectors.transpose(), rhs), values.cwiseInverse());
 
   solution found;
   if (values.size() == normal.unknowns())
@@ -146,7 +146,7 @@ GONIO_INLINE solution least_squares::solve(const normal_equations& normal) const
     found.weights = detail::minimum_norm(detail::scaled_rows(vectors, lengths), kept);
   found.residual = normal.residual(found.weights);
   found.objective = normal.objective(found.weights);
-  found.certificate = stationarity(normal, found.weights);
+  found.kkt_residual = stationarity(normal, found.weights);
   return found;
 }
 

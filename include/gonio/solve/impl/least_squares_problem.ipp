@@ -173,7 +173,7 @@ GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equat
                 "Scale it by a power of ten"};
   };
   for (Eigen::Index column = 0; column < right_hand_side().cols(); ++column)
-    for (Eigen::Index row = 0; row < equations() && normal.energy()[column] < least; ++row)
+    for (Eigen::Index row = 0; row < equations() && normal.rhs_squared_norm()[column] < least; ++row)
       if (weights()[row] > 0.0 && right_hand_side()(row, column) != 0.0)
         refuse_tiny("right-hand side " + std::to_string(column));
   if (normal.gram().diagonal().minCoeff() >= least) return;

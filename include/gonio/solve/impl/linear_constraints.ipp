@@ -96,7 +96,7 @@ GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal,
                                                  const Eigen::Ref<const Eigen::VectorXd>& x,
                                                  const linear_constraints& constraints,
                                                  const constraint_multipliers& multipliers) {
-  Eigen::VectorXd sum = -normal.moment().col(right_hand_side), terms = sum.cwiseAbs();
+  Eigen::VectorXd sum = -normal.rhs().col(right_hand_side), terms = sum.cwiseAbs();
   const auto add = [&](double factor, const auto& column) {
     if (factor == 0.0) return;
     sum += factor * column;
@@ -111,7 +111,7 @@ GONIO_INLINE scaled_gradient lagrangian_gradient(const normal_equations& normal,
   double scale = terms.cwiseQuotient(lengths).maxCoeff();
   // Where all of the weight is on columns of zeros there are no terms, and rounding would be relative to rounding. (A
   // linear program has terms.)
-  const bool linear = normal.gram().diagonal().maxCoeff() == 0.0 && !normal.moment().col(right_hand_side).isZero(0.0);
+  const bool linear = normal.gram().diagonal().maxCoeff() == 0.0 && !normal.rhs().col(right_hand_side).isZero(0.0);
   if (!linear) scale = std::max(scale, x.cwiseAbs().cwiseProduct(lengths).maxCoeff());
   return {sum.cwiseQuotient(lengths), scale > 0.0 ? scale : 1.0, lengths};
 }

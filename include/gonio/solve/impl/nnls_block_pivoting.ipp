@@ -15,18 +15,18 @@ namespace gonio {
 GONIO_INLINE block_pivoting::block_pivoting(const normal_equations& normal, Eigen::Index right_hand_side)
     : normal_(normal),
       right_hand_side_(right_hand_side),
-      moment_(normal.moment().col(right_hand_side)),
+      rhs_(normal.rhs().col(right_hand_side)),
       x_(Eigen::VectorXd::Zero(normal.unknowns())),
       free_(static_cast<std::size_t>(normal.unknowns()), false),
       fewest_wrong_(normal.unknowns() + 1) {
-  find_wrong(Eigen::VectorXd(-moment_));
+  find_wrong(Eigen::VectorXd(-rhs_));
 }
 
 GONIO_INLINE void block_pivoting::find_wrong(const Eigen::VectorXd& gradient) {
   const Eigen::VectorXd norms = normal_.gram().diagonal().cwiseSqrt();
   double terms = 0.0;
   for (Eigen::Index j = 0; j < x_.size(); ++j)
-    if (norms[j] > 0.0) terms = std::max(terms, std::abs(moment_[j]) / norms[j]);
+    if (norms[j] > 0.0) terms = std::max(terms, std::abs(rhs_[j]) / norms[j]);
   terms += x_.cwiseAbs().dot(norms);
   wrong_.clear();
   for (Eigen::Index j = 0; j < x_.size(); ++j) {
@@ -80,10 +80,10 @@ GONIO_INLINE void block_pivoting::solve_free() {
       free_[static_cast<std::size_t>(j)] = false;
   }
   Eigen::VectorXd z(std::ssize(passive));
-  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = moment_[passive[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = rhs_[passive[static_cast<std::size_t>(i)]];
   factor.solve(z);
   x_.setZero();
-  Eigen::VectorXd gradient = -moment_;
+  Eigen::VectorXd gradient = -rhs_;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
     const Eigen::Index j = passive[static_cast<std::size_t>(i)];
     x_[j] = z[i];

@@ -18,23 +18,24 @@
 
 namespace gonio {
 
-GONIO_INLINE normal_equations::normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd moment, Eigen::VectorXd energy)
-    : gram_(std::move(gram)), moment_(std::move(moment)), energy_(std::move(energy)) {
-  if (energy_.size() == 0) energy_ = Eigen::VectorXd::Zero(moment_.cols());
+GONIO_INLINE normal_equations::normal_equations(Eigen::MatrixXd gram, Eigen::MatrixXd rhs,
+                                                Eigen::VectorXd rhs_squared_norm)
+    : gram_(std::move(gram)), rhs_(std::move(rhs)), rhs_squared_norm_(std::move(rhs_squared_norm)) {
+  if (rhs_squared_norm_.size() == 0) rhs_squared_norm_ = Eigen::VectorXd::Zero(rhs_.cols());
   require_consistent();
 }
 
 GONIO_INLINE Eigen::VectorXd normal_equations::objective(const Eigen::MatrixXd& x) const {
   Eigen::VectorXd values(x.cols());
   for (Eigen::Index column = 0; column < x.cols(); ++column)
-    values[column] = 0.5 * quadratic_form(x, column) - dot(&moment_(0, column), &x(0, column), x.rows());
+    values[column] = 0.5 * quadratic_form(x, column) - dot(&rhs_(0, column), &x(0, column), x.rows());
   return values;
 }
 
 GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x) const {
   Eigen::VectorXd norms = objective(x);
   for (Eigen::Index column = 0; column < norms.size(); ++column)
-    norms[column] = std::sqrt(std::max(2.0 * norms[column] + energy_[column], 0.0));
+    norms[column] = std::sqrt(std::max(2.0 * norms[column] + rhs_squared_norm_[column], 0.0));
   return norms;
 }
 
@@ -43,23 +44,23 @@ GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_
     throw error{"normal equations of ",      a.unknowns(), " unknowns and ", a.right_hand_sides(),
                 " right-hand sides and of ", b.unknowns(), " and ",          b.right_hand_sides(),
                 " cannot be added"};
-  Eigen::MatrixXd gram = a.gram_, moment = a.moment_;
-  Eigen::VectorXd energy = a.energy_;
+  Eigen::MatrixXd gram = a.gram_, rhs = a.rhs_;
+  Eigen::VectorXd rhs_squared_norm = a.rhs_squared_norm_;
   add_scaled(1.0, b.gram_.data(), gram.data(), gram.size());
-  add_scaled(1.0, b.moment_.data(), moment.data(), moment.size());
-  add_scaled(1.0, b.energy_.data(), energy.data(), energy.size());
-  return {std::move(gram), std::move(moment), std::move(energy)};
+  add_scaled(1.0, b.rhs_.data(), rhs.data(), rhs.size());
+  add_scaled(1.0, b.rhs_squared_norm_.data(), rhs_squared_norm.data(), rhs_squared_norm.size());
+  return {std::move(gram), std::move(rhs), std::move(rhs_squared_norm)};
 }
 
 GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::Index> columns) const {
   const auto k = static_cast<Eigen::Index>(columns.size());
-  Eigen::MatrixXd gram(k, k), moment(k, right_hand_sides());
+  Eigen::MatrixXd gram(k, k), rhs(k, right_hand_sides());
   for (Eigen::Index j = 0; j < k; ++j) {
     const Eigen::Index from = columns[static_cast<std::size_t>(j)];
     for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[static_cast<std::size_t>(i)], from);
-    for (Eigen::Index r = 0; r < moment.cols(); ++r) moment(j, r) = moment_(from, r);
+    for (Eigen::Index r = 0; r < rhs.cols(); ++r) rhs(j, r) = rhs_(from, r);
   }
-  return {std::move(gram), std::move(moment), energy_};
+  return {std::move(gram), std::move(rhs), rhs_squared_norm_};
 }
 
 GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, Eigen::Index column) const {
@@ -70,40 +71,40 @@ GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, E
 }
 
 GONIO_INLINE void normal_equations::require_consistent() const {
-  if (gram_.size() == 0 || moment_.cols() == 0)
-    throw error{"normal equations of ", gram_.rows(), " unknowns and ", moment_.cols(), " right-hand sides are empty"};
-  if (gram_.rows() != gram_.cols() || moment_.rows() != gram_.rows() || energy_.size() != moment_.cols())
+  if (gram_.size() == 0 || rhs_.cols() == 0)
+    throw error{"normal equations of ", gram_.rows(), " unknowns and ", rhs_.cols(), " right-hand sides are empty"};
+  if (gram_.rows() != gram_.cols() || rhs_.rows() != gram_.rows() || rhs_squared_norm_.size() != rhs_.cols())
     throw error{"normal equations do not match in size: the Gram matrix is ",
                 gram_.rows(),
                 " x ",
                 gram_.cols(),
                 ", the moment ",
-                moment_.rows(),
+                rhs_.rows(),
                 " x ",
-                moment_.cols(),
+                rhs_.cols(),
                 ", and ",
-                energy_.size(),
+                rhs_squared_norm_.size(),
                 " right-hand sides have their energy"};
   for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
     bool finite = true;
     for (Eigen::Index row = 0; row < gram_.rows(); ++row) finite = finite && std::isfinite(gram_(row, column));
-    for (Eigen::Index r = 0; r < moment_.cols(); ++r) finite = finite && std::isfinite(moment_(column, r));
+    for (Eigen::Index r = 0; r < rhs_.cols(); ++r) finite = finite && std::isfinite(rhs_(column, r));
     if (!finite) throw error{"column ", column, " of normal equations is not finite"};
     if (gram_(column, column) < 0.0)
       throw error{"column ", column, " of normal equations has the squared norm ", gram_(column, column),
                   ": it cannot be negative"};
   }
-  for (Eigen::Index r = 0; r < energy_.size(); ++r)
-    if (!std::isfinite(energy_[r])) throw error("the right-hand side of normal equations is not finite");
+  for (Eigen::Index r = 0; r < rhs_squared_norm_.size(); ++r)
+    if (!std::isfinite(rhs_squared_norm_[r])) throw error("the right-hand side of normal equations is not finite");
 }
 
 GONIO_INLINE normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,
                                             std::span<const Eigen::Index> columns) {
-  Eigen::MatrixXd moment(gram.rows(), 1);
-  std::copy_n(&gram(0, target), gram.rows(), moment.data());
-  Eigen::VectorXd energy(1);
-  energy[0] = gram(target, target);
-  return normal_equations(gram, std::move(moment), std::move(energy)).subset(columns);
+  Eigen::MatrixXd rhs(gram.rows(), 1);
+  std::copy_n(&gram(0, target), gram.rows(), rhs.data());
+  Eigen::VectorXd rhs_squared_norm(1);
+  rhs_squared_norm[0] = gram(target, target);
+  return normal_equations(gram, std::move(rhs), std::move(rhs_squared_norm)).subset(columns);
 }
 
 GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {

@@ -23,15 +23,15 @@ namespace gonio {
 
 GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side,
                                                    const active_constraints* start) const {
-  const vector q = program_.moment(normal_, right_hand_side);
+  const vector q = program_.rhs(normal_, right_hand_side);
   iteration run(program_, q, start ? *start : origin());
   advance(run, step_limit());
   if (run.converged() && !run.singular()) {
     program_optimum found = judge(run, q, right_hand_side);
     found.iterations = run.changes();
     const vector& y = run.scaled_weights();
-    if (found.certificate <= good && !is_suspicious(found, y, q)) return found;
-    if (found.certificate <= good && falls_for_ever(y, q, right_hand_side)) throw error(falling(y));
+    if (found.kkt_residual <= good && !is_suspicious(found, y, q)) return found;
+    if (found.kkt_residual <= good && falls_for_ever(y, q, right_hand_side)) throw error(falling(y));
   }
   return solve_by_proximal_points(right_hand_side, q, run.active(), run.changes());
 }
@@ -53,16 +53,16 @@ GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const v
   const auto certify = [&](const vector& x) {
     return kkt_violation(normal_, right_hand_side, x, constraints_, found.multipliers);
   };
-  found.certificate = certify(found.weights);
-  if (found.certificate <= good) return found;
+  found.kkt_residual = certify(found.weights);
+  if (found.kkt_residual <= good) return found;
   // Rows that leave only zero make weights of the size of rounding, which violate them completely.
   const vector& y = run.scaled_weights();
   const double tiny = 1e-14 * (q.cwiseAbs().maxCoeff() + y.cwiseAbs().maxCoeff());
   const vector snapped = (y.array().abs() > tiny).select(found.weights, 0.0);
-  const double certificate = certify(snapped);
-  if (certificate < found.certificate) {
+  const double kkt_residual = certify(snapped);
+  if (kkt_residual < found.kkt_residual) {
     found.weights = snapped;
-    found.certificate = certificate;
+    found.kkt_residual = kkt_residual;
   }
   return found;
 }
@@ -84,7 +84,7 @@ GONIO_INLINE program_optimum program_solver::solve_by_proximal_points(Eigen::Ind
     found.iterations = changes;
     const bool settled = movement.cwiseAbs().maxCoeff() <= 1e-6 * y.cwiseAbs().maxCoeff();
     const double enough = settled ? good : point >= patience ? sufficient : 0.0;
-    if (found.certificate <= enough && !is_suspicious(found, y, q)) return found;
+    if (found.kkt_residual <= enough && !is_suspicious(found, y, q)) return found;
   }
   throw error{
       "a quadratic program has not been solved after ", changes,
@@ -92,17 +92,17 @@ GONIO_INLINE program_optimum program_solver::solve_by_proximal_points(Eigen::Ind
 }
 
 GONIO_INLINE bool program_solver::is_suspicious(const program_optimum& found, const vector& y, const vector& q) const {
-  const double size = y.cwiseAbs().maxCoeff(), moment = q.cwiseAbs().maxCoeff();
-  const double given = program_.rows() > 0 ? std::max(moment, program_.b.cwiseAbs().maxCoeff()) : moment;
-  return size > 1e11 * given || (size > 1e6 * given && found.certificate * size > 1e-5 * moment);
+  const double size = y.cwiseAbs().maxCoeff(), rhs = q.cwiseAbs().maxCoeff();
+  const double given = program_.rows() > 0 ? std::max(rhs, program_.b.cwiseAbs().maxCoeff()) : rhs;
+  return size > 1e11 * given || (size > 1e6 * given && found.kkt_residual * size > 1e-5 * rhs);
 }
 
 GONIO_INLINE program_optimum program_solver::best(const iteration& run, const vector& q,
                                                   Eigen::Index right_hand_side) const {
   program_optimum polished = judge(iteration::polished(run, q), q, right_hand_side);
-  if (polished.certificate <= good) return polished;
+  if (polished.kkt_residual <= good) return polished;
   program_optimum found = judge(run, q, right_hand_side);
-  return found.certificate < polished.certificate ? found : polished;
+  return found.kkt_residual < polished.kkt_residual ? found : polished;
 }
 
 GONIO_INLINE bool program_solver::falls_for_ever(const vector& movement, const vector& q,
@@ -120,7 +120,7 @@ GONIO_INLINE bool program_solver::falls_for_ever(const vector& movement, const v
   const double curvature = std::max(0.0, way.dot(thin_product(program_.G, way).col(0))), slope = q.dot(way);
   if (curvature > epsilon * way.squaredNorm() || !(slope > 0.0)) return false;
   const double rounding = epsilon * way.cwiseAbs2().dot(program_.G.diagonal());
-  const double reach = std::max(normal_.energy()[right_hand_side], q.cwiseAbs2().maxCoeff());
+  const double reach = std::max(normal_.rhs_squared_norm()[right_hand_side], q.cwiseAbs2().maxCoeff());
   return slope * slope > 100.0 * reach * (curvature + rounding);
 }
 
@@ -166,9 +166,9 @@ GONIO_INLINE solution certified_program(const least_squares_problem& problem, co
   found = certified_program(normal, constraints, std::move(found));
   const Eigen::VectorXd by_normal = std::exchange(found.residual, problem.residual(found.weights));
   for (Eigen::Index column = 0; column < by_normal.size(); ++column) {
-    const double energy = normal.energy()[column], residual = found.residual[column];
-    if (std::abs(0.5 * (residual * residual - energy) - found.objective[column]) >
-        certificate_limit * (residual * residual + energy))
+    const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.residual[column];
+    if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.objective[column]) >
+        kkt_residual_limit * (residual * residual + rhs_squared_norm))
       throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
                   " by the rows and ", by_normal[column], " by them"};
   }

@@ -66,14 +66,14 @@ GONIO_INLINE std::vector<scaled_gradient> gradients_of_rows(const least_squares_
   for (Eigen::Index j = 0; j < x.rows(); ++j) norms[j] = squares[j] > 0.0 ? std::sqrt(squares[j]) : 1.0;
   std::vector<scaled_gradient> gradients;
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    double energy = 0.0, reach = 0.0;
+    double rhs_squared_norm = 0.0, reach = 0.0;
     for (Eigen::Index row = 0; row < problem.equations(); ++row)
-      energy += problem.weights()[row] * std::pow(problem.right_hand_side()(row, column), 2);
+      rhs_squared_norm += problem.weights()[row] * std::pow(problem.right_hand_side()(row, column), 2);
     for (Eigen::Index j = 0; j < x.rows(); ++j) {
       gradient(j, column) /= norms[j];
       reach += norms[j] * std::abs(x(j, column));
     }
-    const double scale = std::sqrt(energy) + reach;
+    const double scale = std::sqrt(rhs_squared_norm) + reach;
     gradients.push_back({gradient.col(column), scale > 0.0 ? scale : 1.0, norms});
   }
   return gradients;

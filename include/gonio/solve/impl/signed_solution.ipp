@@ -22,8 +22,8 @@
 
 namespace gonio::detail {
 
-/// Who has a second way takes it where the certificate is more than this.
-inline constexpr double certificate_sought = 1e-12;
+/// Who has a second way takes it where the KKT residual is more than this.
+inline constexpr double kkt_residual_sought = 1e-12;
 
 /// Shares of b'Wb / 2 by which an objective may be off, and of |b| by which A x may move as its weights are rounded.
 inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
@@ -40,7 +40,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   found.objective = normal.objective(found.weights);
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
     found.objective[column] += penalty_at(found, column, task.lambda);
-  found.certificate = kkt_violation(normal, found.weights, task.lambda, task.signs);
+  found.kkt_residual = kkt_violation(normal, found.weights, task.lambda, task.signs);
   return found;
 }
 
@@ -57,11 +57,12 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 [[nodiscard]] GONIO_INLINE std::string objection(const normal_equations& normal, const solution& found,
                                                  Eigen::Index column, double rounding, double limit) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  if (!(found.certificate[column] <= limit)) return "the best weights found miss the optimality conditions";
-  const double energy = normal.energy()[column], moment = normal.moment().col(column).cwiseAbs().maxCoeff();
-  if (energy == 0.0 && moment > 0.0) return "";  // nobody told
-  const double half = 0.5 * energy;
-  if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(energy)))
+  if (!(found.kkt_residual[column] <= limit)) return "the best weights found miss the optimality conditions";
+  const double rhs_squared_norm = normal.rhs_squared_norm()[column],
+               rhs = normal.rhs().col(column).cwiseAbs().maxCoeff();
+  if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // nobody told
+  const double half = 0.5 * rhs_squared_norm;
+  if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(rhs_squared_norm)))
     return "the weights are so large that rounding them moves A x by 1e-5 |b|";
   const double allowed = objective_tolerance * half + rounding;
   if (!(found.objective[column] <= allowed)) return "the best weights found explain less than none would";
@@ -85,15 +86,15 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd optimum_by_program(const normal_equations& normal, Eigen::Index column,
                                                               const signed_task& task) {
   const Eigen::Index k = normal.unknowns(), parts = task.signs == sign_rule::any ? 2 : 1;
-  Eigen::MatrixXd gram(parts * k, parts * k), moment(parts * k, 1);
+  Eigen::MatrixXd gram(parts * k, parts * k), rhs(parts * k, 1);
   for (Eigen::Index q = 0; q < parts; ++q)
     for (Eigen::Index j = 0; j < k; ++j) {
       const double sign = q == 0 ? 1.0 : -1.0;
-      moment(q * k + j, 0) = sign * normal.moment()(j, column) - task.lambda;
+      rhs(q * k + j, 0) = sign * normal.rhs()(j, column) - task.lambda;
       for (Eigen::Index p = 0; p < parts; ++p)
         for (Eigen::Index i = 0; i < k; ++i) gram(p * k + i, q * k + j) = (p == q ? 1.0 : -1.0) * normal.gram()(i, j);
     }
-  const normal_equations program(std::move(gram), std::move(moment), normal.energy().segment(column, 1));
+  const normal_equations program(std::move(gram), std::move(rhs), normal.rhs_squared_norm().segment(column, 1));
   const linear_constraints constraints{.non_negative = true};
   try {
     const Eigen::VectorXd found = program_solver(program, constraints).solve(0).weights;
@@ -108,7 +109,7 @@ GONIO_INLINE void take(const solution& from, Eigen::Index column, solution& to) 
   to.weights.col(column) = from.weights.col(column);
   to.residual[column] = from.residual[column];
   to.objective[column] = from.objective[column];
-  to.certificate[column] = from.certificate[column];
+  to.kkt_residual[column] = from.kkt_residual[column];
 }
 
 GONIO_INLINE solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights) {
@@ -117,15 +118,15 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
     return objection(normal, given, column, rounding_of_objective(normal, given, column), limit);
   };
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
-    if (objection_to(found, column, certificate_sought).empty()) continue;
-    const bool good_enough = objection_to(found, column, certificate_limit).empty();
+    if (objection_to(found, column, kkt_residual_sought).empty()) continue;
+    const bool good_enough = objection_to(found, column, kkt_residual_limit).empty();
     try {
       Eigen::MatrixXd again = found.weights;
       again.col(column) = optimum_by_program(normal, column, task);
       const solution other = evaluated(normal, task, std::move(again));
-      const std::string why = objection_to(other, column, certificate_limit);
+      const std::string why = objection_to(other, column, kkt_residual_limit);
       if (!why.empty()) throw no_optimum(task, why);
-      if (!good_enough || other.certificate[column] < found.certificate[column]) take(other, column, found);
+      if (!good_enough || other.kkt_residual[column] < found.kkt_residual[column]) take(other, column, found);
     } catch (const error&) {
       if (!good_enough) throw;
     }
@@ -136,17 +137,17 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
 /// Does the objective of the normal equations agree with the residual of the rows?
 [[nodiscard]] GONIO_INLINE bool rows_agree(const normal_equations& normal, const solution& found, Eigen::Index column,
                                            double lambda) {
-  const double energy = normal.energy()[column], residual = found.residual[column];
-  const double of_rows = 0.5 * (residual * residual - energy) + penalty_at(found, column, lambda);
-  return std::abs(of_rows - found.objective[column]) <= 0.5 * objective_tolerance * energy;
+  const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.residual[column];
+  const double of_rows = 0.5 * (residual * residual - rhs_squared_norm) + penalty_at(found, column, lambda);
+  return std::abs(of_rows - found.objective[column]) <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
 /// Weights whose gradient is off by a share of |b| + reach explain at most reach times as much less than the optimum.
 [[nodiscard]] GONIO_INLINE bool gap_is_small(const normal_equations& normal, const solution& found,
                                              Eigen::Index column) {
-  const double energy = normal.energy()[column], reach = reach_of(normal, found.weights, column);
-  const double gap = found.certificate[column] * (std::sqrt(energy) + reach) * reach;
-  return gap <= 0.5 * objective_tolerance * energy;
+  const double rhs_squared_norm = normal.rhs_squared_norm()[column], reach = reach_of(normal, found.weights, column);
+  const double gap = found.kkt_residual[column] * (std::sqrt(rhs_squared_norm) + reach) * reach;
+  return gap <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
 GONIO_INLINE solution certified(const least_squares_problem& problem, const signed_task& task,
@@ -157,7 +158,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
   Eigen::MatrixXd triangle;
   std::vector<Eigen::Index> mended;
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
-    if (objection(normal, found, column, 0.0, certificate_sought).empty() && gap_is_small(normal, found, column) &&
+    if (objection(normal, found, column, 0.0, kkt_residual_sought).empty() && gap_is_small(normal, found, column) &&
         rows_agree(normal, found, column, task.lambda) && is_resolved(normal, column, found.weights.col(column), task))
       continue;
     // From nothing, so that all solvers find the same.
@@ -174,10 +175,10 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
   for (const Eigen::Index column : mended) {
     const double residual = found.residual[column];
     found.objective[column] =
-        0.5 * (residual * residual - normal.energy()[column]) + penalty_at(found, column, task.lambda);
-    found.certificate[column] =
+        0.5 * (residual * residual - normal.rhs_squared_norm()[column]) + penalty_at(found, column, task.lambda);
+    found.kkt_residual[column] =
         kkt_violation(gradients[static_cast<std::size_t>(column)], &found.weights(0, column), task.lambda, task.signs);
-    const std::string why = objection(normal, found, column, 0.0, certificate_limit);
+    const std::string why = objection(normal, found, column, 0.0, kkt_residual_limit);
     if (!why.empty()) throw no_optimum(task, why);
   }
   return found;
@@ -188,7 +189,7 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr double undecided = 1e-9, least_pivot = 1e-13, tolerance = 1e-6;
   const Eigen::MatrixXd& gram = normal.gram();
-  const double length = std::sqrt(normal.energy()[right_hand_side]);
+  const double length = std::sqrt(normal.rhs_squared_norm()[right_hand_side]);
   const Eigen::VectorXd norms = gram.diagonal().cwiseSqrt();
   // lambda |x|_1 is at most b'Wb / 2 at the optimum.
   if (task.lambda > 0.0) {

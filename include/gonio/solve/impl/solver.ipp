@@ -16,7 +16,7 @@
 
 namespace gonio {
 
-GONIO_INLINE solution side_by_side(std::span<const solution> parts) {
+GONIO_INLINE solution concatenate_columns(std::span<const solution> parts) {
   Eigen::Index columns = 0;
   for (const solution& part : parts) columns += part.weights.cols();
   solution all{Eigen::MatrixXd(parts.front().weights.rows(), columns), Eigen::VectorXd(columns),
@@ -28,14 +28,14 @@ GONIO_INLINE solution side_by_side(std::span<const solution> parts) {
     std::copy_n(part.weights.data(), unknowns * count, all.weights.data() + unknowns * first);
     std::copy_n(part.residual.data(), count, all.residual.data() + first);
     std::copy_n(part.objective.data(), count, all.objective.data() + first);
-    std::copy_n(part.certificate.data(), count, all.certificate.data() + first);
+    std::copy_n(part.kkt_residual.data(), count, all.kkt_residual.data() + first);
     all.iterations += part.iterations;
     first += count;
   }
   return all;
 }
 
-GONIO_INLINE solution spread(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns) {
+GONIO_INLINE solution scatter_columns(solution found, std::span<const Eigen::Index> columns, Eigen::Index unknowns) {
   if (found.weights.rows() == unknowns) return found;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, found.weights.cols());
   for (Eigen::Index side = 0; side < all.cols(); ++side)
@@ -51,8 +51,8 @@ GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_
 }
 
 GONIO_INLINE solution detail::require_certified(solution found, std::string_view solver) {
-  for (Eigen::Index column = 0; column < found.certificate.size(); ++column)
-    if (!(found.certificate[column] <= certificate_limit))
+  for (Eigen::Index column = 0; column < found.kkt_residual.size(); ++column)
+    if (!(found.kkt_residual[column] <= kkt_residual_limit))
       throw error{solver, " has found no optimum of right-hand side ", column,
                   ": the problem is too ill-conditioned for double precision"};
   return found;

@@ -55,7 +55,7 @@ struct ridge_rows {
 
 [[nodiscard]] GONIO_INLINE solution certified(const ridge_rows& ridge, Eigen::MatrixXd x) {
   const Eigen::MatrixXd misfit = ridge.misfit(x), gradient = ridge.gradient(misfit, x),
-                        moment = thin_transposed_product(ridge.rows, ridge.right);
+                        rhs = thin_transposed_product(ridge.rows, ridge.right);
   const Eigen::VectorXd nothing(x.cols());
   solution found{std::move(x), nothing, nothing, nothing};
   for (Eigen::Index column = 0; column < misfit.cols(); ++column) {
@@ -63,8 +63,8 @@ struct ridge_rows {
     found.residual[column] = std::sqrt(squares);
     found.objective[column] =
         0.5 * (squares - squared_norm(ridge.right, column) + ridge.eta * squared_norm(found.weights, column));
-    const double scale = largest_magnitude(moment, column);
-    found.certificate[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
+    const double scale = largest_magnitude(rhs, column);
+    found.kkt_residual[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
   }
   return found;
 }
@@ -101,8 +101,8 @@ GONIO_INLINE solution tikhonov::solve(const least_squares_problem& problem) cons
 GONIO_INLINE solution tikhonov::solve(const normal_equations& normal) const {
   Eigen::MatrixXd penalised = normal.gram();
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta_;
-  const normal_equations ridge(std::move(penalised), normal.moment());
-  const Eigen::MatrixXd x = cholesky(ridge.gram()).solve(ridge.moment());
+  const normal_equations ridge(std::move(penalised), normal.rhs());
+  const Eigen::MatrixXd x = cholesky(ridge.gram()).solve(ridge.rhs());
   return detail::require_certified({x, normal.residual(x), ridge.objective(x), stationarity(ridge, x)},
                                    "Tikhonov's solver");
 }

@@ -55,7 +55,7 @@ struct kept_spectrum {
 /// A solution in a subspace, without its residual.
 struct subspace_solution {
   const Eigen::MatrixXd& x;
-  const Eigen::MatrixXd& moment;           ///< A'Wb
+  const Eigen::MatrixXd& rhs;              ///< A'Wb
   const Eigen::MatrixXd& basis;            ///< V, of the subspace
   const Eigen::MatrixXd& projected_image;  ///< A'WA x
   const Eigen::MatrixXd& span;             ///< A'WA V
@@ -63,13 +63,13 @@ struct subspace_solution {
 
   [[nodiscard]] solution judged() const {
     const double led_out = relative_violation(outside(span), largest);
-    const Eigen::MatrixXd gradient = product(basis.transpose(), projected_image - moment), away = outside(x);
+    const Eigen::MatrixXd gradient = product(basis.transpose(), projected_image - rhs), away = outside(x);
     solution found{x, Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols())};
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
       const double norm = x.col(column).norm();
-      found.objective[column] = x.col(column).dot(0.5 * projected_image.col(column) - moment.col(column));
-      found.certificate[column] =
-          std::max({led_out, relative_violation(gradient.col(column), moment.col(column).norm() + largest * norm),
+      found.objective[column] = x.col(column).dot(0.5 * projected_image.col(column) - rhs.col(column));
+      found.kkt_residual[column] =
+          std::max({led_out, relative_violation(gradient.col(column), rhs.col(column).norm() + largest * norm),
                     relative_violation(away.col(column), norm)});
     }
     return found;
@@ -91,11 +91,11 @@ struct subspace_solution {
   const Eigen::MatrixXd right = problem.weighted_right_hand_side();
   Eigen::MatrixXd within = product(vectors.transpose(), right);
   triangle.transpose().triangularView<Eigen::Lower>().solveInPlace(within);
-  const Eigen::MatrixXd x = product(basis, within), moment = product(columns, right),
+  const Eigen::MatrixXd x = product(basis, within), rhs = product(columns, right),
                         projected_image = product(columns, product(rows, x)),
                         span = product(columns, product(rows, basis));
   const double largest = values.size() > 0 ? values[values.size() - 1] : 0.0;
-  return subspace_solution{x, moment, basis, projected_image, span, largest}.judged();
+  return subspace_solution{x, rhs, basis, projected_image, span, largest}.judged();
 }
 
 [[nodiscard]] inline bool is_wide(const least_squares_problem& problem) {
@@ -117,12 +117,12 @@ GONIO_INLINE solution truncated_svd::solve(const least_squares_problem& problem)
 
 GONIO_INLINE solution truncated_svd::solve(const normal_equations& normal) const {
   const auto [values, vectors] = detail::truncate_spectrum(normal.gram(), share_);
-  Eigen::MatrixXd within = product(vectors.transpose(), normal.moment());
+  Eigen::MatrixXd within = product(vectors.transpose(), normal.rhs());
   for (Eigen::Index i = 0; i < values.size(); ++i) within.row(i) /= values[i];
   const Eigen::MatrixXd x = product(vectors, within), projected_image = product(normal.gram(), x),
                         span = product(normal.gram(), vectors);
   const double largest = values.size() > 0 ? values[values.size() - 1] : 0.0;
-  solution found = detail::subspace_solution{x, normal.moment(), vectors, projected_image, span, largest}.judged();
+  solution found = detail::subspace_solution{x, normal.rhs(), vectors, projected_image, span, largest}.judged();
   found.residual = normal.residual(x);
   return detail::require_certified(std::move(found), "the truncated SVD");
 }

@@ -1,9 +1,9 @@
 #pragma once
-/// Bodies of shape/mesh_picture.hpp.
+/// Bodies of shape/mesh_image.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/shape/mesh_picture.hpp>
+#include <gonio/shape/mesh_image.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 #include <gonio/table/image.hpp>
 
@@ -45,14 +45,14 @@ GONIO_INLINE mesh_view mesh_view::of(const triangle_mesh& mesh, const Eigen::Vec
 
 namespace gonio::shape::detail {
 
-/// A picture and how near what it shows is.
-struct depth_picture {
+/// An image and how near what it shows is.
+struct depth_image {
   image picture;
   std::vector<double> nearest;
 };
 
 /// Draws one triangle, whose corners are (column, row, depth) with colours as columns.
-GONIO_INLINE void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
+GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
   const std::size_t pixels = onto.picture.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;
   const auto [left, right] = std::minmax({corners(0, 0), corners(0, 1), corners(0, 2)});
@@ -82,12 +82,12 @@ GONIO_INLINE void draw_triangle(depth_picture& onto, const Eigen::Matrix3d& corn
 
 namespace gonio::shape {
 
-GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
+GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
   if (static_cast<Eigen::Index>(colours.size()) != mesh.vertices.cols())
-    throw error{"a picture of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"};
+    throw error{"an image of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"};
   const Eigen::Vector3d right = view.towards.cross(view.up);
   if (!(view.radius > 0.0 && view.pixels > 0 && right.norm() > 0.0))
-    throw error("a picture of a mesh needs pixels, a radius and a direction that is not that of up");
+    throw error("an image of a mesh needs pixels, a radius and a direction that is not that of up");
   const Eigen::Vector3d across = right / right.norm(), away = view.towards / view.towards.norm(),
                         down = away.cross(across);
   const double pixels = static_cast<double>(view.pixels), scale = 0.5 * pixels / view.radius;
@@ -101,8 +101,8 @@ GONIO_INLINE image picture_of(const triangle_mesh& mesh, std::span<const rgb> co
     const double facing = -away.dot(normal), light = facing >= 0.0 ? 0.15 + 0.85 * facing : 0.1 - 0.2 * facing;
     for (Eigen::Index c = 0; c < 3; ++c) lit(c, v) = light * colours[static_cast<std::size_t>(v)][c];
   }
-  detail::depth_picture drawn{uniform_image(view.pixels, view.pixels, view.background),
-                              std::vector<double>(view.pixels * view.pixels, std::numeric_limits<double>::infinity())};
+  detail::depth_image drawn{uniform_image(view.pixels, view.pixels, view.background),
+                            std::vector<double>(view.pixels * view.pixels, std::numeric_limits<double>::infinity())};
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     Eigen::Matrix3d corners, corner_colours;
     for (Eigen::Index corner = 0; corner < 3; ++corner) {

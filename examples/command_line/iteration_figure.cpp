@@ -1,7 +1,7 @@
-#include "story.hpp"
+#include "iteration_figure.hpp"
 
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/render/slice.hpp>
 
 #include <algorithm>
@@ -85,7 +85,7 @@ gonio::image sparse_slice(const gonio::sample_set& samples, const gonio::rgb& no
   return picture;
 }
 
-/// Pictures in columns of equal tiles; a column may end before the others.
+/// Images in columns of equal tiles; a column may end before the others.
 gonio::image in_columns(const std::vector<std::vector<gonio::image>>& columns) {
   std::size_t rows = 0;
   for (const auto& column : columns) rows = std::max(rows, column.size());
@@ -102,8 +102,8 @@ class gallery {
  public:
   gallery(const gonio::brdf_table& reference, gonio::thread_count threads)
       : threads_(threads),
-        judge_(reference.cells(), gonio::render::environment_lighting{}, cells_across, gonio::sphere_judge::middle_grey,
-               threads),
+        judge_(reference.cells(), gonio::render::environment_lighting{}, cells_across,
+               gonio::sphere_delta_e::middle_grey, threads),
         reference_(judge_.expose(reference, threads)) {}
 
   [[nodiscard]] gonio::image sphere(const gonio::brdf_table& table) const {
@@ -123,31 +123,31 @@ class gallery {
 
  private:
   gonio::thread_count threads_;
-  gonio::sphere_judge judge_;
+  gonio::sphere_delta_e judge_;
   gonio::sphere_appearance reference_;
 };
 
 }  // namespace
 
-story::story(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,
-             gonio::thread_count threads)
+iteration_figure::iteration_figure(gonio::correction corrections, gonio::sample_set samples,
+                                   std::optional<gonio::brdf_table> truth, gonio::thread_count threads)
     : corrections_(std::move(corrections)), samples_(std::move(samples)), truth_(std::move(truth)), threads_(threads) {
   if (truth_) truth_ = gonio::resample(*truth_, gonio::valid_cells(), threads_);
 }
 
 /// Keeps the start, rounds 1 and 2, and the last two.
-void story::keep(moment now) {
+void iteration_figure::keep(moment now) {
   moments_.push_back(std::move(now));
   if (moments_.size() > 5) moments_.erase(moments_.begin() + 3);
 }
 
-gonio::image story::draw_input() const {
+gonio::image iteration_figure::draw_input() const {
   return sparse_slice(samples_, {1.0, 0.0, 0.0},
                       [&](std::size_t i) { return gonio::rgb(std::numbers::pi * samples_[i].value); });
 }
 
 /// From the table and not from the run, which may look at some of the samples only.
-gonio::image story::draw_factors(const moment& before) const {
+gonio::image iteration_figure::draw_factors(const moment& before) const {
   return sparse_slice(samples_, gonio::rgb::Zero(), [&](std::size_t i) {
     const gonio::location at = gonio::locate(before.estimate.cells(), samples_[i].angles);
     const Eigen::Array3f measured = samples_[i].value.cast<float>(), estimate = before.estimate.at(at).cast<float>();
@@ -156,13 +156,13 @@ gonio::image story::draw_factors(const moment& before) const {
   });
 }
 
-gonio::image story::draw_correction(const moment& round) const {
+gonio::image iteration_figure::draw_correction(const moment& round) const {
   gonio::solution found;
   found.weights = round.weights;
   return factor_slice(gonio::fitted_brdf{corrections_, found}, threads_);
 }
 
-gonio::image story::draw_true_correction(const moment& before) const {
+gonio::image iteration_figure::draw_true_correction(const moment& before) const {
   const auto sigma = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
     const Eigen::Array3f truth = (*truth_)(wi, wo).cast<float>(), estimate = before.estimate(wi, wo).cast<float>();
     return Eigen::Array3f(corrections_.rule().factor.quotient(truth, estimate)).cast<double>();
@@ -170,9 +170,9 @@ gonio::image story::draw_true_correction(const moment& before) const {
   return factor_slice(sigma, threads_);
 }
 
-story_picture story::draw() const {
+iteration_image iteration_figure::draw() const {
   const gallery spheres(truth_ ? *truth_ : moments_.back().estimate, threads_);
-  story_picture result;
+  iteration_image result;
   std::vector<std::vector<gonio::image>> columns;
 
   // What is given.

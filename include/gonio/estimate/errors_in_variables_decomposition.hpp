@@ -2,7 +2,7 @@
 /// Basis decomposition of samples that are not quite where they are said to be: light and viewer are each off by an
 /// angle, towards sides that nobody knows.
 
-#include <gonio/basis/misplacement.hpp>
+#include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/located_samples.hpp>
@@ -28,14 +28,14 @@ namespace gonio {
 ///
 /// Where both agree, the angle does not matter:
 /// ```cpp
-/// const auto paint = gonio::misplaced_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
+/// const auto paint = gonio::errors_in_variables_decomposition{prior, 40.0, gonio::radians(0.5)}.fit(samples);
 /// const auto trusting = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
 /// ```
 template <error_metric Metric>
-class misplaced_decomposition {
+class errors_in_variables_decomposition {
  public:
   /// Throws gonio::error unless eta is positive and the angle from 0 to 45 degrees.
-  misplaced_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
+  errors_in_variables_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
       : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
     if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
       throw error("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
@@ -46,8 +46,8 @@ class misplaced_decomposition {
   [[nodiscard]] fitted_brdf<pca<Metric>> fit(const Samples& samples) const {
     const located_samples measured = locate_samples(prior_.cells(), samples, threads_);
     const system equations = average(measured);
-    const solution first = solve(equations, measured.weights, equations.own_eta);
-    return {prior_, solve(equations, measured.weights, own_etas(measured, equations, first.weights))};
+    const solution first = solve(equations, measured.weights, equations.sample_noise_penalty);
+    return {prior_, solve(equations, measured.weights, sample_noise_penalties(measured, equations, first.weights))};
   }
 
  private:
@@ -55,10 +55,10 @@ class misplaced_decomposition {
 
   /// The equations over the circles.
   struct system {
-    row_matrix rows;          ///< the mean row of each sample, n x k
-    Eigen::VectorXd offsets;  ///< the mean material's mapped value, n
-    Eigen::MatrixXd right;    ///< mapped values less the offsets, n x 3
-    Eigen::VectorXd own_eta;  ///< m v over the prior's observations, n
+    row_matrix rows;                       ///< the mean row of each sample, n x k
+    Eigen::VectorXd offsets;               ///< the mean material's mapped value, n
+    Eigen::MatrixXd right;                 ///< mapped values less the offsets, n x 3
+    Eigen::VectorXd sample_noise_penalty;  ///< m v over the prior's observations, n
   };
 
   /// What a sample at one place of its circles would show.
@@ -71,8 +71,8 @@ class misplaced_decomposition {
     const direction_pair pair = to_directions(meant.angles);
     displaced all;
     for (std::size_t place = 0; place < all.rows.size(); ++place) {
-      const direction wi = detail::moved_above(pair.wi, angle_, side(place / sides)),
-                      wo = detail::moved_above(pair.wo, angle_, side(place % sides));
+      const direction wi = turned_above_horizon(pair.wi, angle_, side(place / sides)),
+                      wo = turned_above_horizon(pair.wo, angle_, side(place % sides));
       const location there = locate(prior_.cells(), to_half_difference(wi, wo));
       all.rows[place] = row_at(prior_, there);
       const double reflectance = prior_.metric().inverse(offset_at(prior_, there), there);
@@ -103,8 +103,8 @@ class misplaced_decomposition {
         means.offsets[i] += share * seen.offsets[place];
       }
       for (std::size_t place = 0; place < seen.rows.size(); ++place)
-        means.own_eta[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
-                                     m * square(seen.offsets[place] - means.offsets[i]));
+        means.sample_noise_penalty[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
+                                                  m * square(seen.offsets[place] - means.offsets[i]));
       for (Eigen::Index c = 0; c < 3; ++c)
         means.right(i, c) = prior_.metric().forward(measured.values(i, c), meant) - means.offsets[i];
     });
@@ -112,8 +112,8 @@ class misplaced_decomposition {
   }
 
   /// m v of a material whose weights are given, the mean over its channels.
-  [[nodiscard]] Eigen::VectorXd own_etas(const located_samples& measured, const system& means,
-                                         const Eigen::MatrixXd& weights) const {
+  [[nodiscard]] Eigen::VectorXd sample_noise_penalties(const located_samples& measured, const system& means,
+                                                       const Eigen::MatrixXd& weights) const {
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
       for (std::size_t place = 0; place < seen.rows.size(); ++place) {
@@ -128,16 +128,16 @@ class misplaced_decomposition {
 
   /// `sample_weights`: as `located_samples` has them.
   [[nodiscard]] solution solve(const system& equations, const Eigen::MatrixXd& sample_weights,
-                               const Eigen::VectorXd& own_eta) const {
+                               const Eigen::VectorXd& sample_noise_penalty) const {
     const double eta = solver_.eta();
-    const Eigen::ArrayXd share = eta / (eta + own_eta.array());
+    const Eigen::ArrayXd share = eta / (eta + sample_noise_penalty.array());
     const Eigen::Index systems = sample_weights.cols(), together = equations.right.cols() / systems;
     std::vector<solution> found;
     for (Eigen::Index column = 0; column < systems; ++column)
       found.push_back(solver_.solve(least_squares_problem(
           equations.rows, Eigen::MatrixXd(equations.right.middleCols(column * together, together)),
           Eigen::VectorXd(sample_weights.col(column).array() * share))));
-    return side_by_side(found);
+    return concatenate_columns(found);
   }
 
   [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
@@ -153,6 +153,6 @@ class misplaced_decomposition {
   thread_count threads_;
 };
 
-static_assert(estimator<misplaced_decomposition<log_relative>>);
+static_assert(estimator<errors_in_variables_decomposition<log_relative>>);
 
 }  // namespace gonio

@@ -1,6 +1,6 @@
 #pragma once
 /// How different two BRDF tables look on a sphere, as Noell, Koehler and Stricker 2014, Sec. 3.1, judge them: the mean
-/// CIELAB 1976 difference over the sphere's pixels in a natural environment, and the picture of differences of
+/// CIELAB 1976 difference over the sphere's pixels in a natural environment, and the image of differences of
 /// their Fig. 3. A difference of 1 is about what an observer just notices.
 
 #include <gonio/render/false_colour.hpp>
@@ -19,7 +19,7 @@ struct sphere_appearance {
   double exposure = 1.0;
 };
 
-/// Renders tables over given cells under one lighting and compares the pictures as an observer of a display would.
+/// Renders tables over given cells under one lighting and compares the images as an observer of a display would.
 ///
 /// Exposure: the truth's sphere is brought to a given mean luminance, before clipping and over the sphere's pixels, and
 /// estimates are seen at the truth's exposure, so that one that is too bright looks too bright. The light's brightness
@@ -30,14 +30,14 @@ struct sphere_appearance {
 ///
 /// ```cpp
 /// const gonio::render::environment_map grace(gonio::io::read_hdr("grace_probe_latlong.hdr"));
-/// const gonio::sphere_judge judge(truth.cells(), gonio::render::important_lights(grace, 4096, 1));
+/// const gonio::sphere_delta_e judge(truth.cells(), gonio::render::important_lights(grace, 4096, 1));
 /// const gonio::sphere_appearance seen = judge.expose(truth);  // once for each truth
 /// for (const gonio::brdf_table& estimate : estimates) std::cout << judge.difference(estimate, seen) << '\n';
 /// ```
 ///
 /// Directional lights suit rough materials. For mirror-like ones, or all kinds, light the sphere by
 /// `environment_lighting(90, 72, grace)`: more entries, but no highlight is lost between two lights.
-class sphere_judge {
+class sphere_delta_e {
  public:
   /// The mean luminance to which a truth is exposed by default: white is 1.
   static constexpr double middle_grey = 0.18;
@@ -45,8 +45,8 @@ class sphere_judge {
   /// Prepares the sphere; takes the time and memory of a `sphere_operator`. Throws gonio::error unless `mean_luminance`
   /// is positive and finite.
   template <render::sphere_lighting Lighting>
-  sphere_judge(const valid_cells& cells, const Lighting& lighting, int size = 36, double mean_luminance = middle_grey,
-               thread_count threads = {})
+  sphere_delta_e(const valid_cells& cells, const Lighting& lighting, int size = 36, double mean_luminance = middle_grey,
+                 thread_count threads = {})
       : mean_luminance_(checked(mean_luminance)), sphere_(cells, lighting, size, threads) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return sphere_.cells(); }
@@ -79,7 +79,7 @@ class sphere_judge {
     return difference(estimate, expose(truth, threads), threads);
   }
 
-  /// The picture of differences of the paper's Fig. 3: each point in the false colour of its Delta E*ab.
+  /// The image of differences of the paper's Fig. 3: each point in the false colour of its Delta E*ab.
   [[nodiscard]] image difference_image(const sphere_appearance& a, const sphere_appearance& b,
                                        const render::false_colour_range& range = {},
                                        const rgb& background = rgb::Zero()) const;
@@ -98,5 +98,5 @@ class sphere_judge {
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/evaluate/impl/sphere_judge.ipp>
+#include <gonio/evaluate/impl/sphere_delta_e.ipp>
 #endif

@@ -1,7 +1,7 @@
 #pragma once
 /// Bent tubes with an oval flare and a dimple, somewhat like ear canals, for tests of what recognises a shape.
 
-#include "made_up_surfaces.hpp"
+#include "synthetic_surfaces.hpp"
 #include <gonio/core/direction.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
@@ -14,11 +14,11 @@
 /// What makes one canal differ from another: about -2 to 2 each; zeros are the mean.
 using canal_traits = std::array<double, 6>;
 
-inline canal_traits made_up_traits(std::uint64_t seed) {
+inline canal_traits synthetic_traits(std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   canal_traits traits{};
   for (double& trait : traits) {
-    for (int i = 0; i < 4; ++i) trait += made_up_number(generator) - 0.5;
+    for (int i = 0; i < 4; ++i) trait += synthetic_number(generator) - 0.5;
     trait *= std::sqrt(3.0);
   }
   return traits;

@@ -1,10 +1,10 @@
 #pragma once
-/// Bodies of basis/misplacement.hpp.
+/// Bodies of estimate/angular_error.hpp.
 
-#include <gonio/basis/misplacement.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/estimate/angular_error.hpp>
 
 #include <array>
 #include <cstddef>
@@ -17,8 +17,8 @@ GONIO_INLINE std::array<direction_pair, 8> misplaced_pairs(const direction_pair&
   std::array<direction_pair, 8> pairs;
   for (std::size_t quarter = 0; quarter < 4; ++quarter) {
     const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;
-    pairs[2 * quarter] = {moved_above(meant.wi, angle, side), meant.wo};
-    pairs[2 * quarter + 1] = {meant.wi, moved_above(meant.wo, angle, side)};
+    pairs[2 * quarter] = {turned_above_horizon(meant.wi, angle, side), meant.wo};
+    pairs[2 * quarter + 1] = {meant.wi, turned_above_horizon(meant.wo, angle, side)};
   }
   return pairs;
 }

@@ -1,5 +1,5 @@
 #include <gonio/core/error.hpp>
-#include <gonio/shape/mesh_picture.hpp>
+#include <gonio/shape/mesh_image.hpp>
 
 #include <doctest/doctest.h>
 
@@ -33,14 +33,14 @@ TEST_CASE("what is near hides what is behind, from either side") {
   gonio::shape::mesh_view view;
   view.radius = 4.0;
   view.pixels = 80;  // ten to a unit
-  const gonio::image from_above = gonio::shape::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image from_above = gonio::shape::image_of(scene.mesh, scene.colours, view);
   CHECK(shows(from_above, 40, 40, {1, 0, 0}));
   CHECK(shows(from_above, 31, 48, {1, 0, 0}));
   CHECK(shows(from_above, 28, 40, {0, 0, 1}));
   CHECK(shows(from_above, 21, 58, {0, 0, 1}));
   CHECK(shows(from_above, 18, 40, {1, 1, 1}));
   view.towards = gonio::rgb(0, 0, 1).matrix();
-  const gonio::image from_below = gonio::shape::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image from_below = gonio::shape::image_of(scene.mesh, scene.colours, view);
   CHECK(shows(from_below, 40, 40, gonio::rgb(0, 0, 0.3)));  // the inside
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("no pixel is left out between two triangles") {
   gonio::shape::mesh_view view;
   view.radius = 2.7;
   view.pixels = 173;
-  const gonio::image picture = gonio::shape::picture_of(scene.mesh, scene.colours, view);
+  const gonio::image picture = gonio::shape::image_of(scene.mesh, scene.colours, view);
   std::size_t red = 0, blue = 0;
   for (std::size_t row = 0; row < 173; ++row)
     for (std::size_t column = 0; column < 173; ++column) {
@@ -68,11 +68,11 @@ TEST_CASE("a view of a mesh holds it all") {
   CHECK((scene.mesh.vertices.colwise() - view.centre).colwise().norm().maxCoeff() < view.radius);
 }
 
-TEST_CASE("pictures that cannot be are refused") {
+TEST_CASE("images that cannot be are refused") {
   const two_squares scene;
-  CHECK_THROWS_WITH_AS(gonio::shape::picture_of(scene.mesh, std::span(scene.colours).first(3), {}),
-                       "a picture of 8 vertices is given 3 colours", gonio::error);
+  CHECK_THROWS_WITH_AS(gonio::shape::image_of(scene.mesh, std::span(scene.colours).first(3), {}),
+                       "an image of 8 vertices is given 3 colours", gonio::error);
   gonio::shape::mesh_view view;
   view.towards = view.up;
-  CHECK_THROWS_AS(gonio::shape::picture_of(scene.mesh, scene.colours, view), gonio::error);
+  CHECK_THROWS_AS(gonio::shape::image_of(scene.mesh, scene.colours, view), gonio::error);
 }

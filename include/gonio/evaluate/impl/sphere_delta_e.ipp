@@ -1,8 +1,8 @@
 #pragma once
-/// Bodies of evaluate/sphere_judge.hpp.
+/// Bodies of evaluate/sphere_delta_e.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/sphere.hpp>
 
@@ -12,7 +12,7 @@
 
 namespace gonio {
 
-GONIO_INLINE sphere_appearance sphere_judge::expose(const brdf_table& truth, thread_count threads) const {
+GONIO_INLINE sphere_appearance sphere_delta_e::expose(const brdf_table& truth, thread_count threads) const {
   const render::sphere_colours colours = visible_colours(truth, threads);
   double sum = 0.0;
   for (Eigen::Index point = 0; point < colours.rows(); ++point) sum += luminance(colours.row(point).transpose());
@@ -20,25 +20,25 @@ GONIO_INLINE sphere_appearance sphere_judge::expose(const brdf_table& truth, thr
   return seen_at(mean > 0.0 ? mean_luminance_ / mean : 1.0, colours);
 }
 
-GONIO_INLINE sphere_appearance sphere_judge::look(const brdf_table& table, double exposure,
-                                                  thread_count threads) const {
+GONIO_INLINE sphere_appearance sphere_delta_e::look(const brdf_table& table, double exposure,
+                                                    thread_count threads) const {
   GONIO_ASSERT(exposure > 0.0);
   return seen_at(exposure, visible_colours(table, threads));
 }
 
-GONIO_INLINE Eigen::ArrayXd sphere_judge::differences(const sphere_appearance& a, const sphere_appearance& b) {
+GONIO_INLINE Eigen::ArrayXd sphere_delta_e::differences(const sphere_appearance& a, const sphere_appearance& b) {
   GONIO_ASSERT(a.lab.rows() == b.lab.rows());
   return (a.lab - b.lab).matrix().rowwise().norm();
 }
 
-GONIO_INLINE double sphere_judge::difference(const sphere_appearance& a, const sphere_appearance& b) {
+GONIO_INLINE double sphere_delta_e::difference(const sphere_appearance& a, const sphere_appearance& b) {
   GONIO_ASSERT(a.lab.rows() == b.lab.rows());
   return (a.lab - b.lab).matrix().rowwise().norm().mean();
 }
 
-GONIO_INLINE image sphere_judge::difference_image(const sphere_appearance& a, const sphere_appearance& b,
-                                                  const render::false_colour_range& range,
-                                                  const rgb& background) const {
+GONIO_INLINE image sphere_delta_e::difference_image(const sphere_appearance& a, const sphere_appearance& b,
+                                                    const render::false_colour_range& range,
+                                                    const rgb& background) const {
   const Eigen::ArrayXd values = differences(a, b);
   render::sphere_colours colours(values.size(), 3);
   for (Eigen::Index point = 0; point < values.size(); ++point)
@@ -46,14 +46,15 @@ GONIO_INLINE image sphere_judge::difference_image(const sphere_appearance& a, co
   return sphere_.to_image(colours, background);
 }
 
-GONIO_INLINE double sphere_judge::checked(double mean_luminance) {
+GONIO_INLINE double sphere_delta_e::checked(double mean_luminance) {
   if (!(mean_luminance > 0.0 && std::isfinite(mean_luminance)))
     throw error("a sphere cannot be exposed to a mean luminance of " + std::to_string(mean_luminance) +
                 ", expected a positive number");
   return mean_luminance;
 }
 
-GONIO_INLINE render::sphere_colours sphere_judge::visible_colours(const brdf_table& table, thread_count threads) const {
+GONIO_INLINE render::sphere_colours sphere_delta_e::visible_colours(const brdf_table& table,
+                                                                    thread_count threads) const {
   const auto negative = [](float value) { return value < 0.0f; };
   if (std::ranges::none_of(table.values(), negative)) return sphere_.apply(table, threads);
   brdf_table clamped = table;
@@ -61,7 +62,7 @@ GONIO_INLINE render::sphere_colours sphere_judge::visible_colours(const brdf_tab
   return sphere_.apply(clamped, threads);
 }
 
-GONIO_INLINE sphere_appearance sphere_judge::seen_at(double exposure, const render::sphere_colours& colours) {
+GONIO_INLINE sphere_appearance sphere_delta_e::seen_at(double exposure, const render::sphere_colours& colours) {
   sphere_appearance seen{render::sphere_colours(colours.rows(), 3), exposure};
   for (Eigen::Index point = 0; point < colours.rows(); ++point)
     seen.lab.row(point) = to_lab(exposure * colours.row(point).transpose()).transpose();

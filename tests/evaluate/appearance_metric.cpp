@@ -1,11 +1,11 @@
-#include <gonio/evaluate/appearance.hpp>
+#include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
 
 #include <map>
 
-using gonio::appearance_judge;
+using gonio::appearance_metric;
 using gonio::brdf_table;
 using gonio::rgb;
 using gonio::tabulate;
@@ -22,8 +22,8 @@ const valid_cells& sphere_cells() {
   return cells;
 }
 
-const appearance_judge& small_judge() {
-  static const appearance_judge judge(sphere_cells(), 12);
+const appearance_metric& small_judge() {
+  static const appearance_metric judge(sphere_cells(), 12);
   return judge;
 }
 
@@ -36,7 +36,7 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
   // these tables, written as raw float32 by this library. Every pixel of every table agreed to 6e-8 relative, so the
   // printed digits must agree.
   const valid_cells cells;
-  const appearance_judge judge(cells);
+  const appearance_metric judge(cells);
   CHECK(judge.lights().points().size() == 1020);
 
   std::map<std::string, gonio::appearance> seen;
@@ -65,7 +65,7 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
        }) {
     CAPTURE(a);
     CAPTURE(b);
-    const auto difference = appearance_judge::difference(seen[a], seen[b]);
+    const auto difference = appearance_metric::difference(seen[a], seen[b]);
     CHECK(std::abs(difference.lights - lights) < 1e-5);
     CHECK(std::abs(difference.environment - environment) < 1e-5);
   }
@@ -82,7 +82,7 @@ TEST_CASE("a table does not differ from itself, and differences are symmetric") 
   CHECK(there.environment > 10.0);
 }
 
-TEST_CASE("the difference is the mean over the pixels of the pictures' differences") {
+TEST_CASE("the difference is the mean over the pixels of the images' differences") {
   const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("gold-metal"), sphere_cells());
   const auto& op = small_judge().environment();
   const gonio::render::sphere_colours p = op.apply(a), q = op.apply(b);
@@ -113,7 +113,7 @@ TEST_CASE("negative reflectance counts as zero, cell by cell") {
 
 TEST_CASE("the number of threads does not change a byte of a difference, and other cells are refused") {
   const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("blue-rubber"), sphere_cells());
-  const appearance_judge one(sphere_cells(), 12, {1});
+  const appearance_metric one(sphere_cells(), 12, {1});
   CHECK(one.difference(a, b, {1}).environment == small_judge().difference(a, b, {4}).environment);
   const brdf_table other(valid_cells(gonio::grid({20, 15, 31})));
   CHECK_THROWS_AS((void)small_judge().difference(a, other), gonio::error);

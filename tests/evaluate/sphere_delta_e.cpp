@@ -1,4 +1,4 @@
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/render/environment_map.hpp>
 
@@ -8,7 +8,7 @@
 
 using gonio::brdf_table;
 using gonio::rgb;
-using gonio::sphere_judge;
+using gonio::sphere_delta_e;
 using gonio::render::environment_map;
 
 namespace {
@@ -21,8 +21,8 @@ const gonio::valid_cells& judged_cells() {
 environment_map room() { return environment_map::of(gonio::render::formula_environment{}, 32); }
 
 /// Under the closed-form environment, tabulated.
-const sphere_judge& room_judge() {
-  static const sphere_judge judge(judged_cells(), gonio::render::important_lights(room(), 200, 1), 12);
+const sphere_delta_e& room_judge() {
+  static const sphere_delta_e judge(judged_cells(), gonio::render::important_lights(room(), 200, 1), 12);
   return judge;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at th
     CHECK((seen.lab.row(point).transpose() - expected).abs().maxCoeff() < 1e-10);
   }
 
-  const sphere_judge brighter(judged_cells(), headlight(), 12, 0.5);
+  const sphere_delta_e brighter(judged_cells(), headlight(), 12, 0.5);
   CHECK(mean_luminance(brighter.expose(truth).exposure * brighter.sphere().apply(truth)) ==
         doctest::Approx(0.5).epsilon(1e-12));
   const auto again = room_judge().look(truth, seen.exposure);
@@ -69,7 +69,7 @@ TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at th
 
 TEST_CASE("flat spheres differ as their colours do") {
   // Every point has the colour of the material: grey at luminance 0.18, and an estimate of twice that.
-  const sphere_judge flat(judged_cells(), flat_light{}, 12);
+  const sphere_delta_e flat(judged_cells(), flat_light{}, 12);
   const double l = 116.0 * std::cbrt(0.18) - 16.0, twice = 116.0 * std::cbrt(0.36) - 16.0;
   const rgb grey = rgb::Constant(0.3);
   CHECK(flat.difference(matte(2.0 * grey), matte(grey)) == doctest::Approx(twice - l).epsilon(1e-4));
@@ -92,15 +92,15 @@ TEST_CASE("a kept truth gives the same difference, the mean of those at the poin
   const double difference = room_judge().difference(estimate, truth);
   CHECK(room_judge().difference(estimate, seen) == difference);
   const auto estimate_seen = room_judge().look(estimate, seen.exposure);
-  CHECK(sphere_judge::difference(estimate_seen, seen) == difference);
-  CHECK(sphere_judge::differences(estimate_seen, seen).mean() == doctest::Approx(difference).epsilon(1e-13));
+  CHECK(sphere_delta_e::difference(estimate_seen, seen) == difference);
+  CHECK(sphere_delta_e::differences(estimate_seen, seen).mean() == doctest::Approx(difference).epsilon(1e-13));
   CHECK(difference > 20.0);
 }
 
 TEST_CASE("the brightness of the light and of both materials does not matter") {
   gonio::image picture = room().picture();
   for (float& value : picture) value *= 7.3f;
-  const sphere_judge brighter(judged_cells(), gonio::render::important_lights(environment_map(picture), 200, 1), 12);
+  const sphere_delta_e brighter(judged_cells(), gonio::render::important_lights(environment_map(picture), 200, 1), 12);
   const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
   const double difference = room_judge().difference(estimate, truth);
   CHECK(brighter.difference(estimate, truth) == doctest::Approx(difference).epsilon(1e-5));
@@ -112,8 +112,8 @@ TEST_CASE("the brightness of the light and of both materials does not matter") {
 }
 
 TEST_CASE("a few important lights judge as all of them do") {
-  const sphere_judge all(judged_cells(), gonio::render::all_lights(room()), 12);
-  const sphere_judge few(judged_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
+  const sphere_delta_e all(judged_cells(), gonio::render::all_lights(room()), 12);
+  const sphere_delta_e few(judged_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
   for (const char* name : {"blue-rubber", "gold-metal"}) {
     const brdf_table estimate = formula(name), truth = formula("red-paint");
     CHECK(few.difference(estimate, truth) == doctest::Approx(all.difference(estimate, truth)).epsilon(0.01));
@@ -138,7 +138,7 @@ TEST_CASE("negative reflectance counts as zero for a sphere judge, cell by cell"
   CHECK(room_judge().expose(negative).exposure == room_judge().expose(clamped).exposure);
 }
 
-TEST_CASE("the picture of differences has the false colour of each point's difference") {
+TEST_CASE("the image of differences has the false colour of each point's difference") {
   const auto truth = room_judge().expose(formula("red-paint"));
   const auto estimate = room_judge().look(formula("gold-metal"), truth.exposure);
   const rgb background(0.25, 0.5, 0.75);
@@ -162,7 +162,7 @@ TEST_CASE("the picture of differences has the false colour of each point's diffe
 TEST_CASE("the number of threads does not change a byte of what a sphere judge says") {
   const brdf_table a = formula("gold-metal"), b = formula("blue-rubber");
   const auto lights = gonio::render::important_lights(room(), 200, 1);
-  const sphere_judge one(judged_cells(), lights, 12, sphere_judge::middle_grey, {1});
+  const sphere_delta_e one(judged_cells(), lights, 12, sphere_delta_e::middle_grey, {1});
   CHECK(one.difference(a, b, {1}) == room_judge().difference(a, b, {4}));
 }
 
@@ -171,6 +171,6 @@ TEST_CASE("other cells and an impossible exposure are refused") {
   CHECK_THROWS_AS((void)room_judge().expose(other), gonio::error);
   CHECK_THROWS_AS((void)room_judge().difference(other, matte(rgb::Ones())), gonio::error);
   for (const double impossible : {0.0, -1.0, std::nan(""), HUGE_VAL})
-    CHECK_THROWS_WITH_AS((void)sphere_judge(judged_cells(), headlight(), 12, impossible),
+    CHECK_THROWS_WITH_AS((void)sphere_delta_e(judged_cells(), headlight(), 12, impossible),
                          doctest::Contains("mean luminance"), gonio::error);
 }

@@ -3,7 +3,7 @@
 /// directional lights and under an environment (render/lighting.hpp). A difference of 1 is about what an observer
 /// just notices.
 
-#include <gonio/evaluate/sphere_judge.hpp>
+#include <gonio/evaluate/sphere_delta_e.hpp>
 
 namespace gonio {
 
@@ -19,14 +19,14 @@ struct appearance_difference {
   double environment = 0.0;
 };
 
-/// Renders tables over given cells and compares the pictures as an observer of a display would: two sphere_judges, but
+/// Renders tables over given cells and compares the images as an observer of a display would: two sphere_delta_e, but
 /// for the exposure, at which a white Lambertian sphere has mean luminance 1 whatever the table.
-class appearance_judge {
+class appearance_metric {
  public:
   /// Prepares the spheres; takes the time and memory of two `sphere_operator`s.
-  explicit appearance_judge(const valid_cells& cells, int size = 36, thread_count threads = {})
-      : lights_(cells, render::two_lights(), size, sphere_judge::middle_grey, threads),
-        environment_(cells, render::environment_lighting(), size, sphere_judge::middle_grey, threads) {}
+  explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {})
+      : lights_(cells, render::two_lights(), size, sphere_delta_e::middle_grey, threads),
+        environment_(cells, render::environment_lighting(), size, sphere_delta_e::middle_grey, threads) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 
@@ -39,7 +39,7 @@ class appearance_judge {
 
   /// Mean difference of two appearances of the same judge: keep a truth's to compare many estimates with it.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
-    return {sphere_judge::difference(a.lights, b.lights), sphere_judge::difference(a.environment, b.environment)};
+    return {sphere_delta_e::difference(a.lights, b.lights), sphere_delta_e::difference(a.environment, b.environment)};
   }
 
   [[nodiscard]] appearance_difference difference(const brdf_table& a, const brdf_table& b,
@@ -48,12 +48,12 @@ class appearance_judge {
   }
 
  private:
-  sphere_judge lights_;
-  sphere_judge environment_;
+  sphere_delta_e lights_;
+  sphere_delta_e environment_;
 };
 
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/evaluate/impl/appearance.ipp>
+#include <gonio/evaluate/impl/appearance_metric.ipp>
 #endif

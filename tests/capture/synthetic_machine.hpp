@@ -9,7 +9,7 @@
 
 /// Reaches what is less than 60 degrees from the normal, counts to 100, and does before each measurement what a test
 /// says: throw, or return another reading.
-struct made_up_machine {
+struct synthetic_machine {
   std::function<void(gonio::capture::reading&)> fault = [](gonio::capture::reading&) {};
   std::vector<gonio::direction_pair> measured{};
 
@@ -30,18 +30,18 @@ struct made_up_machine {
     return taken;
   }
 };
-static_assert(gonio::capture::goniometer<made_up_machine>);
+static_assert(gonio::capture::goniometer<synthetic_machine>);
 
-struct made_up_record {
+struct synthetic_record {
   std::map<std::size_t, gonio::capture::reading> kept{};
 
   [[nodiscard]] bool has(std::size_t pose) const { return kept.contains(pose); }
   void add(std::size_t pose, const gonio::capture::reading& taken) { kept.emplace(pose, taken); }
 };
-static_assert(gonio::capture::scan_record<made_up_record>);
+static_assert(gonio::capture::scan_record<synthetic_record>);
 
 /// Poses that the machine reaches, at azimuths all around.
-inline std::vector<gonio::direction_pair> made_up_poses(std::size_t count) {
+inline std::vector<gonio::direction_pair> synthetic_poses(std::size_t count) {
   std::vector<gonio::direction_pair> poses;
   for (std::size_t i = 0; i < count; ++i)
     poses.push_back(

@@ -14,12 +14,12 @@
 #include <vector>
 
 /// Uniform in [0, 1), the same with all standard libraries.
-inline double made_up_number(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+inline double synthetic_number(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
 /// Uniform in a cube about zero.
-inline Eigen::Vector3d made_up_point(std::mt19937_64& generator, double half_size) {
+inline Eigen::Vector3d synthetic_point(std::mt19937_64& generator, double half_size) {
   Eigen::Vector3d point;
-  for (double& coordinate : point) coordinate = half_size * (2.0 * made_up_number(generator) - 1.0);
+  for (double& coordinate : point) coordinate = half_size * (2.0 * synthetic_number(generator) - 1.0);
   return point;
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 /// Writes n.npy and merl_names.txt with a network of each name to a folder. None is black.
-inline void write_made_up_networks(const scratch::folder& folder, const std::vector<std::string>& names) {
+inline void write_synthetic_networks(const scratch::folder& folder, const std::vector<std::string>& names) {
   xt::xtensor<float, 2> weights(std::array<std::size_t, 2>{names.size(), 675});
   std::mt19937 generator(7);
   std::normal_distribution<float> normal(0.0f, 0.3f);

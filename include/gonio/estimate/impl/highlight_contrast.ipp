@@ -1,8 +1,8 @@
 #pragma once
-/// Bodies of basis/highlight_contrast.hpp.
+/// Bodies of estimate/highlight_contrast.hpp.
 
-#include <gonio/basis/highlight_contrast.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/metric/log_relative.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>

@@ -1,16 +1,16 @@
 #pragma once
-/// Bodies of table/picture_samples.hpp.
+/// Bodies of table/image_samples.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
-#include <gonio/table/picture_samples.hpp>
+#include <gonio/table/image_samples.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <vector>
 
 namespace gonio {
 
-GONIO_INLINE sample_set as_sample_set(const picture_samples& picture) {
+GONIO_INLINE sample_set as_sample_set(const image_samples& picture) {
   sample_set samples;
   samples.reserve(picture.size());
   for (const pair_sample& s : picture)

@@ -16,14 +16,14 @@ struct pair_sample {
   double weight = 1.0;      ///< how much it counts
 };
 
-/// Those of one picture: with one light and one camera, so that what is wrong with where these are is the same for all.
-using picture_samples = std::vector<pair_sample>;
+/// Those of one image: with one light and one camera, so that what is wrong with where these are is the same for all.
+using image_samples = std::vector<pair_sample>;
 
 /// As samples for any estimator.
-[[nodiscard]] sample_set as_sample_set(const picture_samples& picture);
+[[nodiscard]] sample_set as_sample_set(const image_samples& picture);
 
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/table/impl/picture_samples.ipp>
+#include <gonio/table/impl/image_samples.ipp>
 #endif

@@ -32,14 +32,14 @@ namespace gonio {
 ///
 /// Where k is less than all components, what the materials have beyond them is noise of the measurements, taken for the
 /// same share of the variance everywhere. What noise adds is taken from the basis of all materials.
-class left_out_error {
+class leave_one_material_out_error {
  public:
   /// n places with a weight each, as a least-squares problem has them, and the relative deviation of what is measured
   /// there. O(n k^2 + k^3 + materials k^2). Throws gonio::error for noise that is negative or not finite, as many
   /// weights as there are not places, and a basis of fewer than two materials.
   template <error_metric Metric>
-  left_out_error(const pca<Metric>& basis, std::span<const location> places, const Eigen::VectorXd& weights,
-                 double noise, thread_count threads = {})
+  leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> places,
+                               const Eigen::VectorXd& weights, double noise, thread_count threads = {})
       : threads_(threads) {
     require_sensible(places.size(), weights, basis.names().size());
     const mapped_noise mapped = map_noise(basis, places, noise, threads);
@@ -123,5 +123,5 @@ class left_out_error {
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/estimate/impl/left_out_error.ipp>
+#include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #endif

@@ -1,10 +1,10 @@
 #pragma once
-/// Bodies of estimate/left_out_error.hpp.
+/// Bodies of estimate/leave_one_material_out_error.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/estimate/left_out_error.hpp>
+#include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/solve/dense.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
 
@@ -84,7 +84,7 @@ GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::Matrix3d& 
 
 }  // namespace detail
 
-GONIO_INLINE Eigen::VectorXd left_out_error::operator()(const Eigen::VectorXd& etas) const {
+GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::operator()(const Eigen::VectorXd& etas) const {
   Eigen::VectorXd errors(etas.size());
   for_each_block(
       static_cast<std::size_t>(etas.size()), 1,
@@ -96,18 +96,19 @@ GONIO_INLINE Eigen::VectorXd left_out_error::operator()(const Eigen::VectorXd& e
   return errors;
 }
 
-GONIO_INLINE left_out_error::sums::sums(Eigen::Index k)
+GONIO_INLINE leave_one_material_out_error::sums::sums(Eigen::Index k)
     : gram(Eigen::MatrixXd::Zero(k, k)), noise(Eigen::MatrixXd::Zero(k, k)), shift(Eigen::VectorXd::Zero(k)) {}
 
-GONIO_INLINE left_out_error::sums& left_out_error::sums::operator+=(const sums& other) {
+GONIO_INLINE leave_one_material_out_error::sums& leave_one_material_out_error::sums::operator+=(const sums& other) {
   gram += other.gram;
   noise += other.noise;
   shift += other.shift;
   return *this;
 }
 
-GONIO_INLINE void left_out_error::sums::add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights,
-                                            const Eigen::VectorXd& shifts, const Eigen::VectorXd& variances) {
+GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights,
+                                                          const Eigen::VectorXd& shifts,
+                                                          const Eigen::VectorXd& variances) {
   for (Eigen::Index i = 0; i < columns.cols(); ++i) {
     shift += weights[i] * shifts[i] * columns.col(i);
     columns.col(i) *= std::sqrt(weights[i]);
@@ -119,8 +120,8 @@ GONIO_INLINE void left_out_error::sums::add(Eigen::MatrixXd columns, const Eigen
   noise += product_with_transpose(columns);
 }
 
-GONIO_INLINE void left_out_error::require_sensible(std::size_t places, const Eigen::VectorXd& weights,
-                                                   std::size_t materials) {
+GONIO_INLINE void leave_one_material_out_error::require_sensible(std::size_t places, const Eigen::VectorXd& weights,
+                                                                 std::size_t materials) {
   if (static_cast<std::size_t>(weights.size()) != places || places == 0)
     throw error(std::to_string(places) + " places need as many weights, not " + std::to_string(weights.size()) +
                 ", and at least one");
@@ -128,8 +129,8 @@ GONIO_INLINE void left_out_error::require_sensible(std::size_t places, const Eig
     throw error("one material alone cannot be left out of what was learned from it: eta must be stated");
 }
 
-GONIO_INLINE void left_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
-                                             const Eigen::MatrixXf& coefficients) {
+GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
+                                                           const Eigen::MatrixXf& coefficients) {
   const Eigen::VectorXd energies = singular_values.cwiseProduct(singular_values);
   decompose(energies, all);
   for (Eigen::Index row = 0; row < coefficients.rows(); row += 3)
@@ -137,7 +138,7 @@ GONIO_INLINE void left_out_error::initialise(const sums& all, const Eigen::Vecto
                                    static_cast<double>(coefficients.rows())));
 }
 
-GONIO_INLINE void left_out_error::decompose(const Eigen::VectorXd& energies, const sums& all) {
+GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd& energies, const sums& all) {
   const symmetric_eigen eigen = decompose_symmetric(all.gram, "a least-squares problem");
   const double largest = eigen.values[eigen.values.size() - 1];
   const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
@@ -152,8 +153,8 @@ GONIO_INLINE void left_out_error::decompose(const Eigen::VectorXd& energies, con
   for (Eigen::Index j = 0; j < rank; ++j) shift_[j] = vectors_.col(j).dot(all.shift);
 }
 
-GONIO_INLINE left_out_error::left_out left_out_error::leave_out(const Eigen::VectorXd& energies,
-                                                                const Eigen::MatrixXd& own, double observations) const {
+GONIO_INLINE leave_one_material_out_error::left_out leave_one_material_out_error::leave_out(
+    const Eigen::VectorXd& energies, const Eigen::MatrixXd& own, double observations) const {
   const double others = observations - 3.0;
   // R = I + b 1 1', the symmetric root of I + 1 1' / (m - 3).
   const double b = (std::sqrt(1.0 + 3.0 / others) - 1.0) / 3.0;
@@ -174,7 +175,7 @@ GONIO_INLINE left_out_error::left_out left_out_error::leave_out(const Eigen::Vec
           detail::dots(n, mn), detail::dots(n, mt),   detail::dots(t, mt).diagonal()};
 }
 
-GONIO_INLINE double left_out_error::error_at(double eta) const {
+GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
   Eigen::VectorXd d(values_.size());
   for (Eigen::Index j = 0; j < d.size(); ++j) d[j] = 1.0 / (values_[j] + eta);
   double variance = 0.0;
@@ -187,7 +188,8 @@ GONIO_INLINE double left_out_error::error_at(double eta) const {
   return sum / static_cast<double>(3 * materials_.size());
 }
 
-GONIO_INLINE Eigen::Vector3d left_out_error::squared_bias(const left_out& material, const Eigen::VectorXd& d) const {
+GONIO_INLINE Eigen::Vector3d leave_one_material_out_error::squared_bias(const left_out& material,
+                                                                        const Eigen::VectorXd& d) const {
   const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);
   const Eigen::MatrixXd fn = detail::scaled_rows(f, material.n);
   Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q first

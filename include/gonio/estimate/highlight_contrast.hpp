@@ -122,5 +122,5 @@ struct soft_and_specular {
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/basis/impl/highlight_contrast.ipp>
+#include <gonio/estimate/impl/highlight_contrast.ipp>
 #endif

@@ -1,12 +1,12 @@
-#include "../made_up_materials.hpp"
-#include <gonio/basis/misplacement.hpp>
+#include "../synthetic_materials.hpp"
+#include <gonio/estimate/angular_error.hpp>
 
 #include <doctest/doctest.h>
 
 namespace {
 
 const gonio::log_relative_pca& moved_prior() {
-  static const auto basis = learn(made_up_materials(small_cells(), 12), 100);
+  static const auto basis = learn(synthetic_materials(small_cells(), 12), 100);
   return basis;
 }
 
@@ -47,7 +47,7 @@ TEST_CASE("it is what the materials' values change by") {
     for (const double angle : {gonio::radians(0.1), gonio::radians(0.5)}) {
       CAPTURE(theta_h);
       CAPTURE(angle);
-      CHECK(gonio::misplacement_eta(moved_prior(), pair, angle) ==
+      CHECK(gonio::angular_error_penalty(moved_prior(), pair, angle) ==
             doctest::Approx(measured_eta(pair, angle)).epsilon(0.1));
     }
   }
@@ -55,15 +55,16 @@ TEST_CASE("it is what the materials' values change by") {
 
 TEST_CASE("nothing is wrong with what is in its place; errors of light and viewer add") {
   const auto pair = gonio::to_directions({0.1, 0.6, 1.0});
-  CHECK(gonio::misplacement_eta(moved_prior(), pair, 0.0) == doctest::Approx(0.0).epsilon(1e-9));
-  CHECK(gonio::misplacement_eta(moved_prior(), pair, 0.01) > 2.0 * gonio::misplacement_eta(moved_prior(), pair, 0.005));
+  CHECK(gonio::angular_error_penalty(moved_prior(), pair, 0.0) == doctest::Approx(0.0).epsilon(1e-9));
+  CHECK(gonio::angular_error_penalty(moved_prior(), pair, 0.01) >
+        2.0 * gonio::angular_error_penalty(moved_prior(), pair, 0.005));
 }
 
 TEST_CASE("each cell has its own, the same for any number of threads") {
-  const auto one = gonio::misplacement_etas(moved_prior(), gonio::radians(0.5), {1});
+  const auto one = gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {1});
   REQUIRE(one.size() == small_cells().size());
-  CHECK(one == gonio::misplacement_etas(moved_prior(), gonio::radians(0.5), {3}));
+  CHECK(one == gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {3}));
   for (const std::size_t cell : {std::size_t{0}, std::size_t{77}, one.size() - 1})
-    CHECK(one[cell] == gonio::misplacement_eta(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
-                                               gonio::radians(0.5)));
+    CHECK(one[cell] == gonio::angular_error_penalty(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
+                                                    gonio::radians(0.5)));
 }

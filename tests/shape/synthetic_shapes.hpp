@@ -11,8 +11,8 @@
 
 /// `count` shapes of `vertices` vertices about a mean of size 10, whose changes have `directions` directions of falling
 /// size and a hundredth of it besides.
-inline std::vector<gonio::shape::point_columns> made_up_shapes(Eigen::Index vertices, std::size_t count,
-                                                               Eigen::Index directions, std::uint64_t seed) {
+inline std::vector<gonio::shape::point_columns> synthetic_shapes(Eigen::Index vertices, std::size_t count,
+                                                                 Eigen::Index directions, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
@@ -32,14 +32,14 @@ inline std::vector<gonio::shape::point_columns> made_up_shapes(Eigen::Index vert
   return shapes;
 }
 
-inline std::vector<std::string> made_up_names(std::size_t count) {
+inline std::vector<std::string> synthetic_names(std::size_t count) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < count; ++i) names.push_back("shape-" + std::to_string(i));
   return names;
 }
 
 /// Of such shapes, all components.
-inline gonio::shape::shape_basis made_up_basis(const std::vector<gonio::shape::point_columns>& shapes) {
-  return gonio::learn_pca(gonio::shape::shape_set::of(shapes, made_up_names(shapes.size())), gonio::lin{},
+inline gonio::shape::shape_basis synthetic_basis(const std::vector<gonio::shape::point_columns>& shapes) {
+  return gonio::learn_pca(gonio::shape::shape_set::of(shapes, synthetic_names(shapes.size())), gonio::lin{},
                           shapes.size());
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// A small database for tests: smooth made-up materials over any cells.
+/// A small database for tests: smooth synthetic materials over any cells.
 
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/table/material_set.hpp>
@@ -15,7 +15,7 @@ inline const gonio::valid_cells& small_cells() {
 }
 
 /// Diffuse plus a lobe in theta_h that grows towards grazing; colours, widths and heights at random.
-inline gonio::material_set made_up_materials(const gonio::valid_cells& cells, std::size_t count, unsigned seed = 7) {
+inline gonio::material_set synthetic_materials(const gonio::valid_cells& cells, std::size_t count, unsigned seed = 7) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform;
   gonio::material_set set{

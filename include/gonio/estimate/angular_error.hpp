@@ -13,12 +13,6 @@ namespace gonio {
 
 namespace detail {
 
-/// A direction turned towards one of its sides; left where it is if that is below the horizon.
-[[nodiscard]] inline direction moved_above(const direction& w, double angle, double side) noexcept {
-  const direction elsewhere = turned(w, angle, side);
-  return elsewhere.z() > 0.0 ? elsewhere : w;
-}
-
 /// A pair whose light, or whose viewer, is turned by an angle towards one of four sides.
 [[nodiscard]] std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle);
 
@@ -33,7 +27,7 @@ namespace detail {
 /// so that m times the mean square is |q(x') - q(x)|^2 + m o^2. Light and viewer move independently: their errors add.
 /// O(k).
 template <error_metric Metric>
-[[nodiscard]] double misplacement_eta(const pca<Metric>& basis, const direction_pair& meant, double angle) {
+[[nodiscard]] double angular_error_penalty(const pca<Metric>& basis, const direction_pair& meant, double angle) {
   const location here = locate(basis.cells(), to_half_difference(meant.wi, meant.wo));
   const Eigen::RowVectorXd row = row_at(basis, here);
   const double mean = offset_at(basis, here), m = static_cast<double>(basis.coefficients().rows());
@@ -49,13 +43,14 @@ template <error_metric Metric>
 
 /// The same for a measurement at each cell, for `cell_candidates`.
 template <error_metric Metric>
-[[nodiscard]] std::vector<double> misplacement_etas(const pca<Metric>& basis, double angle, thread_count threads = {}) {
+[[nodiscard]] std::vector<double> angular_error_penalties(const pca<Metric>& basis, double angle,
+                                                          thread_count threads = {}) {
   std::vector<double> etas(basis.cells().size());
   for_each_block(
       etas.size(), 256,
       [&](block range) {
         for (std::size_t cell = range.begin; cell < range.end; ++cell)
-          etas[cell] = misplacement_eta(basis, to_directions(basis.cells().angles(cell)), angle);
+          etas[cell] = angular_error_penalty(basis, to_directions(basis.cells().angles(cell)), angle);
       },
       threads);
   return etas;
@@ -64,5 +59,5 @@ template <error_metric Metric>
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/basis/impl/misplacement.ipp>
+#include <gonio/estimate/impl/angular_error.ipp>
 #endif

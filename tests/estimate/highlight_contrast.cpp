@@ -1,5 +1,5 @@
-#include "../made_up_materials.hpp"
-#include <gonio/basis/highlight_contrast.hpp>
+#include "../synthetic_materials.hpp"
+#include <gonio/estimate/highlight_contrast.hpp>
 
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
@@ -15,7 +15,7 @@ namespace {
 constexpr highlight_regions wide{0.15, 0.5};
 
 const gonio::log_relative& contrast_reference() {
-  static const auto metric = gonio::log_relative::to_median_of(made_up_materials(small_cells(), 9));
+  static const auto metric = gonio::log_relative::to_median_of(synthetic_materials(small_cells(), 9));
   return metric;
 }
 
@@ -59,7 +59,7 @@ TEST_CASE("the reference itself has no contrast, and an unshiny material less th
 }
 
 TEST_CASE("samples at all cells have the table's contrast, and that of a set's material") {
-  const auto set = made_up_materials(small_cells(), 4, 99);
+  const auto set = synthetic_materials(small_cells(), 4, 99);
   const auto all = gonio::highlight_contrasts(contrast_reference(), set, wide);
   REQUIRE(all.size() == 4);
   for (std::size_t m = 0; m < 4; ++m) {
@@ -125,7 +125,7 @@ TEST_CASE("zeros and negative measurements have a finite contrast") {
 }
 
 TEST_CASE("a set is split at the median, or where it is said") {
-  const auto set = made_up_materials(small_cells(), 9);
+  const auto set = synthetic_materials(small_cells(), 9);
   const auto contrasts = gonio::highlight_contrasts(contrast_reference(), set, wide);
   const auto halves = gonio::split_by_contrast(set, contrast_reference(), {}, wide);
   CHECK(halves.soft.names.size() == 4);
@@ -143,7 +143,7 @@ TEST_CASE("a set is split at the median, or where it is said") {
 }
 
 TEST_CASE("what cannot be split is refused") {
-  auto set = made_up_materials(small_cells(), 3);
+  auto set = synthetic_materials(small_cells(), 3);
   const auto split = [&](std::optional<double> threshold, const highlight_regions& regions = wide) {
     return gonio::split_by_contrast(set, contrast_reference(), threshold, regions);
   };

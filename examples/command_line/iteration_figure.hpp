@@ -1,5 +1,5 @@
 #pragma once
-/// The correction iteration in pictures: Noell, Koehler and Stricker 2014, Fig. 4.
+/// The correction iteration in images: Noell, Koehler and Stricker 2014, Fig. 4.
 
 #include <gonio/basis/correction.hpp>
 #include <gonio/render/image.hpp>
@@ -11,17 +11,17 @@
 
 namespace cli {
 
-struct story_picture {
+struct iteration_image {
   gonio::image picture;
   /// For each round that is drawn, the mean CIELAB difference of its sphere to the truth's; empty without a truth.
   std::vector<std::pair<std::size_t, double>> differences;
 };
 
-/// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/formats.md describes the picture.
-class story {
+/// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/formats.md describes the image.
+class iteration_figure {
  public:
-  story(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,
-        gonio::thread_count threads);
+  iteration_figure(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,
+                   gonio::thread_count threads);
 
   /// To be called before the first round and after each, with a run that has `result()` and `estimated()`.
   template <class Run>
@@ -31,7 +31,7 @@ class story {
           result.weights().empty() ? Eigen::MatrixXd() : result.weights().back()});
   }
 
-  [[nodiscard]] story_picture draw() const;
+  [[nodiscard]] iteration_image draw() const;
 
  private:
   struct moment {

@@ -1,13 +1,13 @@
-#include "../made_up_materials.hpp"
+#include "../synthetic_materials.hpp"
 #include <gonio/estimate/decomposition.hpp>
-#include <gonio/estimate/misplaced_decomposition.hpp>
+#include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <doctest/doctest.h>
 
 namespace {
 
-using gonio::misplaced_decomposition, gonio::radians;
+using gonio::errors_in_variables_decomposition, gonio::radians;
 
 const gonio::valid_cells& fine_cells() {
   static const gonio::valid_cells cells(gonio::grid({24, 16, 18}));
@@ -15,7 +15,7 @@ const gonio::valid_cells& fine_cells() {
 }
 
 const gonio::log_relative_pca& misplaced_prior() {
-  static const auto basis = learn(made_up_materials(fine_cells(), 12), 100);
+  static const auto basis = learn(synthetic_materials(fine_cells(), 12), 100);
   return basis;
 }
 
@@ -41,25 +41,26 @@ double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& trut
 }  // namespace
 
 TEST_CASE("samples in their places: the plain decomposition") {
-  const auto materials = made_up_materials(fine_cells(), 3, 11);
+  const auto materials = synthetic_materials(fine_cells(), 3, 11);
   for (std::size_t m = 0; m < 3; ++m) {
-    const auto samples = gonio::measure_misplaced(materials.table(m), pairs_over_highlights(), 0.0);
+    const auto samples = gonio::sample_table_misplaced(materials.table(m), pairs_over_highlights(), 0.0);
     const auto plain = gonio::decomposition{misplaced_prior(), gonio::tikhonov{0.1}}.fit(samples);
-    const auto same = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples);
+    const auto same = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples);
     CHECK((plain.found().weights - same.found().weights).norm() < 1e-9 * plain.found().weights.norm());
   }
 }
 
 TEST_CASE("samples off their places: less is lost by who expects it") {
-  const auto materials = made_up_materials(fine_cells(), 12);  // those of the prior: all that is wrong is misplacement
+  const auto materials =
+      synthetic_materials(fine_cells(), 12);  // those of the prior: all that is wrong is misplacement
   const double angle = radians(2.0);
-  const misplaced_decomposition expecting{misplaced_prior(), 0.01, angle};
+  const errors_in_variables_decomposition expecting{misplaced_prior(), 0.01, angle};
   const gonio::decomposition trusting{misplaced_prior(), gonio::tikhonov{0.01}};
   double expected = 0.0, trusted = 0.0;
   for (std::size_t m = 0; m < materials.names.size(); ++m)
     for (std::uint64_t seed = 0; seed < 5; ++seed) {
       const auto truth = materials.table(m);
-      const auto samples = gonio::measure_misplaced(truth, pairs_over_highlights(), angle, seed);
+      const auto samples = gonio::sample_table_misplaced(truth, pairs_over_highlights(), angle, seed);
       expected += error_of(expecting.fit(samples).tabulate(fine_cells()), truth);
       trusted += error_of(trusting.fit(samples).tabulate(fine_cells()), truth);
     }
@@ -68,31 +69,33 @@ TEST_CASE("samples off their places: less is lost by who expects it") {
 }
 
 TEST_CASE("weights count, threads do not") {
-  const auto truth = made_up_materials(fine_cells(), 1, 5).table(0);
-  auto samples = gonio::measure_misplaced(truth, pairs_over_highlights(), radians(1.0), 3);
-  const auto one = misplaced_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
-             three = misplaced_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
+  const auto truth = synthetic_materials(fine_cells(), 1, 5).table(0);
+  auto samples = gonio::sample_table_misplaced(truth, pairs_over_highlights(), radians(1.0), 3);
+  const auto one = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
+             three = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
   CHECK(one.found().weights == three.found().weights);
   // A sample of weight two is two samples.
   auto doubled = samples;
   samples[4].weight = 2.0;
   doubled.push_back(doubled[4]);
-  const misplaced_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
+  const errors_in_variables_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
   CHECK((estimator.fit(samples).found().weights - estimator.fit(doubled).found().weights).norm() <
         1e-8 * one.found().weights.norm());
   // Nor do the weights of other channels matter to one.
   for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
   CHECK((estimator.fit(samples).found().weights.col(0) - one.found().weights.col(0)).norm() > 0.0);
-  const auto apart = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  const auto apart = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
   for (auto& s : samples) s.weight = 3.0;
-  const auto alike = misplaced_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  const auto alike = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
   CHECK((apart.col(2) - alike.col(2)).norm() < 1e-10 * alike.norm());
 }
 
 TEST_CASE("what cannot be is refused by who expects misplacement") {
-  CHECK_THROWS_WITH_AS(misplaced_decomposition(misplaced_prior(), 0.0, 0.1), doctest::Contains("eta"), gonio::error);
-  CHECK_THROWS_WITH_AS(misplaced_decomposition(misplaced_prior(), 40.0, -0.1), doctest::Contains("misplaced by"),
+  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(misplaced_prior(), 0.0, 0.1), doctest::Contains("eta"),
                        gonio::error);
-  CHECK_THROWS_AS(misplaced_decomposition(misplaced_prior(), 40.0, std::nan("")), gonio::error);
-  CHECK_THROWS_AS((misplaced_decomposition{misplaced_prior(), 40.0, 0.1}.fit(gonio::sample_set{})), gonio::error);
+  CHECK_THROWS_WITH_AS(errors_in_variables_decomposition(misplaced_prior(), 40.0, -0.1),
+                       doctest::Contains("misplaced by"), gonio::error);
+  CHECK_THROWS_AS(errors_in_variables_decomposition(misplaced_prior(), 40.0, std::nan("")), gonio::error);
+  CHECK_THROWS_AS((errors_in_variables_decomposition{misplaced_prior(), 40.0, 0.1}.fit(gonio::sample_set{})),
+                  gonio::error);
 }

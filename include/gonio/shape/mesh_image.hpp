@@ -1,5 +1,5 @@
 #pragma once
-/// Pictures of surfaces with a colour at each vertex, from far away, without any graphics library.
+/// Images of surfaces with a colour at each vertex, from far away, without any graphics library.
 
 #include <gonio/core/rgb.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
@@ -12,7 +12,7 @@
 
 namespace gonio::shape {
 
-/// What is seen: parallel rays towards a ball in a square picture that it fills.
+/// What is seen: parallel rays towards a ball in a square image that it fills.
 struct mesh_view {
   Eigen::Vector3d towards = -Eigen::Vector3d::UnitZ();  ///< where the viewer looks, of any length
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
@@ -29,10 +29,10 @@ struct mesh_view {
 /// A mesh lit from the viewer: colours (a linear one for each vertex) times how directly the surface is seen. The
 /// inside of an open surface is darker. O(triangles + pixels covered). Throws gonio::error for another number of
 /// colours than vertices, or a view without extent or direction.
-[[nodiscard]] image picture_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view);
+[[nodiscard]] image image_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view);
 
 }  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/shape/impl/mesh_picture.ipp>
+#include <gonio/shape/impl/mesh_image.ipp>
 #endif
