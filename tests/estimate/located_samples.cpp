@@ -1,6 +1,7 @@
 #include "../synthetic_materials.hpp"
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/values_at.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <doctest/doctest.h>

@@ -58,7 +58,7 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
     RC_ASSERT(functions.unknowns() == 7);
     const gonio::channel_values all_weights = system.weights.transpose().replicate<3, 1>(),
                                 all_values = system.values.transpose().replicate<3, 1>();
-    const Eigen::MatrixXd rhs = functions.rhs(all_weights, all_values);
+    const Eigen::MatrixXd all_rhs = functions.rhs(all_weights, all_values);
     const Eigen::MatrixXd x = Eigen::VectorXd::LinSpaced(21, 0.1, 2.0).reshaped(7, 3);
     const gonio::channel_values all_applied = functions.apply(x);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -74,8 +74,8 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
       const double tolerance = 5e-7;
       RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
       RC_ASSERT(((normal.rhs() - rhs).array().abs() <= tolerance * rhs.array()).all());
-      RC_ASSERT(std::abs(normal.energy()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.energy()[0]);
-      RC_ASSERT(((rhs.col(column) - rhs).array().abs() <= tolerance * rhs.array()).all());
+      RC_ASSERT(std::abs(normal.rhs_squared_norm()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.rhs_squared_norm()[0]);
+      RC_ASSERT(((all_rhs.col(column) - rhs).array().abs() <= tolerance * rhs.array()).all());
       const Eigen::ArrayXd applied = all_applied.row(column).cast<double>().transpose();
       RC_ASSERT(((applied - (rows * x.col(column)).array()).abs() <= 2e-6 * (rows * x.col(column)).array()).all());
     }
@@ -91,7 +91,7 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
     const sampled_functions functions(seven_materials(), places);
     const auto normal = functions.normal(0, system.weights, system.values);
     Eigen::MatrixXd all(8, 8);
-    all << normal.gram(), normal.rhs(), normal.rhs().transpose(), normal.energy();
+    all << normal.gram(), normal.rhs(), normal.rhs().transpose(), normal.rhs_squared_norm();
     const Eigen::VectorXd scale = all.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
     all = scale.asDiagonal() * all * scale.asDiagonal();
     const Eigen::VectorXd eigenvalues = gonio::decompose_symmetric(all, "samples").values;

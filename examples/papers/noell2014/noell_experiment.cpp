@@ -135,7 +135,7 @@ struct noell_experiment::parts {
     if (which.iterations) limits.smallest_change = 0.0;
     if (method.method == "our") {
       auto run =
-          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}.start(
+          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}.initialise(
               samples);
       while (!run.converged()) run.step();
       const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
