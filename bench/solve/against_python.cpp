@@ -113,7 +113,7 @@ int main() {
   }
   ours["Lasso path of 50"] = best_of(50, [&] { (void)path(); });
   double worst = 0.0;
-  for (const auto& found : path().solutions) worst = std::max(worst, found.kkt_residual[0]);
+  for (const auto& found : path().solutions) worst = std::max(worst, found.report.kkt_residual[0]);
 
   std::printf("%td rows of %zu columns, microseconds (least of several runs)\n\n", rows.rows(), k);
   std::printf("| task | gonio | rival | rival's | rival / gonio |\n|---|---|---|---|---|\n");

@@ -59,7 +59,7 @@ class study {
         const gonio::solution best = solver.solve(normal);
         try {
           const gonio::solution found = solver.solve(gonio::leave_one_out(rounded, target, columns));
-          residuals.push_back(normal.residual(found.weights)[0] / best.residual[0] - 1.0);
+          residuals.push_back(normal.residual(found.weights)[0] / best.report.residual[0] - 1.0);
           weights.push_back((found.weights - best.weights).norm() / best.weights.norm());
         } catch (const gonio::error&) {
           ++refused;

@@ -60,10 +60,10 @@ const gonio::least_squares_problem& problem_of(std::int64_t step) {
 template <class Problem>
 void report(benchmark::State& state, const gonio::solution& found, const Problem& solved) {
   const gonio::normal_equations& normal = solved.normal();
-  state.counters["objective"] = normal.objective(found.weights)[0] / gonio::nnls().solve(normal).objective[0];
-  state.counters["kkt_residual"] = found.kkt_residual[0];
+  state.counters["objective"] = normal.objective(found.weights)[0] / gonio::nnls().solve(normal).report.objective[0];
+  state.counters["kkt_residual"] = found.report.kkt_residual[0];
   state.counters["non-zero"] = static_cast<double>((found.weights.array() != 0.0).count());
-  state.counters["iterations"] = found.iterations;
+  state.counters["iterations"] = found.report.iterations;
 }
 
 /// With the normal equations at hand, as after the first solve.

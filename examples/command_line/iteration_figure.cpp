@@ -157,9 +157,7 @@ gonio::image iteration_figure::draw_factors(const moment& before) const {
 }
 
 gonio::image iteration_figure::draw_correction(const moment& round) const {
-  gonio::solution found;
-  found.weights = round.weights;
-  return factor_slice(gonio::fitted_brdf{corrections_, found}, threads_);
+  return factor_slice(gonio::fitted_brdf{corrections_, round.weights}, threads_);
 }
 
 gonio::image iteration_figure::draw_true_correction(const moment& before) const {

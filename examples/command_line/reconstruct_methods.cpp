@@ -22,15 +22,16 @@ namespace cli {
 
 namespace {
 
-/// What the solver said.
+/// The solver's report.
 void describe(const gonio::solution& found, std::size_t samples, reconstruction& result) {
-  const gonio::rgb residual = found.residual.array() / std::sqrt(static_cast<double>(samples));
+  const auto& [weights, report] = found;
+  const gonio::rgb residual = report.residual.array() / std::sqrt(static_cast<double>(samples));
   gonio::rgb used;
-  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((found.weights.col(c).array() != 0.0).count());
+  for (Eigen::Index c = 0; c < 3; ++c) used[c] = static_cast<double>((weights.col(c).array() != 0.0).count());
   result.details = {{"mapped_residual_rms", per_channel(residual)},
-                    {"kkt_residual", per_channel(found.kkt_residual.array())},
+                    {"kkt_residual", per_channel(report.kkt_residual.array())},
                     {"non_zero_weights", per_channel(used)},
-                    {"iterations", found.iterations}};
+                    {"iterations", report.iterations}};
   result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
                     ' ' + fixed(residual.z(), 3) + ", weights that are not zero " + fixed(used.x(), 0) + ' ' +
                     fixed(used.y(), 0) + ' ' + fixed(used.z(), 0);
@@ -39,7 +40,7 @@ void describe(const gonio::solution& found, std::size_t samples, reconstruction&
 template <class Fit>
 reconstruction described(const Fit& fitted, std::size_t samples, gonio::thread_count threads) {
   reconstruction result{fitted.tabulate(gonio::valid_cells(), threads)};
-  describe(fitted.found(), samples, result);
+  if (fitted.report()) describe({fitted.weights(), *fitted.report()}, samples, result);
   return result;
 }
 

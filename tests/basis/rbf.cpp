@@ -147,7 +147,7 @@ TEST_CASE("measured at its centres alone, a fit interpolates the values there") 
     samples.push_back({centres[i], gonio::rgb(1.0, 0.4, 0.5) + 0.3 * std::sin(17.0 * static_cast<double>(i))});
   const auto fit = gonio::decomposition{rbf{small_cells(), gonio::log{}, centres}, gonio::tikhonov{1e-10}}.fit(samples);
   for (const gonio::sample& s : samples) CHECK((value_at(fit, s.angles) - s.value).abs().maxCoeff() < 1e-6);
-  CHECK(fit.found().kkt_residual.maxCoeff() < 1e-9);
+  CHECK(fit.report()->kkt_residual.maxCoeff() < 1e-9);
 }
 
 TEST_CASE("each farthest-point centre is farther from those before it than any cell is from all of them") {
@@ -183,8 +183,8 @@ TEST_CASE("a table is approximated, expanded at any cells as evaluated, by any n
   const rbf functions{small_cells(), gonio::log{}, gonio::farthest_point_centres(small_cells(), 120)};
   const auto fit = gonio::decomposition{functions, gonio::tikhonov{1e-6}, {1}}.fit(smooth_table());
   const auto threaded = gonio::decomposition{functions, gonio::tikhonov{1e-6}, {3}}.fit(smooth_table());
-  CHECK(fit.found().weights == threaded.found().weights);
-  CHECK(fit.found().kkt_residual.maxCoeff() < 1e-9);
+  CHECK(fit.weights() == threaded.weights());
+  CHECK(fit.report()->kkt_residual.maxCoeff() < 1e-9);
   for (const auto& over : {small_cells(), gonio::valid_cells(gonio::grid({7, 5, 12}))}) {
     const auto table = fit.tabulate(over, {1});
     CHECK(std::ranges::equal(table.values(), fit.tabulate(over, {3}).values()));

@@ -46,7 +46,7 @@ TEST_CASE("samples in their places: the plain decomposition") {
     const auto samples = gonio::sample_table_misplaced(materials.table(m), pairs_over_highlights(), 0.0);
     const auto plain = gonio::decomposition{misplaced_prior(), gonio::tikhonov{0.1}}.fit(samples);
     const auto same = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples);
-    CHECK((plain.found().weights - same.found().weights).norm() < 1e-9 * plain.found().weights.norm());
+    CHECK((plain.weights() - same.weights()).norm() < 1e-9 * plain.weights().norm());
   }
 }
 
@@ -73,20 +73,20 @@ TEST_CASE("weights count, threads do not") {
   auto samples = gonio::sample_table_misplaced(truth, pairs_over_highlights(), radians(1.0), 3);
   const auto one = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {1}}.fit(samples),
              three = errors_in_variables_decomposition{misplaced_prior(), 0.1, radians(1.0), {3}}.fit(samples);
-  CHECK(one.found().weights == three.found().weights);
+  CHECK(one.weights() == three.weights());
   // A sample of weight two is two samples.
   auto doubled = samples;
   samples[4].weight = 2.0;
   doubled.push_back(doubled[4]);
   const errors_in_variables_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
-  CHECK((estimator.fit(samples).found().weights - estimator.fit(doubled).found().weights).norm() <
-        1e-8 * one.found().weights.norm());
+  CHECK((estimator.fit(samples).weights() - estimator.fit(doubled).weights()).norm() <
+        1e-8 * one.weights().norm());
   // Nor do the weights of other channels matter to one.
   for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
-  CHECK((estimator.fit(samples).found().weights.col(0) - one.found().weights.col(0)).norm() > 0.0);
-  const auto apart = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  CHECK((estimator.fit(samples).weights().col(0) - one.weights().col(0)).norm() > 0.0);
+  const auto apart = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).weights();
   for (auto& s : samples) s.weight = 3.0;
-  const auto alike = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).found().weights;
+  const auto alike = errors_in_variables_decomposition{misplaced_prior(), 0.1, 0.0}.fit(samples).weights();
   CHECK((apart.col(2) - alike.col(2)).norm() < 1e-10 * alike.norm());
 }
 

@@ -44,7 +44,7 @@ double by_learning_again(const gonio::material_set& materials, std::span<const s
     const auto prior = gonio::learn_pca(materials.subset(others), metric, 1000);
     const auto table = materials.table(material);
     const auto fit = gonio::decomposition{prior, gonio::tikhonov{eta}}.fit(measured_at(table, cells));
-    sum += squared_distance(prior, fit.found().weights, table).sqrt().sum();
+    sum += squared_distance(prior, fit.weights(), table).sqrt().sum();
   }
   return sum / static_cast<double>(3 * materials.names.size());
 }
@@ -165,7 +165,7 @@ TEST_CASE("without a stated noise eta is what cross-validation chooses among the
       CHECK(eta == range.highest);
       continue;
     }
-    const auto problem = gonio::basis_equations<gonio::log_relative_pca>(prior, samples).problem();
+    const auto problem = gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
     const auto criterion = gonio::eta_criterion::generalised_cross_validation;
     const Eigen::VectorXd scan = gonio::detail::geometric(range.lowest, range.highest, 301);
     CHECK(gonio::cross_validate(problem, criterion, Eigen::VectorXd::Constant(1, eta))[0] <=

@@ -61,9 +61,9 @@ void check_against_decomposition(const Metric& metric) {
     }
     // Products in float are off by 1e-7, which the condition of a dozen materials magnifies.
     CHECK(std::sqrt(differences / squares) < 1e-4);
-    CHECK(fit.found().weights(static_cast<Eigen::Index>(material), 0) == 0.0);
+    CHECK(fit.weights()(static_cast<Eigen::Index>(material), 0) == 0.0);
     for (Eigen::Index c = 0; c < 3; ++c)
-      CHECK(fit.found().residual[c] == doctest::Approx(expected.found().residual[c]).epsilon(1e-2));
+      CHECK(fit.report()->residual[c] == doctest::Approx(expected.report()->residual[c]).epsilon(1e-2));
   }
 }
 

@@ -122,7 +122,7 @@ TEST_CASE("without a step it is Tikhonov's solution; in place, light and camera 
   const auto plain = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(all);
 
   pose_refinement refinement(image_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
-  CHECK((refinement.fit().found().weights - plain.found().weights).norm() < 1e-6 * plain.found().weights.norm());
+  CHECK((refinement.fit().weights() - plain.weights()).norm() < 1e-6 * plain.weights().norm());
   refinement.solve();
   for (const pose_correction& turns : refinement.turns()) {
     CHECK(turns.light.norm() < radians(0.2));
@@ -147,7 +147,7 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
     const auto samples = refinement.samples();
     RC_ASSERT(samples.size() == pictures[0].size());
     const auto again = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(samples);
-    RC_ASSERT((again.found().weights - refinement.fit().found().weights).norm() < 1e-6 * again.found().weights.norm());
+    RC_ASSERT((again.weights() - refinement.fit().weights()).norm() < 1e-6 * again.weights().norm());
   }));
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("a material alone, and beside one that no image has, come out the same
   beside.solve();
   CHECK(beside.objective() == doctest::Approx(alone.objective()).epsilon(1e-12));
   CHECK((beside.turns()[0].light - alone.turns()[0].light).norm() < 1e-12);
-  CHECK(beside.fit(1).found().weights.norm() == 0.0);
+  CHECK(beside.fit(1).weights().norm() == 0.0);
   CHECK_THROWS_WITH_AS((void)beside.fit(2), doctest::Contains("no material 2"), gonio::error);
 }
 

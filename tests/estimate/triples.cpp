@@ -81,7 +81,7 @@ void check_triple(const Basis& basis, const Solver& solver) {
   const gonio::decomposition estimator{basis, solver};
   static_assert(gonio::estimator<decltype(estimator)>);
   const auto fit = estimator.fit(samples());
-  if (gonio::solves_non_negative<Solver>) CHECK(fit.found().weights.minCoeff() >= 0.0);
+  if (gonio::solves_non_negative<Solver>) CHECK(fit.weights().minCoeff() >= 0.0);
   check_fit(fit);
 }
 

@@ -32,8 +32,8 @@ gonio::sample_set grey_samples(double value) {
 template <class Solver>
 void check_constant(const Solver& solver) {
   const auto fit = gonio::decomposition{archetype::constant_basis{cells()}, solver}.fit(grey_samples(0.25));
-  CHECK(fit.found().weights(0, 0) == doctest::Approx(0.25).epsilon(1e-6));
-  CHECK(fit.found().kkt_residual.maxCoeff() <= 1e-9);
+  CHECK(fit.weights()(0, 0) == doctest::Approx(0.25).epsilon(1e-6));
+  CHECK(fit.report()->kkt_residual.maxCoeff() <= 1e-9);
   const gonio::brdf_table table = fit.tabulate(cells());
   CHECK(table.at(0).x() == doctest::Approx(0.25).epsilon(1e-6));
   CHECK(fit({0, 0, 1}, {0.6, 0, 0.8}).y() == doctest::Approx(0.25).epsilon(1e-6));
@@ -59,14 +59,14 @@ TEST_CASE("a computed basis") {
     samples.push_back({angles, gonio::rgb::Constant(1.0 + angles.theta_d), 1.0});
   }
   const auto fit = gonio::decomposition{archetype::theta_d_polynomial{cells()}, gonio::least_squares{}}.fit(samples);
-  CHECK(fit.found().weights(0, 2) == doctest::Approx(1.0).epsilon(1e-9));
-  CHECK(fit.found().weights(1, 2) == doctest::Approx(1.0).epsilon(1e-9));
+  CHECK(fit.weights()(0, 2) == doctest::Approx(1.0).epsilon(1e-9));
+  CHECK(fit.weights()(1, 2) == doctest::Approx(1.0).epsilon(1e-9));
 }
 
 TEST_CASE("a table is fitted cell by cell, and bad samples are refused") {
   const gonio::decomposition estimator{archetype::constant_basis{cells()}, gonio::tikhonov{1e-9}};
   const auto table = estimator.fit(grey_samples(0.5)).tabulate(cells());
-  CHECK(estimator.fit(table).found().weights(0, 1) == doctest::Approx(0.5).epsilon(1e-6));
+  CHECK(estimator.fit(table).weights()(0, 1) == doctest::Approx(0.5).epsilon(1e-6));
   CHECK_THROWS_WITH_AS(estimator.fit(gonio::sample_set{}), "there are no samples: at least one is needed",
                        gonio::error);
 }

@@ -83,9 +83,9 @@ int main() {
   static_assert(gonio::estimator<decltype(estimator)>);
   const auto fit = estimator.fit(samples);
 
-  check(fit.found().kkt_residual.maxCoeff() < 1e-9, "the weights are optimal");
-  check(std::abs(fit.found().weights(2, 0) - 0.9) < 1e-6, "the narrow lobe's weight in red is .9");
-  check(std::abs(fit.found().weights(2, 1) - 0.45) < 1e-6, "half of it in green, whose values are an eighth");
+  check(fit.report()->kkt_residual.maxCoeff() < 1e-9, "the weights are optimal");
+  check(std::abs(fit.weights()(2, 0) - 0.9) < 1e-6, "the narrow lobe's weight in red is .9");
+  check(std::abs(fit.weights()(2, 1) - 0.45) < 1e-6, "half of it in green, whose values are an eighth");
   const gonio::rgb above = fit({0, 0, 1}, {0, 0, 1});
   check(std::abs(above.x() - truth(0.0)) < 1e-6 && std::abs(above.z()) < 1e-9, "the value at the normal");
   check((fit({0, 0, 1}, {0, 0, -1}) == 0.0).all(), "nothing below the horizon");

@@ -49,7 +49,7 @@ TEST_CASE("where a fit ends neither a motion nor other weights of the shape that
   REQUIRE(found.iterations < options.most_iterations);
   const gonio::shape::shape_basis moving =
       gonio::shape::with_motion(ears.model.truncated_to_variance(options.explained_variance).basis(), found.shape());
-  const Eigen::VectorXd next = gonio::decomposition{moving, found.solver}.fit(found.places).weights();
+  const Eigen::VectorXd next = gonio::shape::fit_shape(moving, found.solver, found.places).weights();
   const gonio::shape::point_columns change = gonio::shape::shape_of(moving, next) - found.shape();
   CHECK(std::sqrt(change.squaredNorm() / static_cast<double>(change.cols())) < 1e-3);
 }

@@ -34,7 +34,7 @@ TEST_CASE("V{s1|s2} equals the block formula where S22 has an inverse") {
 
   const auto known = gonio::shape::vertex_observations::marked(shapes[0], {true, false, true, false, true, false});
   const gonio::truncated_svd solver{1.0};
-  const auto fit = gonio::decomposition{basis, solver}.fit(known);
+  const auto fit = gonio::shape::fit_shape(basis, solver, known);
   const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);
   for (Eigen::Index i = 0; i < 3; ++i) {
     const Eigen::Matrix3d block = expected.block<3, 3>(3 * i, 3 * i);
@@ -52,7 +52,7 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
       gonio::shape::vertex_observations::marked(shapes[3], {true, false, true, false, true, false, true, false});
   const double eta = 0.5;
   const gonio::tikhonov solver{eta};
-  const gonio::shape::shape_uncertainty uncertainty(gonio::decomposition{basis, solver}.fit(known), known, solver);
+  const gonio::shape::shape_uncertainty uncertainty(gonio::shape::fit_shape(basis, solver, known), known, solver);
   const Eigen::MatrixXd q2 = basis.components()(every_other(0, 8), Eigen::all).cast<double>();
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(k, k) + q2.transpose() * q2 / eta;
@@ -77,7 +77,7 @@ TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of 
       for (auto shape = shapes.end() - 20; shape != shapes.end(); ++shape) {
         const auto known = gonio::shape::vertex_observations::marked(*shape, marks);
         const gonio::truncated_svd solver{0.999};
-        const auto fit = gonio::decomposition{basis, solver}.fit(known);
+        const auto fit = gonio::shape::fit_shape(basis, solver, known);
         const gonio::shape::shape_uncertainty uncertainty(fit, known, solver);
         for (Eigen::Index v = 10; v < 20; v += 3) {
           const Eigen::Vector3d off = fit.vertex(v) - shape->col(v);

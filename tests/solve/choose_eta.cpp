@@ -157,7 +157,7 @@ TEST_CASE("equations that the unknowns explain need no penalty; noise that they 
     const double largest =
         dense_reference::symmetric_eigen(least_squares_problem(rows, right).normal().gram()).values.maxCoeff();
     CHECK(choose_eta({rows, right}, criterion) < 0.1 * largest);
-    CHECK(automatic_tikhonov(criterion).solve({rows, right}).residual[0] < 0.02 * right.norm());
+    CHECK(automatic_tikhonov(criterion).solve({rows, right}).report.residual[0] < 0.02 * right.norm());
     // The mean of the others predicts worse than zero does if signs alternate.
     Eigen::MatrixXd alternating = Eigen::MatrixXd::Ones(10, 1);
     for (Eigen::Index row = 0; row < 10; row += 2) alternating(row, 0) = -1.0;
@@ -183,7 +183,7 @@ TEST_CASE("dependent columns and rows, tall and wide") {
       const least_squares_problem problem(rows, right);
       const double eta = choose_eta(problem, criterion);
       CHECK(score(problem, criterion, eta) < 1.3 * 0.01 * n);
-      CHECK(automatic_tikhonov(criterion).solve(problem).kkt_residual[0] < 1e-9);
+      CHECK(automatic_tikhonov(criterion).solve(problem).report.kkt_residual[0] < 1e-9);
     }
   }
 }
@@ -195,7 +195,7 @@ TEST_CASE("the solver is Tikhonov's with the chosen eta, and rows without weight
       const double eta = choose_eta(problem, criterion);
       const auto found = automatic_tikhonov(criterion).solve(problem);
       CHECK(found.weights == tikhonov(eta).solve(problem).weights);
-      CHECK(found.kkt_residual.maxCoeff() < 1e-9);
+      CHECK(found.report.kkt_residual.maxCoeff() < 1e-9);
 
       Eigen::MatrixXd rows(n + 40, k), right(n + 40, 2);
       rows << problem.rows(), random_matrix(40, k, 1);

@@ -93,17 +93,17 @@ inline void check(family what, unsigned seed, std::map<std::string, tally>& tall
                             std::to_string(seed) + ": " + refused.what();
         continue;
       }
-      if (!(found.kkt_residual[0] <= 1e-9))
-        wrong("KKT residual " + std::to_string(found.kkt_residual[0] * 1e9) + "e-9");
+      if (!(found.report.kkt_residual[0] <= 1e-9))
+        wrong("KKT residual " + std::to_string(found.report.kkt_residual[0] * 1e9) + "e-9");
       if (!found.weights.allFinite()) wrong("not finite");
       if (!each.judged) continue;
       if (each.non_negative && found.weights.minCoeff() < 0.0) wrong("negative");
       const verdict by_rows = judge(problem, found.weights.col(0), each.lambda, each.non_negative);
       sum.violation = std::max(sum.violation, by_rows.violation);
       if (!(by_rows.violation <= 1e-9)) wrong("violation " + std::to_string(by_rows.violation * 1e9) + "e-9");
-      if (!(by_rows.residual <= 1.0 + 1e-12)) wrong("residual " + std::to_string(by_rows.residual) + " |b|");
-      if (!reference) reference = by_rows.objective;
-      const double apart = std::abs(by_rows.objective - *reference);
+      if (!(by_rows.report.residual <= 1.0 + 1e-12)) wrong("residual " + std::to_string(by_rows.report.residual) + " |b|");
+      if (!reference) reference = by_rows.report.objective;
+      const double apart = std::abs(by_rows.report.objective - *reference);
       sum.disagreement = std::max(sum.disagreement, apart);
       if (!(apart <= 1e-9)) wrong("objectives differ by " + std::to_string(apart * 1e9) + "e-9");
     }

@@ -19,11 +19,11 @@ TEST_CASE("the optimality conditions hold on random problems of all kinds, with 
     CAPTURE(seed);
     const auto both = lasso(share * gonio::largest_lambda(normal, sign_rule::any)).solve(normal);
     const auto one = non_negative_lasso(share * gonio::largest_lambda(normal, sign_rule::non_negative)).solve(normal);
-    CHECK(both.kkt_residual[0] <= 1e-9);
-    CHECK(one.kkt_residual[0] <= 1e-9);
+    CHECK(both.report.kkt_residual[0] <= 1e-9);
+    CHECK(one.report.kkt_residual[0] <= 1e-9);
     CHECK(one.weights.minCoeff() >= 0.0);
     if (share >= 1.0) CHECK(both.weights.isZero(0.0));
-    worst = std::max({worst, both.kkt_residual[0], one.kkt_residual[0]});
+    worst = std::max({worst, both.report.kkt_residual[0], one.report.kkt_residual[0]});
   }
   MESSAGE("worst KKT residual ", worst);
 }
@@ -62,7 +62,7 @@ TEST_CASE("the objective counts the penalty") {
                                 Eigen::VectorXd::Constant(1, 25.0));
   const auto found = lasso(1.0).solve(normal);
   CHECK(found.weights(0, 0) == doctest::Approx(2.0));
-  CHECK(found.objective[0] == doctest::Approx(0.5 * 2.0 * 4.0 - 5.0 * 2.0 + 2.0));
+  CHECK(found.report.objective[0] == doctest::Approx(0.5 * 2.0 * 4.0 - 5.0 * 2.0 + 2.0));
 }
 
 TEST_CASE("a path is the solutions of its penalties, from nothing to nearly least squares") {
@@ -80,7 +80,7 @@ TEST_CASE("a path is the solutions of its penalties, from nothing to nearly leas
       const auto alone = lasso(path.lambdas[i]).solve(normal);
       const double scale = 0.5 * normal.rhs_squared_norm()[0];
       CHECK(path.solutions[i].kkt_residual[0] <= 1e-9);
-      CHECK(std::abs(path.solutions[i].objective[0] - alone.objective[0]) <= 1e-8 * scale);
+      CHECK(std::abs(path.solutions[i].objective[0] - alone.report.objective[0]) <= 1e-8 * scale);
       CHECK(path.solutions[i].residual[0] <= last * (1.0 + 1e-12));
       last = path.solutions[i].residual[0];
     }

@@ -94,10 +94,10 @@ TEST_CASE("the minimum-norm solution is that of the singular value decomposition
     const auto found = least_squares().solve(problem);
     RC_ASSERT(least_squares().rank(problem) == expected.rank);
     RC_ASSERT(relative_distance(found.weights, expected.x) < tolerance);
-    RC_ASSERT(found.kkt_residual.maxCoeff() < 1e-13);
-    RC_ASSERT(found.iterations == 0);
-    RC_ASSERT(relative_distance(found.residual, problem.residual(expected.x)) < 1e-12 * expected.condition);
-    RC_ASSERT(relative_distance(found.objective, problem.normal().objective(expected.x)) < 1e-12 * expected.condition);
+    RC_ASSERT(found.report.kkt_residual.maxCoeff() < 1e-13);
+    RC_ASSERT(found.report.iterations == 0);
+    RC_ASSERT(relative_distance(found.report.residual, problem.residual(expected.x)) < 1e-12 * expected.condition);
+    RC_ASSERT(relative_distance(found.report.objective, problem.normal().objective(expected.x)) < 1e-12 * expected.condition);
   }));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("the normal equations alone give the same, where their Gram matrix can
     const auto found = least_squares().solve(problem.normal());
     RC_ASSERT(least_squares().rank(problem.normal()) == expected.rank);
     RC_ASSERT(relative_distance(found.weights, expected.x) < 1e-12 * expected.condition * expected.condition);
-    RC_ASSERT(found.kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(found.report.kkt_residual.maxCoeff() < 1e-9);
   }));
 }
 
@@ -120,8 +120,8 @@ TEST_CASE("closed forms: a column of ones gives the weighted mean, a row of ones
   const least_squares_problem mean(row_matrix::Ones(3, 1), Eigen::Vector3d(1, 4, 100), Eigen::Vector3d(2, 1, 0));
   const auto found = least_squares().solve(mean);
   CHECK(found.weights(0, 0) == doctest::Approx(2.0));
-  CHECK(found.residual[0] == doctest::Approx(std::sqrt(2.0 * 1.0 + 4.0)));
-  CHECK(found.objective[0] == doctest::Approx(0.5 * (6.0 - 18.0)));
+  CHECK(found.report.residual[0] == doctest::Approx(std::sqrt(2.0 * 1.0 + 4.0)));
+  CHECK(found.report.objective[0] == doctest::Approx(0.5 * (6.0 - 18.0)));
 
   const auto shared =
       least_squares().solve(least_squares_problem{row_matrix::Ones(1, 4), Eigen::MatrixXd::Constant(1, 1, 8.0)});
@@ -142,7 +142,7 @@ TEST_CASE("more rows than the buffer holds: the triangle is that of all rows at 
     CHECK((left.transpose() * triangle.col(5)).isApprox(problem.normal().rhs(), 1e-12));
     const auto found = least_squares().solve(problem);
     CHECK((problem.normal().gram() * found.weights).isApprox(problem.normal().rhs(), 1e-12));
-    CHECK(found.kkt_residual[0] < 1e-14);
+    CHECK(found.report.kkt_residual[0] < 1e-14);
 
     rows.col(3) = rows.col(1) - 1e-3 * rows.col(2);
     CHECK(least_squares().rank(least_squares_problem{rows, random_matrix(n, 1, 8), weights}) == 4);
@@ -179,15 +179,15 @@ TEST_CASE("a condition number of 1e14") {
     const Eigen::MatrixXd right = rows * random_matrix(k, 3, 4);
     for (const double threshold : {0.0, 1e-15, 1e-12}) {
       const auto found = least_squares(threshold).solve(least_squares_problem{rows, right, weights});
-      CHECK(found.residual.maxCoeff() < 10.0 * std::max(threshold, 1e-15));
-      CHECK(found.kkt_residual.maxCoeff() < 1e-12);
+      CHECK(found.report.residual.maxCoeff() < 10.0 * std::max(threshold, 1e-15));
+      CHECK(found.report.kkt_residual.maxCoeff() < 1e-12);
     }
   }
   SUBCASE("what truncation leaves in the gradient is below the threshold") {
     for (const double threshold : {1e-12, 1e-10}) {
       const least_squares_problem problem(rows, random_matrix(n, 3, 5), weights);
       CHECK(least_squares(threshold).rank(problem) < k);
-      CHECK(least_squares(threshold).solve(problem).kkt_residual.maxCoeff() < threshold);
+      CHECK(least_squares(threshold).solve(problem).report.kkt_residual.maxCoeff() < threshold);
     }
     const least_squares_problem problem(rows, random_matrix(n, 3, 5), weights);
     CHECK(least_squares().solve(problem.normal()).kkt_residual.maxCoeff() < least_squares::gram_threshold);
@@ -204,7 +204,7 @@ TEST_CASE("neither the rank nor the solution depends on the units of the columns
   const Eigen::MatrixXd expected = least_squares().solve(least_squares_problem{rows, right}).weights;
   const auto found = least_squares().solve(least_squares_problem{scaled, right});
   CHECK((units.asDiagonal() * found.weights).isApprox(expected, 1e-12));
-  CHECK(found.kkt_residual.maxCoeff() < 1e-14);
+  CHECK(found.report.kkt_residual.maxCoeff() < 1e-14);
   const auto by_gram = least_squares().solve(least_squares_problem(scaled, right).normal());
   CHECK((units.asDiagonal() * by_gram.weights).isApprox(expected, 1e-12));
 }
@@ -216,7 +216,7 @@ TEST_CASE("dependent columns of very different lengths still leave no gradient")
   rows.col(2) *= 1e6;
   const least_squares_problem problem(rows, random_matrix(30, 2, 2));
   CHECK(least_squares().rank(problem) == 5);
-  CHECK(least_squares().solve(problem).kkt_residual.maxCoeff() < 1e-9);
+  CHECK(least_squares().solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
   CHECK(least_squares().rank(problem.normal()) == 5);
   CHECK(least_squares().solve(problem.normal()).kkt_residual.maxCoeff() < 1e-9);
 }
@@ -228,14 +228,14 @@ TEST_CASE("nothing to fit: no weight, no matrix, no right-hand side, or one orth
       {rows, right, Eigen::VectorXd::Zero(8)}, {row_matrix::Zero(8, 3), right}, {rows, Eigen::MatrixXd::Zero(8, 1)}};
   for (const least_squares_problem& problem : problems) {
     CHECK(least_squares().solve(problem).weights.isZero(0.0));
-    CHECK(least_squares().solve(problem).kkt_residual[0] == 0.0);
+    CHECK(least_squares().solve(problem).report.kkt_residual[0] == 0.0);
     CHECK(least_squares().solve(problem.normal()).weights.isZero(0.0));
     CHECK(least_squares().solve(problem.normal()).kkt_residual[0] == 0.0);
   }
   const Eigen::MatrixXd columns = random_orthonormal(8, 4, 3);
   const auto orthogonal = least_squares().solve(least_squares_problem{columns.leftCols(3), columns.rightCols(1)});
   CHECK(orthogonal.weights.cwiseAbs().maxCoeff() < 1e-15);
-  CHECK(orthogonal.kkt_residual[0] < 1e-15);
+  CHECK(orthogonal.report.kkt_residual[0] < 1e-15);
 }
 
 TEST_CASE("the KKT residual of other weights is not small") {

@@ -58,12 +58,12 @@ TEST_CASE("2,200 random problems: all solvers satisfy the KKT conditions to 1e-9
       CAPTURE(seed);
       CAPTURE(name);
       CAPTURE(static_cast<int>(what));
-      CHECK(found.kkt_residual[0] <= 1e-9);
+      CHECK(found.report.kkt_residual[0] <= 1e-9);
       CHECK(found.weights.minCoeff() >= 0.0);
-      CHECK(std::abs(found.objective[0] - ways[0].second.objective[0]) <= 1e-8 * scale);
-      worst_kkt_residual = std::max(worst_kkt_residual, found.kkt_residual[0]);
+      CHECK(std::abs(found.report.objective[0] - ways[0].second.report.objective[0]) <= 1e-8 * scale);
+      worst_kkt_residual = std::max(worst_kkt_residual, found.report.kkt_residual[0]);
       worst_disagreement =
-          std::max(worst_disagreement, std::abs(found.objective[0] - ways[0].second.objective[0]) / scale);
+          std::max(worst_disagreement, std::abs(found.report.objective[0] - ways[0].second.report.objective[0]) / scale);
     }
   }
   MESSAGE("worst KKT residual ", worst_kkt_residual, ", worst disagreement ", worst_disagreement);
@@ -77,7 +77,7 @@ TEST_CASE("a start from columns that depend on each other does not end with thos
     const std::array kinds{kind::rank_deficient, kind::duplicated_columns, kind::wide};
     const auto problem = random.make(kinds[seed % 3], 7);
     const normal_equations normal = problem.normal();
-    for (const auto& [name, found] : all_ways(normal)) uncertified += found.kkt_residual[0] <= 1e-9 ? 0u : 1u;
+    for (const auto& [name, found] : all_ways(normal)) uncertified += found.report.kkt_residual[0] <= 1e-9 ? 0u : 1u;
   }
   CHECK(uncertified == 0u);
 }
@@ -90,7 +90,7 @@ TEST_CASE("the optimum is that of trying every support") {
     const auto problem = random.make(what, 7);
     const double least = least_objective(problem), scale = 0.5 * problem.right.squaredNorm();
     for (const auto& [name, found] : all_ways(problem.normal()))
-      RC_ASSERT(std::abs(found.objective[0] - least) <= 1e-10 * scale);
+      RC_ASSERT(std::abs(found.report.objective[0] - least) <= 1e-10 * scale);
   }));
 }
 
@@ -108,8 +108,8 @@ TEST_CASE("the golden instances, a real 99 x 99 Gram matrix of condition 4e7 amo
     for (const auto& [name, found] : all_ways(normal)) {
       CAPTURE(instance["kind"].get<std::string>());
       CAPTURE(name);
-      CHECK(found.kkt_residual[0] <= 1e-9);
-      CHECK(found.objective[0] == doctest::Approx(objective).epsilon(1e-10));
+      CHECK(found.report.kkt_residual[0] <= 1e-9);
+      CHECK(found.report.objective[0] == doctest::Approx(objective).epsilon(1e-10));
       if (instance["kind"] != "dup")  // whose optimum is not unique
         CHECK((found.weights.col(0) - expected).cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + expected.maxCoeff()));
     }
@@ -133,7 +133,7 @@ TEST_CASE(
           Eigen::Map<const Eigen::VectorXd>(column(m).data(), all.rows()).array().log1p();
     const auto expect = [](const gonio::solution& found, const nlohmann::json& expected) {
       const auto alpha = expected.get<std::vector<double>>();
-      CHECK(found.kkt_residual[0] <= 1e-9);
+      CHECK(found.report.kkt_residual[0] <= 1e-9);
       for (std::size_t i = 0; i < alpha.size(); ++i)
         CHECK(found.weights(static_cast<Eigen::Index>(i), 0) == doctest::Approx(alpha[i]).epsilon(1e-6).scale(1e-3));
     };
@@ -167,7 +167,7 @@ TEST_CASE("several right-hand sides are solved one by one") {
   for (Eigen::Index c = 0; c < 3; ++c) {
     const auto alone = gonio::nnls().solve(gonio::least_squares_problem(rows, right.col(c)));
     CHECK(together.weights.col(c) == alone.weights.col(0));
-    CHECK(together.residual[c] == doctest::Approx((problem.matrix * alone.weights - right.col(c)).norm()));
+    CHECK(together.report.residual[c] == doctest::Approx((problem.matrix * alone.weights - right.col(c)).norm()));
   }
 }
 
@@ -226,7 +226,7 @@ TEST_CASE("numbers that overflow end in an error or in weights that are certifie
   try {
     const auto found = gonio::nnls().solve(normal);
     CHECK_FALSE(found.weights.hasNaN());
-    CHECK(found.kkt_residual[0] <= 1e-9);
+    CHECK(found.report.kkt_residual[0] <= 1e-9);
   } catch (const gonio::error& refused) {
     CHECK(std::string(refused.what()).find("NNLS") != std::string::npos);
   }
@@ -237,7 +237,7 @@ TEST_CASE("an indefinite matrix is no Gram matrix: an answer is certified or the
   indefinite << 1, -2, -2, 1;
   try {
     const auto found = gonio::nnls().solve(normal_equations(indefinite, Eigen::Vector2d(1, 1)));
-    CHECK(found.kkt_residual[0] <= 1e-9);
+    CHECK(found.report.kkt_residual[0] <= 1e-9);
   } catch (const gonio::error& refused) {
     CHECK(std::string(refused.what()).find("NNLS") != std::string::npos);
   }

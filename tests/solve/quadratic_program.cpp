@@ -97,8 +97,8 @@ TEST_CASE("two unknowns, in closed form") {
   SUBCASE("x >= 0 projects") {
     const auto found = quadratic_program<>().solve(identity_with(numbers({3, -1})));
     CHECK(found.weights == numbers({3, 0}));
-    CHECK(found.objective[0] == -4.5);
-    CHECK(found.kkt_residual[0] == 0.0);
+    CHECK(found.report.objective[0] == -4.5);
+    CHECK(found.report.kkt_residual[0] == 0.0);
   }
   SUBCASE("the nearest point of x + y = 1") {
     const linear_constraints line{.E = matrix::Ones(1, 2), .e = vector::Ones(1)};
@@ -123,7 +123,7 @@ TEST_CASE("two unknowns, in closed form") {
                                    .non_negative = true};
     const auto found = quadratic_program(mixed).solve(identity_with(numbers({5, 2, -7})));
     CHECK(near(found.weights, numbers({0.25, 0.75, 0}), 1e-14));
-    CHECK(found.kkt_residual[0] < 1e-14);
+    CHECK(found.report.kkt_residual[0] < 1e-14);
   }
 }
 
@@ -135,10 +135,10 @@ TEST_CASE("several right-hand sides and data instead of normal equations") {
   for (Eigen::Index column = 0; column < 3; ++column) {
     const auto alone = quadratic_program<>().solve(gonio::least_squares_problem(A, b.col(column)));
     CHECK(found.weights.col(column) == alone.weights);
-    CHECK(found.residual[column] == doctest::Approx((times(A, found.weights.col(column)) - b.col(column)).norm()));
-    CHECK(found.kkt_residual[column] < 1e-14);
+    CHECK(found.report.residual[column] == doctest::Approx((times(A, found.weights.col(column)) - b.col(column)).norm()));
+    CHECK(found.report.kkt_residual[column] < 1e-14);
   }
-  CHECK(found.kkt_residual ==
+  CHECK(found.report.kkt_residual ==
         kkt_violation(problem.normal(), found.weights, 0.0, sign_rule::non_negative).cwiseMax(0.0));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("x >= 0 is the best of all supports") {
     const auto problem = any.problem(any.number(2, 9));
     const scaled units(problem.m.size(), any.seed);
     const auto found = quadratic_program<>().solve(units.equations(problem));
-    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
+    RC_ASSERT(found.report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(found.weights.minCoeff() >= 0.0);
     // At conditions beyond 1e10 elimination does not tell noise from data any more.
     RC_ASSERT(problem.decades > 5.0 || is_best(found, problem, {.non_negative = true}, units));
@@ -163,7 +163,7 @@ TEST_CASE("rows of both kinds, with and without bounds: the best of all active s
     const auto constraints = random_constraints(k, any.number(0, 4), equalities, any.coin(), any.seed + 50);
     const scaled units(k, any.seed);
     const auto found = quadratic_program(units.constraints(constraints)).solve(units.equations(problem));
-    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
+    RC_ASSERT(found.report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(problem.decades > 5.0 || is_best(found, problem, constraints, units));
   }));
 }
@@ -176,11 +176,11 @@ TEST_CASE("larger problems are certified, whatever their rank, condition and sca
     const scaled units(k, any.seed);
     const normal_equations normal = units.equations(problem);
     const auto constraints = random_constraints(k, any.number(0, 12), any.number(0, 6), any.coin(), any.seed + 50);
-    RC_ASSERT(quadratic_program(units.constraints(constraints)).solve(normal).kkt_residual[0] <= 1e-9);
+    RC_ASSERT(quadratic_program(units.constraints(constraints)).solve(normal).report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(quadratic_program<convex_weights>().solve(normal_equations(problem.Q, problem.m)).kkt_residual[0] <=
               1e-9);
     const auto found = quadratic_program<>().solve(normal);
-    RC_ASSERT(found.kkt_residual[0] <= 1e-9);
+    RC_ASSERT(found.report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative)[0] <= 1e-9);
   }));
 }
@@ -191,7 +191,7 @@ TEST_CASE("a linear program: no curvature at all") {
   const Eigen::Vector4d m(1, 7, -2, 3);
   const auto corner = quadratic_program<convex_weights>().solve(normal_equations(nothing, m));
   CHECK(near(corner.weights, numbers({0, 1, 0, 0}), 1e-12));
-  CHECK(corner.kkt_residual[0] < 1e-10);
+  CHECK(corner.report.kkt_residual[0] < 1e-10);
   // x1 + 2 x2 <= 4, 3 x1 + x2 <= 6: the corner (1.6, 1.2) for the gain (1, 1).
   linear_constraints polygon{.non_negative = true};
   polygon.D.resize(2, 2);
@@ -251,7 +251,7 @@ TEST_CASE("an objective that falls for ever is refused") {
   CHECK(contains(refusal(same, none), "unbounded"));
   CHECK(near(quadratic_program<>().solve(same).weights, numbers({1, 0}), 1e-12));
   const linear_constraints capped{.D = numbers({1, 0}).transpose(), .d = vector::Constant(1, 3.0)};
-  CHECK(quadratic_program(capped).solve(same).kkt_residual[0] < 1e-10);
+  CHECK(quadratic_program(capped).solve(same).report.kkt_residual[0] < 1e-10);
   CHECK(for_all_seeds([](unsigned seed) {
     draw any(seed);
     // A ray into x > 0 without curvature and with gain.
@@ -324,11 +324,11 @@ TEST_CASE("online: small changes take fewer steps and change nothing else") {
     const normal_equations normal(problem.Q, both);
     const auto from_scratch = quadratic_program<convex_weights>().solve(normal);
     const auto found = online.solve(normal);
-    CHECK(found.kkt_residual.maxCoeff() < 1e-12);
+    CHECK(found.report.kkt_residual.maxCoeff() < 1e-12);
     CHECK(near(found.weights, from_scratch.weights, 1e-10));
     if (time > 0) {
-      cold += from_scratch.iterations;
-      warm += found.iterations;
+      cold += from_scratch.report.iterations;
+      warm += found.report.iterations;
     }
   }
   CHECK(warm < cold / 2);
@@ -344,10 +344,10 @@ TEST_CASE("the golden instances") {
     const auto x = instance["x"].get<std::vector<double>>();
     const Eigen::Map<const vector> expected(x.data(), std::ssize(x));
     const auto found = quadratic_program<>().solve(normal);
-    CHECK(found.kkt_residual[0] < 1e-13);
+    CHECK(found.report.kkt_residual[0] < 1e-13);
     CHECK((found.weights - expected).cwiseAbs().maxCoeff() < 1e-8 * (1.0 + expected.cwiseAbs().maxCoeff()));
-    CHECK(found.objective[0] == doctest::Approx(normal.objective(expected)[0]).epsilon(1e-10));
-    CHECK(quadratic_program<convex_weights>().solve(normal).kkt_residual[0] < 1e-12);
+    CHECK(found.report.objective[0] == doctest::Approx(normal.objective(expected)[0]).epsilon(1e-10));
+    CHECK(quadratic_program<convex_weights>().solve(normal).report.kkt_residual[0] < 1e-12);
   }
 }
 

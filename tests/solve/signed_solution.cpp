@@ -73,7 +73,7 @@ void check_nnls(const random_problems::problem& problem, const least_squares_pro
     CAPTURE(each.name);
     const gonio::solution found = each.solve(given);
     const auto by_rows = hard_problems::judge(problem, found.weights.col(0), 0.0, true);
-    CHECK(found.kkt_residual[0] <= 1e-9);
+    CHECK(found.report.kkt_residual[0] <= 1e-9);
     CHECK(by_rows.violation <= 1e-9);
     CHECK(found.weights.minCoeff() >= 0.0);
   }
@@ -86,7 +86,7 @@ TEST_CASE("a weight that is zero at the optimum does not keep the other from its
   const normal_equations normal = problem.normal();
   const Eigen::Vector2d expected(0.0, 1.0 / 392.0);
   const auto right = [&](const gonio::solution& found) {
-    return (found.weights.col(0) - expected).cwiseAbs().maxCoeff() <= 1e-15 && found.kkt_residual[0] <= 1e-9;
+    return (found.weights.col(0) - expected).cwiseAbs().maxCoeff() <= 1e-15 && found.report.kkt_residual[0] <= 1e-9;
   };
   CHECK(right(gonio::nnls().solve(normal)));
   CHECK(right(gonio::nnls_block_pivoting().solve(normal)));
@@ -105,7 +105,7 @@ TEST_CASE("66,339 problems [1 0; c c]: none is wrong") {
       for (const auto& found : {gonio::nnls_coordinate_descent().solve(normal), gonio::lasso(0.0).solve(normal),
                                 gonio::nnls_block_pivoting().solve(normal)})
         wrong += std::abs(found.weights(1, 0) - expected) <= 1e-13 * expected &&
-                         std::abs(found.weights(0, 0)) <= 1e-9 * expected && found.kkt_residual[0] <= 1e-9
+                         std::abs(found.weights(0, 0)) <= 1e-9 * expected && found.report.kkt_residual[0] <= 1e-9
                      ? 0u
                      : 1u;
     }
@@ -133,7 +133,7 @@ TEST_CASE("what the normal equations have lost is found in the rows: Kahan's mat
   const auto nnls_ways = hard_problems::all_ways(given, 1.0).front();
   for (const hard_problems::way& each : nnls_ways) {
     CAPTURE(each.name);
-    CHECK(each.solve(given).residual[0] <= 1e-9 * problem.right.norm());
+    CHECK(each.solve(given).report.residual[0] <= 1e-9 * problem.right.norm());
   }
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("large weights are found in the rows, larger ones refused, and still l
   random_problems::problem problem{Eigen::MatrixXd(2, 2), Eigen::Vector2d(0.0, 1.0)};
   problem.matrix << 1, -1, 0, 1e-9;
   const auto found = gonio::nnls().solve(hard_problems::equations(problem));
-  CHECK(found.residual[0] <= 1e-6);
+  CHECK(found.report.residual[0] <= 1e-6);
   CHECK(found.weights(0, 0) == doctest::Approx(1e9).epsilon(1e-6));
   problem.matrix(1, 1) = 3.5e-11;
   CHECK_THROWS_WITH_AS(static_cast<void>(gonio::nnls().solve(hard_problems::equations(problem))),
@@ -184,7 +184,7 @@ TEST_CASE("the rows alone: both signs, a penalty, columns that depend on each ot
     gonio::run_to_convergence(run, gonio::step_limit(normal.unknowns()), "the rows");
     const auto found = hard_problems::judge(problem, run.weights(), lambda, signs == sign_rule::non_negative);
     CHECK(found.violation <= 1e-12);
-    CHECK(found.residual <= 1.0);
+    CHECK(found.report.residual <= 1.0);
   }
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("all weight may be on a column of zeros") {
   const least_squares_problem problem(gonio::row_matrix(a), Eigen::MatrixXd::Zero(2, 1));
   const auto found = gonio::quadratic_program<gonio::convex_weights>().solve(problem);
   CHECK(found.weights.col(0).isApprox(Eigen::Vector2d(0, 1), 1e-12));
-  CHECK(found.kkt_residual[0] <= 1e-9);
+  CHECK(found.report.kkt_residual[0] <= 1e-9);
   const least_squares_problem nothing(gonio::row_matrix::Zero(3, 5), Eigen::MatrixXd::Ones(3, 1));
   CHECK(gonio::quadratic_program<gonio::convex_weights>().solve(nothing).weights.sum() == doctest::Approx(1.0));
 }

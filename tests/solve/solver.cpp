@@ -10,6 +10,6 @@ TEST_CASE("the archetype of a solver solves and certifies") {
   const Eigen::MatrixXd truth = Eigen::MatrixXd::Random(4, 3);
   const auto found = archetype::ordinary_least_squares().solve({rows, rows * truth});
   CHECK(found.weights.isApprox(truth, 1e-10));
-  CHECK(found.residual.maxCoeff() < 1e-12);
-  CHECK(found.kkt_residual.maxCoeff() < 1e-12);
+  CHECK(found.report.residual.maxCoeff() < 1e-12);
+  CHECK(found.report.kkt_residual.maxCoeff() < 1e-12);
 }

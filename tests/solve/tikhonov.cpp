@@ -23,8 +23,8 @@ TEST_CASE("the primal and the dual form agree, tall and wide, weighted and not, 
     const auto dual = tikhonov(eta, tikhonov::form::dual).solve(problem);
     const double scale = 1.0 + primal.weights.cwiseAbs().maxCoeff();
     RC_ASSERT((primal.weights - dual.weights).cwiseAbs().maxCoeff() < 1e-10 * scale);
-    RC_ASSERT(primal.kkt_residual.maxCoeff() < 1e-9);
-    RC_ASSERT(dual.kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(primal.report.kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(dual.report.kkt_residual.maxCoeff() < 1e-9);
   }));
 }
 
@@ -32,7 +32,7 @@ TEST_CASE("a closed form: one equation, one unknown") {
   const auto found =
       tikhonov(3.0).solve(least_squares_problem{row_matrix::Constant(1, 1, 2.0), Eigen::MatrixXd::Constant(1, 1, 7.0)});
   CHECK(found.weights(0, 0) == doctest::Approx(2.0 * 7.0 / (2.0 * 2.0 + 3.0)));
-  CHECK(found.residual[0] == doctest::Approx(7.0 - 2.0 * 2.0));
+  CHECK(found.report.residual[0] == doctest::Approx(7.0 - 2.0 * 2.0));
 }
 
 TEST_CASE("a sample of weight zero does not count, one of weight two counts twice") {
@@ -115,8 +115,8 @@ TEST_CASE("without a row of positive weight the penalty alone decides, in both f
   for (const auto form : {tikhonov::form::primal, tikhonov::form::dual}) {
     const auto found = tikhonov(1.0, form).solve(ignored);
     CHECK(found.weights.isZero(0.0));
-    CHECK(found.kkt_residual[0] == 0.0);
-    CHECK(found.residual[0] == 0.0);
+    CHECK(found.report.kkt_residual[0] == 0.0);
+    CHECK(found.report.residual[0] == 0.0);
   }
 }
 

@@ -65,14 +65,14 @@ TEST_CASE("tall and wide problems agree with the truncated singular value decomp
     const auto found = truncated_svd(share).solve(problem);
     RC_ASSERT(truncated_svd(share).kept(problem) == expected.kept);
     RC_ASSERT(relative_distance(found.weights, expected.x) < 1e-8);
-    RC_ASSERT(relative_distance(found.residual, problem.residual(expected.x)) < 1e-9);
-    RC_ASSERT(relative_distance(found.objective, problem.normal().objective(expected.x)) < 1e-9);
-    RC_ASSERT(found.kkt_residual.maxCoeff() < 1e-12);
+    RC_ASSERT(relative_distance(found.report.residual, problem.residual(expected.x)) < 1e-9);
+    RC_ASSERT(relative_distance(found.report.objective, problem.normal().objective(expected.x)) < 1e-9);
+    RC_ASSERT(found.report.kkt_residual.maxCoeff() < 1e-12);
     // Without the rows, through the k x k normal equations in any case.
     const auto primal = truncated_svd(share).solve(problem.normal());
     RC_ASSERT(truncated_svd(share).kept(problem.normal()) == expected.kept);
     RC_ASSERT(relative_distance(primal.weights, expected.x) < 1e-8);
-    RC_ASSERT(primal.kkt_residual.maxCoeff() < 1e-12);
+    RC_ASSERT(primal.report.kkt_residual.maxCoeff() < 1e-12);
   }));
 }
 
@@ -81,8 +81,8 @@ TEST_CASE("KKT residuals hold for any share, also where singular values fall to 
     const auto n = *rc::gen::inRange<Eigen::Index>(1, 30), k = *rc::gen::inRange<Eigen::Index>(1, 30);
     const double share = 1.0 - std::pow(10.0, -*rc::gen::inRange(0, 160) * 0.1) * 0.999;
     const auto problem = fading_problem(n, k, 0.1, *rc::gen::arbitrary<unsigned>());
-    RC_ASSERT(truncated_svd(share).solve(problem).kkt_residual.maxCoeff() < 1e-9);
-    RC_ASSERT(truncated_svd(1.0).solve(problem).kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(share).solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(1.0).solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
     RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).kkt_residual.maxCoeff() < 1e-9);
   }));
 }
@@ -96,8 +96,8 @@ TEST_CASE("a closed form: on a diagonal matrix unknowns are solved for or left a
   CHECK(relative_distance(truncated_svd(13.0 / 14 + 1e-9).solve(problem).weights, Eigen::Vector3d(5, 2, 4)) < 1e-14);
   CHECK(truncated_svd(1e-300).kept(problem) == 1);
   const auto found = truncated_svd(0.7).solve(problem);
-  CHECK(found.residual[0] == doctest::Approx(std::sqrt(26.0)));
-  CHECK(found.objective[0] == doctest::Approx(0.5 * (26.0 - 126.0)));
+  CHECK(found.report.residual[0] == doctest::Approx(std::sqrt(26.0)));
+  CHECK(found.report.objective[0] == doctest::Approx(0.5 * (26.0 - 126.0)));
 }
 
 TEST_CASE("a share of 1 is the minimum-norm solution: copied columns share the weight, rounding is not kept") {
@@ -112,7 +112,7 @@ TEST_CASE("a share of 1 is the minimum-norm solution: copied columns share the w
     CHECK(relative_distance(found.weights.topRows(8), found.weights.bottomRows(8)) < 1e-12);
     const auto once = truncated_svd(1.0).solve(least_squares_problem{half, problem.right_hand_side()});
     CHECK(relative_distance(2.0 * found.weights.topRows(8), once.weights) < 1e-10);
-    CHECK(found.residual[0] == doctest::Approx(once.residual[0]).scale(1.0));
+    CHECK(found.report.residual[0] == doctest::Approx(once.report.residual[0]).scale(1.0));
   }
 }
 
@@ -120,7 +120,7 @@ TEST_CASE("nothing to keep") {
   for (const Eigen::Index n : {2, 5}) {
     const auto zero = truncated_svd().solve(least_squares_problem{row_matrix::Zero(n, 3), Eigen::MatrixXd::Ones(n, 2)});
     CHECK(zero.weights.isZero(0.0));
-    CHECK(zero.kkt_residual.isZero(0.0));
+    CHECK(zero.report.kkt_residual.isZero(0.0));
     const auto ignored = truncated_svd().solve(
         least_squares_problem{random_matrix(n, 3, 1), Eigen::MatrixXd::Ones(n, 1), Eigen::VectorXd::Zero(n)});
     CHECK(ignored.weights.isZero(0.0));

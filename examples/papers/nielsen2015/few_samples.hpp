@@ -76,8 +76,7 @@ template <gonio::error_metric Metric>
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
-    gonio::solution projected;
-    projected.weights = gonio::project(prior, truth, threads);
+    Eigen::MatrixXd projected = gonio::project(prior, truth, threads);
     const gonio::brdf_table estimate = gonio::fitted_brdf(prior, std::move(projected)).tabulate(truths.cells, threads);
     results.push_back({truths.names[m], gonio::compare(estimate, truth, prior.metric(), judge, threads)});
   }

@@ -113,12 +113,14 @@ json outcome_row(const eta_outcome& choice, double best) {
 /// All ways to choose eta for measurements at some cells with some noise.
 json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& truths,
                    std::span<const std::size_t> cells, double noise, const eta_options& options) {
-  using equations = gonio::basis_equations<gonio::log_relative_pca>;
+  const auto equations_of = [&](const gonio::sample_set& samples) {
+    return gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
+  };
   const auto gcv = gonio::eta_criterion::generalised_cross_validation;
   const gonio::sample_set places = gonio::sample_table(truths.tables[0], cells);
   const double stated = gonio::eta_of_noise(prior, places, noise, options.threads);
   const gonio::eta_range plausible = gonio::plausible_etas(prior, places, 0.3, options.threads);
-  const reconstruction_error error(prior, truths, equations(prior, places).problem().rows());
+  const reconstruction_error error(prior, truths, equations_of(places).rows());
 
   const Eigen::VectorXd etas = gonio::detail::geometric(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
@@ -129,7 +131,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
     for (std::size_t m = 0; m < truths.tables.size(); ++m) {
       const auto samples =
           gonio::sample_table(truths.tables[m], cells, {.noise = noise}, options.seed + 1000 * repetition + m);
-      const auto problem = equations(prior, samples).problem();
+      const auto problem = equations_of(samples);
       const auto rms = [&](double eta) { return error(m, problem.right_hand_side(), eta); };
       const Eigen::VectorXd errors = etas.unaryExpr(rms);
       shared += errors / static_cast<double>(all);

@@ -24,12 +24,6 @@ class basis_equations {
         measured_(std::make_shared<const located_samples>(std::move(samples))),
         threads_(threads) {}
 
-  /// Of whatever `locate_samples` takes for the basis' domain: samples (throws gonio::error for unusable ones) or a
-  /// table, each cell of which is one.
-  template <class Samples>
-  basis_equations(Basis functions, const Samples& samples, thread_count threads = {})
-      : basis_equations(functions, locate_samples(functions.cells(), samples, threads), threads) {}
-
   /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
   [[nodiscard]] std::size_t systems() const noexcept {
     return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : static_cast<std::size_t>(channels());
@@ -56,10 +50,10 @@ class basis_equations {
     return all;
   }
 
-  /// The weights of all functions, size() x channels, by `solver(problem)` for each system, which returns a solution;
-  /// functions that the basis leaves out have weight zero. Systems are solved in parallel.
-  template <class Solve>
-  [[nodiscard]] solution solve(const Solve& solver) const {
+  /// The weights of all functions, size() x channels, by a solver for each system; functions that the basis leaves out
+  /// have weight zero. Systems are solved in parallel.
+  template <solver Solver>
+  [[nodiscard]] solution solve(const Solver& solver) const {
     const std::vector<Eigen::Index> columns = columns_of(basis_);
     const auto unknowns = static_cast<Eigen::Index>(basis_.size());
     std::vector<solution> found(systems());
@@ -68,7 +62,7 @@ class basis_equations {
         [&](block system) {
           const least_squares_problem whole = problem(system.begin);
           const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
-          found[system.begin] = solver(all ? whole : whole.subset(columns));
+          found[system.begin] = solver.solve(all ? whole : whole.subset(columns));
         },
         threads_);
     return scatter_columns(concatenate_columns(found), columns, unknowns);

@@ -19,12 +19,6 @@ template <class Basis, class Solver>
 concept non_negative_weights_need_functions_of_definite_sign =
     !(has_arbitrary_sign<Basis> && solves_non_negative<Solver>);
 
-/// Can measurements be placed on a domain?
-template <class Measurements, class Places>
-concept measured_over = requires(const Places& places, const Measurements& measurements, thread_count threads) {
-  { locate_samples(places, measurements, threads) } -> std::same_as<located_samples>;
-};
-
 /// Fits each colour channel of measurements by a basis, with the weights found by a solver: `basis_equations` says what
 /// is solved.
 ///
@@ -39,14 +33,12 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
-  /// Of samples, or a table, each cell of which is one of weight 1; over another domain of what is measured there.
-  /// Cost of the solver plus O(samples x size of the basis) for reading the rows; O(samples x size^2) more where the
+  /// Of samples, or a table, each cell of which is one of weight 1. Cost of the solver plus O(samples x size of the basis) for reading the rows; O(samples x size^2) more where the
   /// solver wants the normal equations. Throws gonio::error for unusable samples, or if the solver gives up.
-  template <class Measurements>
-  requires measured_over<Measurements, domain_of<Basis>>
-  [[nodiscard]] fit_by<Basis> fit(const Measurements& measurements) const {
-    const basis_equations<Basis> equations(basis_, measurements, threads_);
-    return {basis_, equations.solve([this](const least_squares_problem& problem) { return solver_.solve(problem); })};
+  template <class Samples>
+  [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
+    const basis_equations equations(basis_, locate_samples(basis_.cells(), samples, threads_), threads_);
+    return {basis_, equations.solve(solver_)};
   }
 
  private:

@@ -61,7 +61,7 @@ template <error_metric Metric, class Samples>
 template <error_metric Metric, class Samples>
 [[nodiscard]] double eta_of_unknown_noise(const pca<Metric>& prior, const Samples& samples, double largest_noise = 0.3,
                                           thread_count threads = {}) {
-  return choose_eta(basis_equations<pca<Metric>>(prior, samples, threads).problems(),
+  return choose_eta(basis_equations(prior, locate_samples(prior.cells(), samples, threads), threads).problems(),
                     eta_criterion::generalised_cross_validation,
                     plausible_etas(prior, samples, largest_noise, threads));
 }

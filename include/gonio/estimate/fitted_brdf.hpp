@@ -10,13 +10,14 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
 namespace gonio {
 
-/// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and what the
-/// solver said about it. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
+/// offset + rows . weights in the metric's domain, mapped back and clamped at zero: a BRDF, and the solver's report if
+/// a solver found the weights. Evaluation costs O(8 x size of the basis), or one row where rows are computed; tabulate
 /// for the inner loop of a renderer.
 ///
 /// Rows that a basis stores are multiplied by the weights in float, rows that it computes in double: functions given by
@@ -28,25 +29,31 @@ class fitted_brdf {
   /// How many functions of a computed basis fit on the stack, where evaluation keeps their row: it does not allocate.
   static constexpr int most_computed_functions = 4096;
 
-  /// `found.weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or
-  /// for more than `most_computed_functions` that are computed.
-  fitted_brdf(Basis basis, solution found)
+  /// `weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or for more
+  /// than `most_computed_functions` that are computed.
+  fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {})
       : basis_(std::move(basis)),
         channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
-        found_(std::move(found)),
-        weights_(found_.weights.rows(), found_.weights.cols()) {
+        weights_(std::move(weights)),
+        report_(std::move(report)),
+        float_weights_(weights_.rows(), weights_.cols()) {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
       throw error{"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"};
     if (computed && weights_.rows() > most_computed_functions)
       throw error{"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
                   basis_.size()};
     for (Eigen::Index i = 0; i < weights_.size(); ++i)
-      weights_.data()[i] = static_cast<float>(found_.weights.data()[i]);
+      float_weights_.data()[i] = static_cast<float>(weights_.data()[i]);
   }
 
+  fitted_brdf(Basis basis, solution found)
+      : fitted_brdf(std::move(basis), std::move(found.weights), std::move(found.report)) {}
+
   [[nodiscard]] const Basis& functions() const noexcept { return basis_; }
-  /// The solver's weights, residuals and KKT residual, one for each colour channel.
-  [[nodiscard]] const solution& found() const noexcept { return found_; }
+  /// (size of the basis) x 3, one column for each colour channel.
+  [[nodiscard]] const Eigen::MatrixXd& weights() const noexcept { return weights_; }
+  /// What the solver says of the weights; nothing if no solver found them.
+  [[nodiscard]] const std::optional<solve_report>& report() const noexcept { return report_; }
 
   /// Reflectance in sr^-1, at least zero; zero below the horizon.
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
@@ -130,7 +137,7 @@ class fitted_brdf {
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
   [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {
-    const float* weights = weights_.data() + static_cast<Eigen::Index>(channel) * weights_.rows();
+    const float* weights = float_weights_.data() + static_cast<Eigen::Index>(channel) * weights_.rows();
     return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
            static_cast<float>(channels_[channel].offset(cell));
   }
@@ -155,12 +162,12 @@ class fitted_brdf {
 
   /// The three channels at a place, from one row if they share their basis.
   [[nodiscard]] rgb computed_value(const location& at) const noexcept {
-    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(found_.weights.rows());
+    Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
       const channel_type& functions = channels_[static_cast<std::size_t>(c)];
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
-      value[c] = row.dot(found_.weights.col(c)) + offset_at(functions, at);
+      value[c] = row.dot(weights_.col(c)) + offset_at(functions, at);
     }
     return value;
   }
@@ -197,20 +204,9 @@ class fitted_brdf {
 
   Basis basis_;
   std::array<channel_type, 3> channels_;
-  solution found_;
-  Eigen::MatrixXf weights_;
+  Eigen::MatrixXd weights_;
+  std::optional<solve_report> report_;
+  Eigen::MatrixXf float_weights_;  // what products with stored rows read
 };
-
-/// What a fit over a domain is: a BRDF, unless the domain's own specialisation of this says otherwise. `type<Basis>` is
-/// constructed from the basis and the solution.
-template <domain Places>
-struct fit_over {
-  template <colour_basis Basis>
-  using type = fitted_brdf<Basis>;
-};
-
-/// What a fit by a basis is.
-template <colour_basis Basis>
-using fit_by = typename fit_over<domain_of<Basis>>::template type<Basis>;
 
 }  // namespace gonio

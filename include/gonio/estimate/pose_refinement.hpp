@@ -159,14 +159,12 @@ class pose_refinement {
   [[nodiscard]] bool converged() const noexcept { return iteration_.converged(); }
   [[nodiscard]] std::size_t materials() const noexcept { return iteration_.materials(); }
   /// Throws gonio::error unless there is such a material.
-  [[nodiscard]] fitted_brdf<pca<Metric>> fit(std::size_t material = 0) const {
-    solution found;
-    found.weights = iteration_.weights(material);
-    return {prior_, std::move(found)};
+  [[nodiscard]] fitted_brdf<pca<Metric>> result(std::size_t material = 0) const {
+    return {prior_, iteration_.weights(material)};
   }
 
   /// The samples of a material where they were found to be, with the values that they have there, for any estimator.
-  /// Throws as `fit` does.
+  /// Throws as `result` does.
   [[nodiscard]] sample_set samples(std::size_t material = 0) const { return iteration_.samples(material); }
 
   /// One step of Gauss and Newton.

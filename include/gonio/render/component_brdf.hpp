@@ -88,7 +88,7 @@ class shared_components {
 /// three exponentials; it does not allocate, lock or throw. A view of the components, which must outlive it.
 /// ```cpp
 /// const gonio::render::shared_components<Eigen::half> components(prior);
-/// const gonio::render::component_brdf paint(components, fit.found().weights);
+/// const gonio::render::component_brdf paint(components, fit.weights());
 /// ```
 /// Black where `lookup_table` is. Both directions must be of unit length, because the mapping depends on their cosines.
 template <stored_number Stored = float, interpolation Interpolation = interpolation::trilinear>

@@ -23,7 +23,7 @@ namespace gonio::shape {
 class shape_uncertainty {
  public:
   /// Of a fit by `solver` of these known vertices: O(3 known x k^2) for a basis of k components. Throws gonio::error
-  /// for known vertices that `decomposition` refuses.
+  /// for known vertices that `fit_shape` refuses.
   shape_uncertainty(const fitted_shape& fit, const vertex_observations& known, const any_solver& solver);
 
   /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) about where it is predicted with this

@@ -301,7 +301,7 @@ template <sign_rule Signs, quadratic_problem Problem, class Start>
     }
   }
   solution found = detail::certified(problem, {Signs, lambda, method}, std::move(weights));
-  found.iterations = iterations;
+  found.report.iterations = iterations;
   return found;
 }
 

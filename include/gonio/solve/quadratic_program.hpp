@@ -106,17 +106,17 @@ template <quadratic_problem Problem, class SolveOne>
   const bool second_chance = has_rows && constraints.d.size() == 0 && constraints.e.size() == 0;
   solution found;
   found.weights.resize(normal.unknowns(), normal.right_hand_sides());
-  found.kkt_residual.resize(normal.right_hand_sides());
+  found.report.kkt_residual.resize(normal.right_hand_sides());
   for (Eigen::Index column = 0; column < normal.right_hand_sides(); ++column) {
     try {
       const program_optimum optimum = solve_one(solver, column);
       found.weights.col(column) = optimum.weights;
-      found.kkt_residual[column] = optimum.kkt_residual;
-      found.iterations += optimum.iterations;
+      found.report.kkt_residual[column] = optimum.kkt_residual;
+      found.report.iterations += optimum.iterations;
     } catch (const error&) {
       if (!second_chance) throw;
       found.weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
-      found.kkt_residual[column] = std::numeric_limits<double>::infinity();
+      found.report.kkt_residual[column] = std::numeric_limits<double>::infinity();
     }
   }
   return certified_program(problem, constraints, std::move(found));

@@ -13,13 +13,18 @@
 
 namespace gonio {
 
-/// What a solver found, one column or entry for each right-hand side of the problem.
-struct solution {
-  Eigen::MatrixXd weights;       ///< k x r
+/// How good the weights are that a solver found, one entry for each right-hand side.
+struct solve_report {
   Eigen::VectorXd residual;      ///< weighted norm of A x - b
   Eigen::VectorXd objective;     ///< 1/2 x'Q x - m'x (Noell et al. 2014, Eq. 10), plus the solver's own penalty
   Eigen::VectorXd kkt_residual;  ///< violation of the solver's own optimality (KKT) conditions, see kkt.hpp
   int iterations = 0;            ///< of all right-hand sides together; 0 for a direct solver
+};
+
+/// What a solver returns. Weights that no solver found have no report: whoever keeps such weights keeps a matrix.
+struct solution {
+  Eigen::MatrixXd weights;  ///< k x r, one column for each right-hand side
+  solve_report report;
 };
 
 /// Solutions of several problems in the same unknowns as one, right-hand side by right-hand side.
@@ -54,7 +59,7 @@ inline constexpr double kkt_residual_limit = 1e-9;
 ///   gonio::solution solve(const gonio::least_squares_problem& problem) const {
 ///     const gonio::normal_equations& normal = problem.normal();
 ///     const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.rhs());
-///     return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
+///     return {x, {problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)}};
 ///   }
 /// };
 /// static_assert(gonio::solver<ordinary_least_squares>);

@@ -3,7 +3,6 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/estimate/decomposition.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
@@ -125,7 +124,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
   for (int iteration = 1;; ++iteration) {
     vertex_observations places = detail::trusted_places(posed, shape, options, threads);
     require_shown(places, part);
-    fitted_shape fit = decomposition{with_motion(part.basis(), shape.vertices, freedom), solver, threads}.fit(places);
+    fitted_shape fit = fit_shape(with_motion(part.basis(), shape.vertices, freedom), solver, places, threads);
     // The scan moves, not the shape.
     posed.pose = detail::motion_of(fit.weights(), shape.vertices, freedom).inverse() * posed.pose;
     point_columns vertices = shape_of(part.basis(), fit.weights().head(k));

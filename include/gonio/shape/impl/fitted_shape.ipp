@@ -86,8 +86,7 @@ GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const ver
 
 namespace gonio::shape {
 
-GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinates, const vertex_observations& known,
-                                            thread_count /*threads*/) {
+GONIO_INLINE located_samples locate_vertices(const vertex_coordinates& coordinates, const vertex_observations& known) {
   detail::require_known(coordinates, known);
   located_samples found;
   found.at.reserve(3 * known.vertices.size());
@@ -110,9 +109,10 @@ GONIO_INLINE located_samples locate_samples(const vertex_coordinates& coordinate
 }
 
 GONIO_INLINE fitted_shape::fitted_shape(shape_basis basis, solution found)
-    : basis_(std::move(basis)), found_(std::move(found)) {
-  if (found_.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found_.weights.cols() != 1)
+    : basis_(std::move(basis)), report_(std::move(found.report)) {
+  if (found.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found.weights.cols() != 1)
     throw error{"a shape of ", basis_.size(), " functions needs as many weights"};
+  weights_ = found.weights.col(0);
 }
 
 GONIO_INLINE Eigen::Vector3d fitted_shape::vertex(Eigen::Index number) const {
@@ -120,8 +120,8 @@ GONIO_INLINE Eigen::Vector3d fitted_shape::vertex(Eigen::Index number) const {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const Eigen::Index coordinate = 3 * number + axis;
     position[axis] = basis_.offset(static_cast<std::size_t>(coordinate));
-    for (Eigen::Index i = 0; i < found_.weights.rows(); ++i)
-      position[axis] += basis_.components()(coordinate, i) * found_.weights(i, 0);
+    for (Eigen::Index i = 0; i < weights_.size(); ++i)
+      position[axis] += basis_.components()(coordinate, i) * weights_[i];
   }
   return position;
 }

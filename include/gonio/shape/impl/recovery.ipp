@@ -4,7 +4,6 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/estimate/decomposition.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
@@ -81,7 +80,7 @@ namespace gonio::shape::detail {
           near.positions = chosen_columns(known.positions, columns);
           near.normals = chosen_columns(known.normals, columns);
           near.tangential = known.tangential;
-          predicted.col(vertex) = decomposition{model.basis(), solver, thread_count{1}}.fit(near).vertex(vertex);
+          predicted.col(vertex) = fit_shape(model.basis(), solver, near, {1}).vertex(vertex);
         }
       },
       threads);
@@ -118,7 +117,7 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
     // Predict what is missing, and what is known.
     if (round < options.rounds) {
       const truncated_svd solver{detail::explained_variance_in(round, options)};
-      shape.vertices = decomposition{model.basis(), solver, threads}.fit(known).vertices();
+      shape.vertices = fit_shape(model.basis(), solver, known, threads).vertices();
     } else {
       shape.vertices = detail::predict_locally(model, mean, known, options, threads);
     }

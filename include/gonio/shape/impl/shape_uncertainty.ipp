@@ -19,7 +19,7 @@ namespace gonio::shape {
 GONIO_INLINE shape_uncertainty::shape_uncertainty(const fitted_shape& fit, const vertex_observations& known,
                                                   const any_solver& solver)
     : basis_(fit.functions()) {
-  const least_squares_problem problem = basis_equations<shape_basis>(basis_, known).problem();
+  const least_squares_problem problem = basis_equations(basis_, locate_vertices(basis_.cells(), known)).problem();
   const row_matrix rows = problem.rows();
   const Eigen::MatrixXd seen = solver.solve(least_squares_problem(rows, rows, problem.weights())).weights;
   const Eigen::MatrixXd transposed = seen.transpose();

@@ -117,16 +117,16 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
     const Eigen::MatrixXd transposed = triangle.transpose();
     found.weights = detail::minimum_norm(detail::scaled_rows(qr.colsPermutation() * transposed, lengths), kept);
   }
-  found.residual = problem.residual(found.weights);
+  found.report.residual = problem.residual(found.weights);
   // 1/2 x'Qx - m'x as half the difference of two squares: the terms themselves cancel when x is large.
-  found.objective.resize(found.residual.size());
-  for (Eigen::Index column = 0; column < found.residual.size(); ++column)
-    found.objective[column] = 0.5 * (found.residual[column] * found.residual[column] -
+  found.report.objective.resize(found.report.residual.size());
+  for (Eigen::Index column = 0; column < found.report.residual.size(); ++column)
+    found.report.objective[column] = 0.5 * (found.report.residual[column] * found.report.residual[column] -
                                      problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
-  found.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
-  for (Eigen::Index column = 0; column < found.objective.size(); ++column) {
-    const double residual = found.residual[column];
-    if (!(found.objective[column] <= 1e-9 * (0.5 * residual * residual - found.objective[column])))
+  found.report.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
+  for (Eigen::Index column = 0; column < found.report.objective.size(); ++column) {
+    const double residual = found.report.residual[column];
+    if (!(found.report.objective[column] <= 1e-9 * (0.5 * residual * residual - found.report.objective[column])))
       throw error(
           "least squares explain less than weights of zero would: the columns are too ill-conditioned for double "
           "precision, and a larger rank threshold drops those that depend on each other");
@@ -144,9 +144,9 @@ GONIO_INLINE solution least_squares::solve(const normal_equations& normal) const
     found.weights = detail::scaled_rows(product(vectors, kept), lengths.cwiseInverse());
   else
     found.weights = detail::minimum_norm(detail::scaled_rows(vectors, lengths), kept);
-  found.residual = normal.residual(found.weights);
-  found.objective = normal.objective(found.weights);
-  found.kkt_residual = stationarity(normal, found.weights);
+  found.report.residual = normal.residual(found.weights);
+  found.report.objective = normal.objective(found.weights);
+  found.report.kkt_residual = stationarity(normal, found.weights);
   return found;
 }
 

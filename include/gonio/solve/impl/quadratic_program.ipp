@@ -153,8 +153,8 @@ GONIO_INLINE solution certified_program(const normal_equations& normal, const li
                                         solution found) {
   if (!has_constraint_rows(constraints))
     return certified_signed_program(normal, constraints.non_negative, std::move(found));
-  found.residual = normal.residual(found.weights);
-  found.objective = normal.objective(found.weights);
+  found.report.residual = normal.residual(found.weights);
+  found.report.objective = normal.objective(found.weights);
   return found;
 }
 
@@ -164,10 +164,10 @@ GONIO_INLINE solution certified_program(const least_squares_problem& problem, co
     return certified_signed_program(problem, constraints.non_negative, std::move(found));
   const normal_equations& normal = problem.normal();
   found = certified_program(normal, constraints, std::move(found));
-  const Eigen::VectorXd by_normal = std::exchange(found.residual, problem.residual(found.weights));
+  const Eigen::VectorXd by_normal = std::exchange(found.report.residual, problem.residual(found.weights));
   for (Eigen::Index column = 0; column < by_normal.size(); ++column) {
-    const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.residual[column];
-    if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.objective[column]) >
+    const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.report.residual[column];
+    if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.report.objective[column]) >
         kkt_residual_limit * (residual * residual + rhs_squared_norm))
       throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
                   " by the rows and ", by_normal[column], " by them"};

@@ -36,11 +36,11 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
                                               Eigen::MatrixXd weights) {
   solution found;
   found.weights = std::move(weights);
-  found.residual = normal.residual(found.weights);
-  found.objective = normal.objective(found.weights);
+  found.report.residual = normal.residual(found.weights);
+  found.report.objective = normal.objective(found.weights);
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column)
-    found.objective[column] += penalty_at(found, column, task.lambda);
-  found.kkt_residual = kkt_violation(normal, found.weights, task.lambda, task.signs);
+    found.report.objective[column] += penalty_at(found, column, task.lambda);
+  found.report.kkt_residual = kkt_violation(normal, found.weights, task.lambda, task.signs);
   return found;
 }
 
@@ -57,7 +57,7 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 [[nodiscard]] GONIO_INLINE std::string objection(const normal_equations& normal, const solution& found,
                                                  Eigen::Index column, double rounding, double limit) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  if (!(found.kkt_residual[column] <= limit)) return "the best weights found miss the optimality conditions";
+  if (!(found.report.kkt_residual[column] <= limit)) return "the best weights found miss the optimality conditions";
   const double rhs_squared_norm = normal.rhs_squared_norm()[column],
                rhs = normal.rhs().col(column).cwiseAbs().maxCoeff();
   if (rhs_squared_norm == 0.0 && rhs > 0.0) return "";  // nobody told
@@ -65,8 +65,8 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
   if (!(epsilon * reach_of(normal, found.weights, column) <= rounding_tolerance * std::sqrt(rhs_squared_norm)))
     return "the weights are so large that rounding them moves A x by 1e-5 |b|";
   const double allowed = objective_tolerance * half + rounding;
-  if (!(found.objective[column] <= allowed)) return "the best weights found explain less than none would";
-  if (!(found.objective[column] >= -half - allowed)) return "the best weights found explain more than there is";
+  if (!(found.report.objective[column] <= allowed)) return "the best weights found explain less than none would";
+  if (!(found.report.objective[column] >= -half - allowed)) return "the best weights found explain more than there is";
   return "";
 }
 
@@ -107,9 +107,9 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 /// Takes one right-hand side of another solution.
 GONIO_INLINE void take(const solution& from, Eigen::Index column, solution& to) {
   to.weights.col(column) = from.weights.col(column);
-  to.residual[column] = from.residual[column];
-  to.objective[column] = from.objective[column];
-  to.kkt_residual[column] = from.kkt_residual[column];
+  to.report.residual[column] = from.report.residual[column];
+  to.report.objective[column] = from.report.objective[column];
+  to.report.kkt_residual[column] = from.report.kkt_residual[column];
 }
 
 GONIO_INLINE solution certified(const normal_equations& normal, const signed_task& task, Eigen::MatrixXd weights) {
@@ -126,7 +126,7 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
       const solution other = evaluated(normal, task, std::move(again));
       const std::string why = objection_to(other, column, kkt_residual_limit);
       if (!why.empty()) throw no_optimum(task, why);
-      if (!good_enough || other.kkt_residual[column] < found.kkt_residual[column]) take(other, column, found);
+      if (!good_enough || other.report.kkt_residual[column] < found.report.kkt_residual[column]) take(other, column, found);
     } catch (const error&) {
       if (!good_enough) throw;
     }
@@ -137,16 +137,16 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
 /// Does the objective of the normal equations agree with the residual of the rows?
 [[nodiscard]] GONIO_INLINE bool rows_agree(const normal_equations& normal, const solution& found, Eigen::Index column,
                                            double lambda) {
-  const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.residual[column];
+  const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.report.residual[column];
   const double of_rows = 0.5 * (residual * residual - rhs_squared_norm) + penalty_at(found, column, lambda);
-  return std::abs(of_rows - found.objective[column]) <= 0.5 * objective_tolerance * rhs_squared_norm;
+  return std::abs(of_rows - found.report.objective[column]) <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
 /// Weights whose gradient is off by a share of |b| + reach explain at most reach times as much less than the optimum.
 [[nodiscard]] GONIO_INLINE bool gap_is_small(const normal_equations& normal, const solution& found,
                                              Eigen::Index column) {
   const double rhs_squared_norm = normal.rhs_squared_norm()[column], reach = reach_of(normal, found.weights, column);
-  const double gap = found.kkt_residual[column] * (std::sqrt(rhs_squared_norm) + reach) * reach;
+  const double gap = found.report.kkt_residual[column] * (std::sqrt(rhs_squared_norm) + reach) * reach;
   return gap <= 0.5 * objective_tolerance * rhs_squared_norm;
 }
 
@@ -154,7 +154,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
                                 Eigen::MatrixXd weights) {
   const normal_equations& normal = problem.normal();
   solution found = evaluated(normal, task, std::move(weights));
-  found.residual = problem.residual(found.weights);
+  found.report.residual = problem.residual(found.weights);
   Eigen::MatrixXd triangle;
   std::vector<Eigen::Index> mended;
   for (Eigen::Index column = 0; column < found.weights.cols(); ++column) {
@@ -170,13 +170,13 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
     mended.push_back(column);
   }
   if (mended.empty()) return found;
-  found.residual = problem.residual(found.weights);
+  found.report.residual = problem.residual(found.weights);
   const std::vector<scaled_gradient> gradients = gradients_of_rows(problem, found.weights);
   for (const Eigen::Index column : mended) {
-    const double residual = found.residual[column];
-    found.objective[column] =
+    const double residual = found.report.residual[column];
+    found.report.objective[column] =
         0.5 * (residual * residual - normal.rhs_squared_norm()[column]) + penalty_at(found, column, task.lambda);
-    found.kkt_residual[column] =
+    found.report.kkt_residual[column] =
         kkt_violation(gradients[static_cast<std::size_t>(column)], &found.weights(0, column), task.lambda, task.signs);
     const std::string why = objection(normal, found, column, 0.0, kkt_residual_limit);
     if (!why.empty()) throw no_optimum(task, why);

@@ -19,17 +19,17 @@ namespace gonio {
 GONIO_INLINE solution concatenate_columns(std::span<const solution> parts) {
   Eigen::Index columns = 0;
   for (const solution& part : parts) columns += part.weights.cols();
-  solution all{Eigen::MatrixXd(parts.front().weights.rows(), columns), Eigen::VectorXd(columns),
-               Eigen::VectorXd(columns), Eigen::VectorXd(columns)};
+  solution all{Eigen::MatrixXd(parts.front().weights.rows(), columns),
+               {Eigen::VectorXd(columns), Eigen::VectorXd(columns), Eigen::VectorXd(columns)}};
   Eigen::Index first = 0;
   for (const solution& part : parts) {
     const Eigen::Index count = part.weights.cols();
     const Eigen::Index unknowns = all.weights.rows();
     std::copy_n(part.weights.data(), unknowns * count, all.weights.data() + unknowns * first);
-    std::copy_n(part.residual.data(), count, all.residual.data() + first);
-    std::copy_n(part.objective.data(), count, all.objective.data() + first);
-    std::copy_n(part.kkt_residual.data(), count, all.kkt_residual.data() + first);
-    all.iterations += part.iterations;
+    std::copy_n(part.report.residual.data(), count, all.report.residual.data() + first);
+    std::copy_n(part.report.objective.data(), count, all.report.objective.data() + first);
+    std::copy_n(part.report.kkt_residual.data(), count, all.report.kkt_residual.data() + first);
+    all.report.iterations += part.report.iterations;
     first += count;
   }
   return all;
@@ -46,13 +46,13 @@ GONIO_INLINE solution scatter_columns(solution found, std::span<const Eigen::Ind
 }
 
 GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_problem& problem) {
-  found.residual = problem.residual(found.weights);
+  found.report.residual = problem.residual(found.weights);
   return found;
 }
 
 GONIO_INLINE solution detail::require_certified(solution found, std::string_view solver) {
-  for (Eigen::Index column = 0; column < found.kkt_residual.size(); ++column)
-    if (!(found.kkt_residual[column] <= kkt_residual_limit))
+  for (Eigen::Index column = 0; column < found.report.kkt_residual.size(); ++column)
+    if (!(found.report.kkt_residual[column] <= kkt_residual_limit))
       throw error{solver, " has found no optimum of right-hand side ", column,
                   ": the problem is too ill-conditioned for double precision"};
   return found;

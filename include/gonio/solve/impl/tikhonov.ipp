@@ -57,14 +57,14 @@ struct ridge_rows {
   const Eigen::MatrixXd misfit = ridge.misfit(x), gradient = ridge.gradient(misfit, x),
                         rhs = thin_transposed_product(ridge.rows, ridge.right);
   const Eigen::VectorXd nothing(x.cols());
-  solution found{std::move(x), nothing, nothing, nothing};
+  solution found{std::move(x), {nothing, nothing, nothing}};
   for (Eigen::Index column = 0; column < misfit.cols(); ++column) {
     const double squares = squared_norm(misfit, column);
-    found.residual[column] = std::sqrt(squares);
-    found.objective[column] =
+    found.report.residual[column] = std::sqrt(squares);
+    found.report.objective[column] =
         0.5 * (squares - squared_norm(ridge.right, column) + ridge.eta * squared_norm(found.weights, column));
     const double scale = largest_magnitude(rhs, column);
-    found.kkt_residual[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
+    found.report.kkt_residual[column] = largest_magnitude(gradient, column) / (scale > 0.0 ? scale : 1.0);
   }
   return found;
 }

@@ -64,11 +64,11 @@ struct subspace_solution {
   [[nodiscard]] solution judged() const {
     const double led_out = relative_violation(outside(span), largest);
     const Eigen::MatrixXd gradient = product(basis.transpose(), projected_image - rhs), away = outside(x);
-    solution found{x, Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols())};
+    solution found{x, {Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols()), Eigen::VectorXd(x.cols())}};
     for (Eigen::Index column = 0; column < x.cols(); ++column) {
       const double norm = x.col(column).norm();
-      found.objective[column] = x.col(column).dot(0.5 * projected_image.col(column) - rhs.col(column));
-      found.kkt_residual[column] =
+      found.report.objective[column] = x.col(column).dot(0.5 * projected_image.col(column) - rhs.col(column));
+      found.report.kkt_residual[column] =
           std::max({led_out, relative_violation(gradient.col(column), rhs.col(column).norm() + largest * norm),
                     relative_violation(away.col(column), norm)});
     }
@@ -123,7 +123,7 @@ GONIO_INLINE solution truncated_svd::solve(const normal_equations& normal) const
                         span = product(normal.gram(), vectors);
   const double largest = values.size() > 0 ? values[values.size() - 1] : 0.0;
   solution found = detail::subspace_solution{x, normal.rhs(), vectors, projected_image, span, largest}.judged();
-  found.residual = normal.residual(x);
+  found.report.residual = normal.residual(x);
   return detail::require_certified(std::move(found), "the truncated SVD");
 }
 
