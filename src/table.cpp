@@ -2,7 +2,6 @@
 
 #include <gonio/table/impl/brdf_table.ipp>
 #include <gonio/table/impl/image.ipp>
-#include <gonio/table/impl/image_samples.ipp>
 #include <gonio/table/impl/material_set.ipp>
 #include <gonio/table/impl/sample_set.ipp>
 #include <gonio/table/impl/tensor_view.ipp>

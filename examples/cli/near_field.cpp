@@ -51,9 +51,9 @@ std::vector<taken_image> read_images(const near_field_command& options) {
   return taken;
 }
 
-gonio::image_samples samples_of(const taken_image& picture) {
+gonio::sample_set samples_of(const taken_image& picture) {
   try {
-    return gonio::capture::near_field_pairs(picture.pixels, picture.setup);
+    return gonio::capture::near_field_samples(picture.pixels, picture.setup);
   } catch (const gonio::error& refusal) {
     throw gonio::error(picture.file + " (as " + picture.setup_file + " says): " + refusal.what());
   }
@@ -62,7 +62,7 @@ gonio::image_samples samples_of(const taken_image& picture) {
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
 
 /// The samples of each image, for each of some materials.
-using samples_of_materials = std::vector<std::vector<gonio::image_samples>>;
+using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 
 /// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
 /// were off.
@@ -89,15 +89,12 @@ std::vector<gonio::sample_set> joined(const std::vector<taken_image>& pictures, 
   if (options.angular_error != 0.0) return refined(pictures, std::move(samples), options);
   std::vector<gonio::sample_set> all(samples.size());
   for (std::size_t m = 0; m < samples.size(); ++m)
-    for (const gonio::image_samples& picture : samples[m]) {
-      const gonio::sample_set own = gonio::as_sample_set(picture);
-      all[m].insert(all[m].end(), own.begin(), own.end());
-    }
+    for (const gonio::sample_set& own : samples[m]) all[m].insert(all[m].end(), own.begin(), own.end());
   return all;
 }
 
 /// How many samples each image has, a line each.
-std::string counts_of(const std::vector<taken_image>& pictures, const std::vector<gonio::image_samples>& samples) {
+std::string counts_of(const std::vector<taken_image>& pictures, const std::vector<gonio::sample_set>& samples) {
   std::string lines;
   for (std::size_t i = 0; i < pictures.size(); ++i)
     lines += pictures[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
@@ -106,7 +103,7 @@ std::string counts_of(const std::vector<taken_image>& pictures, const std::vecto
 
 /// All images' samples in one file; prints how many each has.
 void write_samples_of_one(const std::vector<taken_image>& pictures, const near_field_command& options) {
-  std::vector<gonio::image_samples> samples;
+  std::vector<gonio::sample_set> samples;
   for (const taken_image& picture : pictures) samples.push_back(samples_of(picture));
   const std::string counts = counts_of(pictures, samples);
   gonio::io::write_samples(options.output, joined(pictures, {std::move(samples)}, options).front());

@@ -49,7 +49,7 @@ gonio::image factor_slice(const Sigma& sigma, gonio::thread_count threads) {
 
 /// How far a sample is from the slice at phi_d = 90 degrees, in radians.
 double distance_to_slice(const gonio::sample& s) {
-  const double turns = s.angles.phi_d / std::numbers::pi;
+  const double turns = s.angles().phi_d / std::numbers::pi;
   return std::abs(turns - std::floor(turns) - 0.5) * std::numbers::pi;
 }
 
@@ -75,7 +75,7 @@ gonio::image sparse_slice(const gonio::sample_set& samples, const gonio::rgb& no
   const int reach = shown.size() <= 400 ? 1 : 0;
   gonio::image picture = gonio::uniform_image(tile, tile, nothing);
   for (const std::size_t i : shown) {
-    const gonio::half_difference in_slice{samples[i].angles.theta_h, samples[i].angles.theta_d, 0.0};
+    const gonio::half_difference in_slice{samples[i].angles().theta_h, samples[i].angles().theta_d, 0.0};
     const gonio::cell_index cell = nodes.nearest(in_slice);
     const int left = 2 * cell.theta_h, top = tile - 2 - 2 * cell.theta_d;
     for (int row = std::max(top - reach, 0); row < std::min(top + 2 + reach, tile); ++row)

@@ -6,7 +6,6 @@
 #include <gonio/table/domain.hpp>
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/image_samples.hpp>
 #include <gonio/table/location.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>

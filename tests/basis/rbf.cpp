@@ -146,7 +146,7 @@ TEST_CASE("measured at its centres alone, a fit interpolates the values there") 
   for (std::size_t i = 0; i < centres.size(); ++i)
     samples.push_back({centres[i], gonio::rgb(1.0, 0.4, 0.5) + 0.3 * std::sin(17.0 * static_cast<double>(i))});
   const auto fit = gonio::decomposition{rbf{small_cells(), gonio::log{}, centres}, gonio::tikhonov{1e-10}}.fit(samples);
-  for (const gonio::sample& s : samples) CHECK((value_at(fit, s.angles) - s.value).abs().maxCoeff() < 1e-6);
+  for (const gonio::sample& s : samples) CHECK((value_at(fit, s.angles()) - s.value).abs().maxCoeff() < 1e-6);
   CHECK(fit.report()->kkt_residual.maxCoeff() < 1e-9);
 }
 

@@ -41,7 +41,7 @@ TEST_CASE("calibration: the ratio to the white reference is the BRDF") {
   CHECK(found.relative_deviation() < 0.012);
   const gonio::sample as_sample = found.as_sample();
   CHECK(as_sample.weight == found.weights());
-  CHECK(as_sample.angles.theta_d == doctest::Approx(gonio::to_half_difference(somewhere.wi, somewhere.wo).theta_d));
+  CHECK(as_sample.angles().theta_d == doctest::Approx(gonio::to_half_difference(somewhere.wi, somewhere.wo).theta_d));
 }
 
 TEST_CASE("calibration: surfaces at other places are corrected for") {

@@ -45,13 +45,13 @@ rgb truth_at(const gonio::half_difference& angles) {
 double largest_error(const gonio::sample_set& samples) {
   double largest = 0.0;
   for (const gonio::sample& s : samples)
-    largest = std::max(largest, (s.value / truth_at(s.angles) - 1.0).abs().maxCoeff());
+    largest = std::max(largest, (s.value / truth_at(s.angles()) - 1.0).abs().maxCoeff());
   return largest;
 }
 
 double root_mean_square_error(const gonio::sample_set& samples) {
   double sum = 0.0;
-  for (const gonio::sample& s : samples) sum += (s.value / truth_at(s.angles) - 1.0).square().sum();
+  for (const gonio::sample& s : samples) sum += (s.value / truth_at(s.angles()) - 1.0).square().sum();
   return std::sqrt(sum / (3.0 * static_cast<double>(samples.size())));
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("samples are the disc's pixels in their order, with the light that was
       const auto point = line.at_ground();
       if (!point || point->norm() > setup.disc->radius) continue;
       REQUIRE(next < samples.size());
-      const auto& angles = samples[next++].angles;
+      const auto& angles = samples[next++].angles();
       const auto expected = gonio::to_half_difference(setup.light.towards, -line.towards);
       REQUIRE(angles.theta_h == doctest::Approx(expected.theta_h));
       REQUIRE(angles.theta_d == doctest::Approx(expected.theta_d));
@@ -123,7 +123,7 @@ TEST_CASE("a mask leaves pixels out, and the region's pixels are those that brin
   for (std::size_t i = 0; i < region.size(); i += 2) setup.mask[region[i]] = true;
   const auto half = near_field_samples(picture, setup);
   REQUIRE(half.size() == (all.size() + 1) / 2);
-  for (std::size_t i = 0; i < half.size(); ++i) CHECK(half[i].angles.theta_h == all[2 * i].angles.theta_h);
+  for (std::size_t i = 0; i < half.size(); ++i) CHECK(half[i].angles().theta_h == all[2 * i].angles().theta_h);
   CHECK(gonio::capture::pixels_of_region(setup).size() == half.size());
   setup.mask.pop_back();
   CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(picture, setup)), doctest::Contains("mask"), gonio::error);

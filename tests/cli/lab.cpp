@@ -61,7 +61,7 @@ TEST_CASE("lab: without defects both machines' samples are the table's values") 
     const auto samples = gonio::io::read_samples(room.at("samples.csv"));
     REQUIRE(samples.size() == 20);
     for (const gonio::sample& each : samples) {
-      const auto [wi, wo] = gonio::to_directions(each.angles);
+      const auto [wi, wo] = each.directions.pair();
       const gonio::rgb expected = truth(wi, wo);
       CHECK(((each.value - expected).abs() < 1e-3 * expected).all());
     }
@@ -89,7 +89,7 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
   const gonio::brdf_table truth = gonio::io::read_merl(room.at("truth.binary"));
   double worst = 0.0;
   for (const gonio::sample& each : gonio::io::read_samples(room.at("samples.csv"))) {
-    const auto [wi, wo] = gonio::to_directions(each.angles);
+    const auto [wi, wo] = each.directions.pair();
     worst = std::max(worst, std::abs(each.value.sum() / truth(wi, wo).sum() - 1.0));
     CHECK((each.weight.of_each() > 0.1).all());
   }

@@ -51,7 +51,7 @@ TEST_CASE("images become samples of the paint, and these a table") {
   CHECK(samples.size() > 300);
   CHECK(one.output == shots.at("first.hdr") + ": " + std::to_string(samples.size()) + " samples\n");
   for (const gonio::sample& s : samples) {
-    const auto [wi, wo] = gonio::to_directions(s.angles);
+    const auto [wi, wo] = s.directions.pair();
     const gonio::rgb truth = shots.paint(wi, wo);
     // The three channels share an exponent, and have eight bits.
     REQUIRE((s.value - truth).abs().maxCoeff() <= truth.maxCoeff() / 256.0);
@@ -90,7 +90,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
     double sum = 0.0;
     const auto samples = gonio::io::read_samples(shots.at(file));
     for (const gonio::sample& s : samples) {
-      const auto [wi, wo] = gonio::to_directions(s.angles);
+      const auto [wi, wo] = s.directions.pair();
       sum += (s.value / shots.paint(wi, wo)).log().square().mean();
     }
     return sum / static_cast<double>(samples.size());
@@ -162,7 +162,7 @@ TEST_CASE("two materials in one image get a file each, and a map of where they a
     CHECK(samples.size() > 50);
     return std::ranges::all_of(samples, [&](const gonio::sample& s) {
       if (s.weight != 1.0) return true;  // of a block at the border
-      const auto [wi, wo] = gonio::to_directions(s.angles);
+      const auto [wi, wo] = s.directions.pair();
       const gonio::rgb truth = material(wi, wo);
       return (s.value - truth).abs().maxCoeff() <= 0.05 * truth.maxCoeff();
     });

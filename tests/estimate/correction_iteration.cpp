@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, gonio::sample_set>> difficult_samples() {
                    }));
   all.emplace_back("tiny", changed([](auto& s, auto) { s.value *= 1e-12; }));
   all.emplace_back("huge", changed([](auto& s, auto) { s.value *= 1e8; }));
-  all.emplace_back("all in one place", changed([&](auto& s, auto) { s.angles = good[0].angles; }));
+  all.emplace_back("all in one place", changed([&](auto& s, auto) { s.directions = good[0].directions; }));
   all.emplace_back("weights of many sizes", changed([](auto& s, auto i) { s.weight = i % 2 == 0 ? 1e-9 : 1e6; }));
   all.emplace_back("one channel black", changed([](auto& s, auto) { s.value.y() = 0.0; }));
   return all;
@@ -252,7 +252,7 @@ TEST_CASE("what a run says of its estimates is what its result has at the sample
   const auto estimated = run.estimated();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const auto [wi, wo] = to_directions(samples[i].angles);
+    const auto [wi, wo] = samples[i].directions.pair();
     const gonio::rgb value = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
       // Sums of ten products in float, in another order, for each round, and products of these.
@@ -353,7 +353,7 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
   const auto samples = world().samples(60);
   auto with_ignored = samples;
   // Far out, at the beginning, in between and at the end.
-  const gonio::sample ignored{samples[3].angles, gonio::rgb(50, 60, 70), 0.0};
+  const gonio::sample ignored{samples[3].angles(), gonio::rgb(50, 60, 70), 0.0};
   with_ignored.insert(with_ignored.begin(), ignored);
   with_ignored.insert(with_ignored.begin() + 30, 5, ignored);
   with_ignored.push_back(ignored);

@@ -79,8 +79,7 @@ TEST_CASE("weights count, threads do not") {
   samples[4].weight = 2.0;
   doubled.push_back(doubled[4]);
   const errors_in_variables_decomposition estimator{misplaced_prior(), 0.1, radians(1.0)};
-  CHECK((estimator.fit(samples).weights() - estimator.fit(doubled).weights()).norm() <
-        1e-8 * one.weights().norm());
+  CHECK((estimator.fit(samples).weights() - estimator.fit(doubled).weights()).norm() < 1e-8 * one.weights().norm());
   // Nor do the weights of other channels matter to one.
   for (auto& s : samples) s.weight = gonio::rgb(1.0, 0.2, 3.0);
   CHECK((estimator.fit(samples).weights().col(0) - one.weights().col(0)).norm() > 0.0);

@@ -81,10 +81,10 @@ TEST_CASE("property: weights average the mapped luminances, and what is between 
     double mapped = 0.0, weights = 0.0;
     for (auto& s : samples) {
       s.weight = *rc::gen::inRange(0, 4);
-      const bool between = s.angles.theta_h > wide.in_peak && s.angles.theta_h < wide.off_peak;
+      const bool between = s.angles().theta_h > wide.in_peak && s.angles().theta_h < wide.off_peak;
       if (between) s.value *= doubled;
-      if (s.angles.theta_h > wide.in_peak) continue;
-      mapped += s.weight.mean() * contrast_reference().forward(s.value.x(), gonio::locate(small_cells(), s.angles));
+      if (s.angles().theta_h > wide.in_peak) continue;
+      mapped += s.weight.mean() * contrast_reference().forward(s.value.x(), gonio::locate(small_cells(), s.angles()));
       weights += s.weight.mean();
     }
     samples.push_back({{0.7, 0.1, 0.2}, gonio::rgb::Constant(0.2), 1.0});
@@ -95,7 +95,7 @@ TEST_CASE("property: weights average the mapped luminances, and what is between 
     for (auto& s : samples) s.weight = 2.0 * s.weight.mean();
     RC_ASSERT(std::abs(*highlight_contrast(contrast_reference(), samples, wide) - *found) < 1e-9);
     for (auto& s : samples)
-      if (s.angles.theta_h > wide.in_peak) s.weight = 0.0;
+      if (s.angles().theta_h > wide.in_peak) s.weight = 0.0;
     RC_ASSERT(!highlight_contrast(contrast_reference(), samples, wide));
     const auto [i, o] = gonio::to_directions({0.7, 0.1, 0.2});
     const auto at = gonio::locate(small_cells(), gonio::to_half_difference(i, o));
@@ -108,7 +108,7 @@ TEST_CASE("property: weights average the mapped luminances, and what is between 
 TEST_CASE("samples in one region only say nothing, unusable ones are refused") {
   gonio::sample_set samples{{{0.01, 0.3, 0.2}, gonio::rgb(1, 1, 1), 1.0}, {{0.2, 0.3, 0.2}, gonio::rgb(1, 1, 1), 1.0}};
   CHECK_FALSE(highlight_contrast(contrast_reference(), samples));  // 0.57 and 11 degrees
-  samples[1].angles.theta_h = 0.4;
+  samples[1].directions = gonio::half_difference{0.4, samples[1].angles().theta_d, samples[1].angles().phi_d};
   CHECK(highlight_contrast(contrast_reference(), samples));
   samples[1].weight = 0.0;
   CHECK_FALSE(highlight_contrast(contrast_reference(), samples));

@@ -10,7 +10,7 @@ TEST_CASE("leaving one out through the products is fitting its table by a basis 
   const gonio::measured basis{materials, gonio::log{}};
   const gonio::leave_one_out_decomposition others{basis, gonio::nnls{}};
   for (const std::size_t material : std::vector<std::size_t>{0, 3, 6}) {
-    const auto quick = others.fit(material);
+    const auto quick = others.reconstruct(material);
     const auto direct =
         gonio::decomposition{basis.without({materials.names[material]}), gonio::nnls{}}.fit(materials.table(material));
     CHECK(quick.weights().isApprox(direct.weights(), 1e-6));
@@ -27,7 +27,7 @@ TEST_CASE("what the basis leaves out stays out") {
   const auto materials = synthetic_materials(small_cells(), 5);
   const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}.without({"material-2"}),
                                                   gonio::nnls{}};
-  CHECK(others.fit(0).weights().row(2).isZero(0.0));
+  CHECK(others.reconstruct(0).weights().row(2).isZero(0.0));
   CHECK(others.problem(2, 1).unknowns() == 4);
   CHECK(others.problem(0, 1).unknowns() == 3);
 }
@@ -35,5 +35,5 @@ TEST_CASE("what the basis leaves out stays out") {
 TEST_CASE("the only material has no others") {
   const gonio::leave_one_out_decomposition alone{gonio::measured{synthetic_materials(small_cells(), 1), gonio::log{}},
                                                  gonio::nnls{}};
-  CHECK_THROWS_AS(static_cast<void>(alone.fit(0)), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(alone.reconstruct(0)), gonio::error);
 }

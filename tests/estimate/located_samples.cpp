@@ -36,7 +36,11 @@ TEST_CASE("samples are placed where they are, with their values and weights") {
     for (std::size_t i = 0; i < samples.size(); ++i) {
       samples[i].weight = count();
       if (apart) samples[i].weight = rgb(count(), count(), count());
-      if (*rc::gen::arbitrary<bool>()) samples[i].angles.theta_h *= 0.9;
+      if (*rc::gen::arbitrary<bool>()) {
+        auto angles = samples[i].angles();
+        angles.theta_h *= 0.9;
+        samples[i].directions = angles;
+      }
       if (*rc::gen::arbitrary<bool>()) samples[i].value.x() = -1.5;
     }
     samples[5].weight = apart ? gonio::channel_weights(rgb(0.0, 0.0, 0.25)) : 0.25;
@@ -45,7 +49,7 @@ TEST_CASE("samples are placed where they are, with their values and weights") {
     for (const gonio::sample& s : samples) {
       if (!s.weight.counts()) continue;
       RC_ASSERT(next < found.size());
-      const auto expected = gonio::locate(small_cells(), s.angles);
+      const auto expected = gonio::locate(small_cells(), s.angles());
       RC_ASSERT(found.at[next].cell == expected.cell);
       RC_ASSERT(found.at[next].weight == expected.weight);
       RC_ASSERT((found.values.row(static_cast<Eigen::Index>(next)).transpose().array() == s.value).all());

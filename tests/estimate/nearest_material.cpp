@@ -183,7 +183,7 @@ TEST_CASE("samples of weight zero change nothing, and unusable ones are refused"
   const nearest_material nearest{nine_in_log()};
   const auto samples = samples_of(nine_materials().table(7), 40, 0.5, 3);
   auto more = samples;
-  more.insert(more.begin() + 10, 30, {samples[0].angles, gonio::rgb(90, 80, 70), 0.0});
+  more.insert(more.begin() + 10, 30, {samples[0].angles(), gonio::rgb(90, 80, 70), 0.0});
   const auto one = nearest.fit(samples), other = nearest.fit(more);
   CHECK(std::ranges::equal(one.table().values(), other.table().values()));
   CHECK_THROWS_WITH_AS(nearest.fit(gonio::sample_set{}), doctest::Contains("no samples"), gonio::error);

@@ -95,7 +95,7 @@ TEST_CASE("cells measured with full weight keep their weighted mean, whatever is
     const auto angles = cells.angles(pick);
     sample_set samples = any_samples();
     std::erase_if(samples, [&](const gonio::sample& s) {
-      return cells.grid().nearest(s.angles) == cells.grid().cell(cells.linear(pick));
+      return cells.grid().nearest(s.angles()) == cells.grid().cell(cells.linear(pick));
     });
     samples.push_back({angles, rgb(1, 2, 4), 0.5});
     samples.push_back({angles, rgb(5, 6, 0), 1.5});

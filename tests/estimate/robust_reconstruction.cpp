@@ -106,7 +106,7 @@ TEST_CASE("where nothing was measured, the surface is expected to be like the ne
   double worst = 1.0, worst_without = 1.0;
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
     auto samples = robust().samples(150, {.outlier_ratio = 0.2, .noise = 0.1}, seed);
-    std::erase_if(samples, [](const gonio::sample& s) { return s.angles.theta_h < gonio::radians(15.0); });
+    std::erase_if(samples, [](const gonio::sample& s) { return s.angles().theta_h < gonio::radians(15.0); });
     const double with = peak_ratio(robust().estimator, samples), without = peak_ratio(credulous, samples);
     worst = std::max({worst, with, 1.0 / with});
     worst_without = std::max({worst_without, without, 1.0 / without});
@@ -187,7 +187,7 @@ TEST_CASE("limits: no round leaves the combination, few rounds are counted with 
 TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
   const auto samples = robust().samples(120, {.outlier_ratio = 0.2});
   auto more = samples;
-  const gonio::sample ignored{samples[0].angles, gonio::rgb(40, 50, 60), 0.0};
+  const gonio::sample ignored{samples[0].angles(), gonio::rgb(40, 50, 60), 0.0};
   more.insert(more.begin(), 3, ignored);
   more.insert(more.begin() + 60, 200, ignored);
   more.push_back(ignored);
@@ -206,7 +206,11 @@ TEST_CASE("a table is fitted as its cells are; samples between cells are fitted"
   CHECK(std::ranges::equal(by_table.correction().values(), by_samples.correction().values()));
 
   auto between = robust().samples(200, {.outlier_ratio = 0.3});
-  for (auto& s : between) s.angles.theta_h *= 0.97;
+  for (auto& s : between) {
+    auto angles = s.angles();
+    angles.theta_h *= 0.97;
+    s.directions = angles;
+  }
   const gonio::decomposition combination{robust().others, gonio::nnls{}};
   CHECK(error_of(robust().estimator.fit(between)) < 0.5 * error_of(combination.fit(between)));
 }
@@ -257,7 +261,7 @@ TEST_CASE("awkward samples: one, two, equal, zero, negative, tiny, large, all in
   check("some large", [](auto& s, auto i) {
     if (i % 7 == 0) s.value *= 1e12;
   });
-  check("in one place", [&](auto& s, auto) { s.angles = good[0].angles; });
+  check("in one place", [&](auto& s, auto) { s.directions = good[0].directions; });
   check("one channel black", [](auto& s, auto) { s.value.x() = 0.0; });
 }
 

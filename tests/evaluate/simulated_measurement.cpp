@@ -41,7 +41,7 @@ TEST_CASE("a clean measurement reads the table") {
   const auto samples = sample_table(table(), cells);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CHECK((samples[i].value == table().at(cells[i])).all());
-    CHECK(samples[i].angles.theta_h == table().cells().angles(cells[i]).theta_h);
+    CHECK(samples[i].angles().theta_h == table().cells().angles(cells[i]).theta_h);
     CHECK(samples[i].weight == 1.0);
   }
 }
@@ -89,7 +89,7 @@ TEST_CASE("a misplaced measurement says the directions that were meant") {
   REQUIRE(off.size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
     const auto angles = gonio::to_half_difference(pairs[i].wi, pairs[i].wo);
-    CHECK(off[i].angles.theta_h == angles.theta_h);
+    CHECK(off[i].angles().theta_h == angles.theta_h);
     CHECK((exact[i].value - table()(pairs[i].wi, pairs[i].wo)).abs().maxCoeff() < 1e-6);
   }
   CHECK((off[0].value - exact[0].value).abs().maxCoeff() > 0.0);

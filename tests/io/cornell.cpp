@@ -23,9 +23,9 @@ TEST_CASE("directions in radians, reflectances by wavelength") {
   REQUIRE(samples.size() == 2);
   const auto expected =
       gonio::to_half_difference(gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.25, 3.1));
-  CHECK(samples[0].angles.theta_h == doctest::Approx(expected.theta_h));
-  CHECK(samples[0].angles.theta_d == doctest::Approx(expected.theta_d));
-  CHECK(samples[0].angles.phi_d == doctest::Approx(expected.phi_d));
+  CHECK(samples[0].angles().theta_h == doctest::Approx(expected.theta_h));
+  CHECK(samples[0].angles().theta_d == doctest::Approx(expected.theta_d));
+  CHECK(samples[0].angles().phi_d == doctest::Approx(expected.phi_d));
   CHECK(((samples[0].value - 0.1).abs() < 1e-6).all());
   CHECK(samples[0].weight == 1.0);
   CHECK(samples[1].value.x() > samples[1].value.y());  // light at 650 nanometres only

@@ -28,12 +28,12 @@ TEST_CASE("half and difference angles are read in degrees") {
   const auto samples =
       parse_samples("theta_h,theta_d,phi_d,r,g,b,weight\n10,20,30,0.1,-0.2,3e-1,2\n5,60,340,1,2,3,0\n", "x");
   REQUIRE(samples.size() == 2);
-  CHECK(samples[0].angles.theta_h == radians(10));
-  CHECK(samples[0].angles.theta_d == radians(20));
-  CHECK(samples[0].angles.phi_d == radians(30));
+  CHECK(samples[0].angles().theta_h == radians(10));
+  CHECK(samples[0].angles().theta_d == radians(20));
+  CHECK(samples[0].angles().phi_d == radians(30));
   CHECK((samples[0].value == gonio::rgb(0.1, -0.2, 0.3)).all());
   CHECK(samples[0].weight == 2.0);
-  CHECK(degrees(samples[1].angles.phi_d) == doctest::Approx(160));
+  CHECK(degrees(samples[1].angles().phi_d) == doctest::Approx(160));
   CHECK(samples[1].weight == 0.0);
 }
 
@@ -65,9 +65,9 @@ TEST_CASE("all three ways to give directions agree") {
     CAPTURE(text);
     const auto samples = parse_samples(text, "x");
     REQUIRE(samples.size() == 1);
-    CHECK(samples[0].angles.theta_h == doctest::Approx(expected.theta_h).epsilon(1e-12));
-    CHECK(samples[0].angles.theta_d == doctest::Approx(expected.theta_d).epsilon(1e-12));
-    CHECK(samples[0].angles.phi_d == doctest::Approx(expected.phi_d).epsilon(1e-12));
+    CHECK(samples[0].angles().theta_h == doctest::Approx(expected.theta_h).epsilon(1e-12));
+    CHECK(samples[0].angles().theta_d == doctest::Approx(expected.theta_d).epsilon(1e-12));
+    CHECK(samples[0].angles().phi_d == doctest::Approx(expected.phi_d).epsilon(1e-12));
     CHECK(samples[0].weight == 1.0);
   }
 }
@@ -81,8 +81,8 @@ TEST_CASE("columns may stand in any order, among blanks, comments and either lin
   for (const gonio::sample& s : samples) {
     CHECK((s.value == gonio::rgb(1, 2, 3)).all());
     CHECK(s.weight == 4.0);
-    CHECK(s.angles.theta_h == radians(10));
-    CHECK(s.angles.phi_d == radians(30));
+    CHECK(s.angles().theta_h == radians(10));
+    CHECK(s.angles().phi_d == radians(30));
   }
 }
 
@@ -236,9 +236,9 @@ TEST_CASE("a written set reads back") {
       RC_ASSERT((again[i].value == samples[i].value).all());
       RC_ASSERT(again[i].weight == samples[i].weight);
       // Degrees and back cost a rounding or two.
-      RC_ASSERT(std::abs(again[i].angles.theta_h - samples[i].angles.theta_h) < 1e-15);
-      RC_ASSERT(std::abs(again[i].angles.theta_d - samples[i].angles.theta_d) < 1e-15);
-      RC_ASSERT(std::abs(std::sin(again[i].angles.phi_d - samples[i].angles.phi_d)) < 1e-15);
+      RC_ASSERT(std::abs(again[i].angles().theta_h - samples[i].angles().theta_h) < 1e-15);
+      RC_ASSERT(std::abs(again[i].angles().theta_d - samples[i].angles().theta_d) < 1e-15);
+      RC_ASSERT(std::abs(std::sin(again[i].angles().phi_d - samples[i].angles().phi_d)) < 1e-15);
     }
   }));
 }

@@ -112,14 +112,12 @@ TEST_CASE("known vertices that say nothing are refused") {
     return gonio::shape::fit_shape(basis, gonio::truncated_svd{0.99}, known);
   };
   gonio::shape::vertex_observations known;
-  CHECK_THROWS_WITH_AS((void)fit(known), "no vertex is known: there is nothing to predict a shape from",
-                       gonio::error);
+  CHECK_THROWS_WITH_AS((void)fit(known), "no vertex is known: there is nothing to predict a shape from", gonio::error);
   known.vertices = {1, 5};
   known.positions = gonio::shape::point_columns::Zero(3, 2);
   CHECK_THROWS_WITH_AS((void)fit(known), "vertex 5 is known of shapes of 5 vertices", gonio::error);
   known.vertices = {1, 2, 3};
-  CHECK_THROWS_WITH_AS((void)fit(known), "3 known vertices have 2 positions, 0 normals and 0 weights",
-                       gonio::error);
+  CHECK_THROWS_WITH_AS((void)fit(known), "3 known vertices have 2 positions, 0 normals and 0 weights", gonio::error);
   known.vertices = {1, 2};
   known.positions(0, 1) = std::numeric_limits<double>::infinity();
   CHECK_THROWS_WITH_AS((void)fit(known), "the position of known vertex 2 is not finite", gonio::error);

@@ -97,7 +97,8 @@ TEST_CASE("the minimum-norm solution is that of the singular value decomposition
     RC_ASSERT(found.report.kkt_residual.maxCoeff() < 1e-13);
     RC_ASSERT(found.report.iterations == 0);
     RC_ASSERT(relative_distance(found.report.residual, problem.residual(expected.x)) < 1e-12 * expected.condition);
-    RC_ASSERT(relative_distance(found.report.objective, problem.normal().objective(expected.x)) < 1e-12 * expected.condition);
+    RC_ASSERT(relative_distance(found.report.objective, problem.normal().objective(expected.x)) <
+              1e-12 * expected.condition);
   }));
 }
 

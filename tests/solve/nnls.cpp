@@ -62,8 +62,8 @@ TEST_CASE("2,200 random problems: all solvers satisfy the KKT conditions to 1e-9
       CHECK(found.weights.minCoeff() >= 0.0);
       CHECK(std::abs(found.report.objective[0] - ways[0].second.report.objective[0]) <= 1e-8 * scale);
       worst_kkt_residual = std::max(worst_kkt_residual, found.report.kkt_residual[0]);
-      worst_disagreement =
-          std::max(worst_disagreement, std::abs(found.report.objective[0] - ways[0].second.report.objective[0]) / scale);
+      worst_disagreement = std::max(worst_disagreement,
+                                    std::abs(found.report.objective[0] - ways[0].second.report.objective[0]) / scale);
     }
   }
   MESSAGE("worst KKT residual ", worst_kkt_residual, ", worst disagreement ", worst_disagreement);

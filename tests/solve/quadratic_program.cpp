@@ -135,7 +135,8 @@ TEST_CASE("several right-hand sides and data instead of normal equations") {
   for (Eigen::Index column = 0; column < 3; ++column) {
     const auto alone = quadratic_program<>().solve(gonio::least_squares_problem(A, b.col(column)));
     CHECK(found.weights.col(column) == alone.weights);
-    CHECK(found.report.residual[column] == doctest::Approx((times(A, found.weights.col(column)) - b.col(column)).norm()));
+    CHECK(found.report.residual[column] ==
+          doctest::Approx((times(A, found.weights.col(column)) - b.col(column)).norm()));
     CHECK(found.report.kkt_residual[column] < 1e-14);
   }
   CHECK(found.report.kkt_residual ==

@@ -18,7 +18,7 @@ template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_
   std::vector<material_result> results;
   for (const std::string& name : names) {
     const std::size_t material = truths.find(name);
-    const gonio::brdf_table estimate = others.fit(material).tabulate(truths.cells, threads);
+    const gonio::brdf_table estimate = others.reconstruct(material).tabulate(truths.cells, threads);
     results.push_back({name, gonio::compare(estimate, truths.table(material), metric, judge, threads)});
   }
   return results;

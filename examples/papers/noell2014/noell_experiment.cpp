@@ -97,7 +97,7 @@ struct noell_experiment::parts {
     auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
     const auto plan =
         plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.at, gonio::nnls{}, threads);
-    return plan.first->second.without({which.material}).fit(located.channels());
+    return plan.first->second.without({which.material}).reconstruct(located.channels());
   }
 
   const gonio::correction& corrections_without(const std::string& material, bool printed) {

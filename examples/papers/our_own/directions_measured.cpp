@@ -132,7 +132,7 @@ stand_ins nearest_measured(const gonio::sample_set& all, std::span<const gonio::
     double distance = std::numeric_limits<double>::infinity();
     for (std::size_t s = 0; s < all.size(); ++s) {
       if (std::ranges::find(found.samples, s) != found.samples.end()) continue;
-      const auto [wi, wo] = gonio::to_directions(all[s].angles);
+      const auto [wi, wo] = all[s].directions.pair();
       const double here = std::min(angle_between(wanted, {wi, wo}), angle_between(wanted, {wo, wi}));
       if (here < distance) {
         nearest = s;
@@ -173,7 +173,7 @@ json judge_samples(const directions_options& given, const benchmark_setup& shop,
     logarithmic_error log_error;
     cosine_weighted_error cosine_error;
     for (const gonio::sample& other : others) {
-      const gonio::direction_pair pair = gonio::to_directions(other.angles);
+      const gonio::direction_pair pair = other.directions.pair();
       const gonio::rgb estimate = fit(pair.wi, pair.wo);
       log_error.add(estimate, other.value);
       cosine_error.add(estimate, other.value, pair);

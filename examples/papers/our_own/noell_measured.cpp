@@ -103,7 +103,7 @@ void judge_samples(const measured_options& given, const benchmark_setup& shop, c
     shop.reconstruct(samples, outlier_ratio, [&](const std::string& method, const auto& fit) {
       logarithmic_error error;
       for (const gonio::sample& other : others) {
-        const auto [wi, wo] = to_directions(other.angles);
+        const auto [wi, wo] = other.directions.pair();
         error.add(fit(wi, wo), other.value);
       }
       json result = row(path.stem().string(), method, count, outlier_ratio);

@@ -145,11 +145,11 @@ bool takes_images(const directions_options& options) {
 }
 
 /// All images of a material, each by the simulated laboratory with defects of its own.
-std::vector<gonio::image_samples> photographed(const gonio::brdf_table& material, const directions_options& options,
-                                               const designed& found, std::uint64_t seed) {
+std::vector<gonio::sample_set> photographed(const gonio::brdf_table& material, const directions_options& options,
+                                            const designed& found, std::uint64_t seed) {
   const gonio::design::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
   const gonio::capture::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
-  std::vector<gonio::image_samples> pictures;
+  std::vector<gonio::sample_set> pictures;
   for (const auto& [wi, wo] : found.poses) {
     const gonio::capture::near_field_setup setup{
         .camera = gonio::design::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels),
@@ -157,7 +157,7 @@ std::vector<gonio::image_samples> photographed(const gonio::brdf_table& material
         .disc = disc};
     const gonio::image picture = lab::photograph(
         material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.angular_error)}, ++seed);
-    pictures.push_back(gonio::capture::near_field_pairs(picture, setup));
+    pictures.push_back(gonio::capture::near_field_samples(picture, setup));
   }
   return pictures;
 }
@@ -209,13 +209,10 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
     if (options.reconstruction_eta != "auto") expectation.eta = number_of_eta(options.reconstruction_eta);
     gonio::pose_refinement refinement(lab.prior, pictures, expectation);
     refinement.solve();
-    return refinement.fit();
+    return refinement.result();
   }
   gonio::sample_set all;
-  for (const gonio::image_samples& picture : pictures) {
-    const gonio::sample_set samples = gonio::as_sample_set(picture);
-    all.insert(all.end(), samples.begin(), samples.end());
-  }
+  for (const gonio::sample_set& samples : pictures) all.insert(all.end(), samples.begin(), samples.end());
   return trusting(lab, options, all);
 }
 

@@ -58,7 +58,7 @@ struct measured_reflectance {
   [[nodiscard]] channel_weights weights() const;
 
   /// The sample that estimators take, with these weights. Not for values that mean nothing.
-  [[nodiscard]] sample as_sample() const { return {to_half_difference(at.wi, at.wo), value, weights()}; }
+  [[nodiscard]] sample as_sample() const { return {at, value, weights()}; }
 };
 
 /// The BRDF of a material from a reading of it and one of the reference at the same pair of directions (Eq. 18), by

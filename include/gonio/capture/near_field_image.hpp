@@ -8,7 +8,6 @@
 
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/image_samples.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -90,18 +89,14 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 /// ```cpp
 /// const gonio::capture::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples =
-///     gonio::capture::near_field_pairs(image, {.camera = camera, .light = lamp, .disc =
+///     gonio::capture::near_field_samples(image, {.camera = camera, .light = lamp, .disc =
 ///     gonio::capture::sample_disc{0.2}});
 /// ```
-[[nodiscard]] image_samples near_field_pairs(const image& picture, const near_field_setup& setup);
-
-/// The same as samples for any estimator, which light and viewer may change places in.
-[[nodiscard]] inline sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
-  return as_sample_set(near_field_pairs(picture, setup));
-}
+[[nodiscard]] sample_set near_field_samples(const image& picture, const near_field_setup& setup);
 
 }  // namespace gonio::capture
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/near_field_image.ipp>
+#include <gonio/table/sample_set.hpp>
 #endif

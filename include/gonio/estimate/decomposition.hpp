@@ -33,8 +33,9 @@ class decomposition {
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}
 
-  /// Of samples, or a table, each cell of which is one of weight 1. Cost of the solver plus O(samples x size of the basis) for reading the rows; O(samples x size^2) more where the
-  /// solver wants the normal equations. Throws gonio::error for unusable samples, or if the solver gives up.
+  /// Of samples, or a table, each cell of which is one of weight 1. Cost of the solver plus O(samples x size of the
+  /// basis) for reading the rows; O(samples x size^2) more where the solver wants the normal equations. Throws
+  /// gonio::error for unusable samples, or if the solver gives up.
   template <class Samples>
   [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
     const basis_equations equations(basis_, locate_samples(basis_.cells(), samples, threads_), threads_);

@@ -81,9 +81,9 @@ template <sample_range Samples>
   require_usable(samples);
   detail::contrast_sums sums(1);
   for (const sample& s : samples) {
-    const bool in_peak = s.angles.theta_h <= regions.in_peak;
-    if (!in_peak && s.angles.theta_h < regions.off_peak) continue;
-    const double mapped = reference.forward(luminance(s.value), locate(reference.cells(), s.angles));
+    const bool in_peak = s.angles().theta_h <= regions.in_peak;
+    if (!in_peak && s.angles().theta_h < regions.off_peak) continue;
+    const double mapped = reference.forward(luminance(s.value), locate(reference.cells(), s.angles()));
     (in_peak ? sums.in_peak : sums.off_peak)[0] += s.weight.mean() * mapped;
     (in_peak ? sums.in_weight : sums.off_weight) += s.weight.mean();
   }

@@ -14,7 +14,7 @@ namespace gonio {
 ///
 /// ```cpp
 /// const gonio::leave_one_out_decomposition others{gonio::measured{materials, gonio::log{}}, gonio::nnls{}};
-/// const auto chrome = others.fit(materials.find("chrome"));   // chrome from everything but chrome
+/// const auto chrome = others.reconstruct(materials.find("chrome"));   // chrome from everything but chrome
 /// ```
 template <error_metric Metric, normal_solver Solver>
 class leave_one_out_decomposition {
@@ -30,8 +30,8 @@ class leave_one_out_decomposition {
                          others(material));
   }
 
-  /// Throws gonio::error if the material is the only one, or the solver gives up.
-  [[nodiscard]] fitted_brdf<measured<Metric>> fit(std::size_t material) const {
+  /// A material from all others. Throws gonio::error if it is the only one, or the solver gives up.
+  [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(std::size_t material) const {
     const std::vector<Eigen::Index> columns = others(material);
     std::array<solution, 3> found;
     for (std::size_t c = 0; c < 3; ++c) found[c] = solver_.solve(problem(material, c));

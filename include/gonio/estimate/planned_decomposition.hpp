@@ -15,12 +15,13 @@
 namespace gonio {
 
 /// Fits measurements at places that are given beforehand, each of weight 1. What `decomposition` does for the same
-/// samples, up to float products in the matrix (docs/solvers.md); a fit then reads the materials at the places once.
+/// samples, up to float products in the matrix (docs/solvers.md); a reconstruction then reads the materials at the
+/// places once.
 ///
 /// ```cpp
 /// const auto plan = gonio::locate_samples(materials.cells(), first_surface).at;
 /// const gonio::planned_decomposition combination{materials, plan};
-/// const auto chrome = combination.without({"chrome"}).fit(measurements_of_chrome);
+/// const auto chrome = combination.without({"chrome"}).reconstruct(measurements_of_chrome);
 /// ```
 template <error_metric Metric, normal_solver Solver = nnls>
 class planned_decomposition {
@@ -43,7 +44,7 @@ class planned_decomposition {
 
   /// From reflectance in sr^-1 at the places, 3 x n. Throws gonio::error if there are not as many, or one is not
   /// finite, or if the solver gives up. O(places materials).
-  [[nodiscard]] fitted_brdf<measured<Metric>> fit(const channel_values& values) const {
+  [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(const channel_values& values) const {
     const auto count = std::ssize(plan_->places);
     if (values.cols() != count) throw error{"there are ", values.cols(), " measurements at ", count, " planned places"};
     if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");

@@ -6,7 +6,6 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
-#include <gonio/table/image_samples.hpp>
 
 #include <Eigen/Core>
 
@@ -58,7 +57,7 @@ class pose_iteration {
 
   /// A prior of k components and m observations; the samples of each image, for each material. Throws as
   /// `pose_refinement`.
-  pose_iteration(std::vector<std::vector<image_samples>> materials, const pose_refinement_options& options,
+  pose_iteration(std::vector<std::vector<sample_set>> materials, const pose_refinement_options& options,
                  Eigen::Index components, Eigen::Index observations, const reader& read);
 
   [[nodiscard]] const std::vector<pose_correction>& turns() const noexcept { return turns_; }
@@ -90,11 +89,11 @@ class pose_iteration {
 
   void require_sensible() const;
   void require_material(std::size_t material) const;
-  [[nodiscard]] sample turned(const pair_sample& s, const pose_correction& turns) const;
+  [[nodiscard]] sample turned(const sample& s, const pose_correction& turns) const;
   /// The equations of one image from row `begin` on.
-  void add_image(const image_samples& picture, const pose_correction& turns, const reader& read, Eigen::Index begin,
+  void add_image(const sample_set& picture, const pose_correction& turns, const reader& read, Eigen::Index begin,
                  equations& out) const;
-  [[nodiscard]] fit fit_of(const std::vector<image_samples>& pictures, const std::vector<pose_correction>& turns,
+  [[nodiscard]] fit fit_of(const std::vector<sample_set>& pictures, const std::vector<pose_correction>& turns,
                            const reader& read) const;
   [[nodiscard]] state at(const std::vector<pose_correction>& turns, const reader& read) const;
   /// Of |t|^2, where the objective is divided by eta.
@@ -108,7 +107,7 @@ class pose_iteration {
                      Eigen::MatrixXd& gradient) const;
   [[nodiscard]] Eigen::VectorXd newton_step(const reader& read) const;
 
-  std::vector<std::vector<image_samples>> materials_;  ///< of each the samples of every image
+  std::vector<std::vector<sample_set>> materials_;  ///< of each the samples of every image
   pose_refinement_options options_;
   Eigen::Index components_, observations_;
   std::vector<pose_correction> turns_;
@@ -134,19 +133,19 @@ class pose_iteration {
 /// ```cpp
 /// gonio::pose_refinement refinement(prior, images, {.deviation = gonio::radians(0.5)});
 /// refinement.solve();
-/// const auto paint = refinement.fit();
+/// const auto paint = refinement.result();
 /// ```
 template <error_metric Metric>
 class pose_refinement {
  public:
   /// Throws gonio::error unless eta and deviation are positive and there is a sample in each image, all of them above
   /// the horizon and finite, with weights that are not negative.
-  pose_refinement(pca<Metric> prior, std::vector<image_samples> pictures, const pose_refinement_options& options = {})
-      : pose_refinement(std::move(prior), std::vector<std::vector<image_samples>>{std::move(pictures)}, options) {}
+  pose_refinement(pca<Metric> prior, std::vector<sample_set> pictures, const pose_refinement_options& options = {})
+      : pose_refinement(std::move(prior), std::vector<std::vector<sample_set>>{std::move(pictures)}, options) {}
 
   /// The same of several materials, of each its samples in every image. An image may have none of a material; it
   /// must have some of one. Throws gonio::error unless all have as many images, too.
-  pose_refinement(pca<Metric> prior, std::vector<std::vector<image_samples>> materials,
+  pose_refinement(pca<Metric> prior, std::vector<std::vector<sample_set>> materials,
                   const pose_refinement_options& options = {})
       : prior_(std::move(prior)),
         iteration_(std::move(materials), options, static_cast<Eigen::Index>(prior_.size()),
@@ -190,4 +189,5 @@ class pose_refinement {
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/estimate/impl/pose_refinement.ipp>
+#include <gonio/table/sample_set.hpp>
 #endif

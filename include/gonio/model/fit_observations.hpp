@@ -25,7 +25,7 @@ template <sample_range Samples>
   require_usable(samples);
   std::vector<fit_observation> all;
   for (const sample& s : samples) {
-    const auto [wi, wo] = to_directions(s.angles);
+    const auto [wi, wo] = s.directions.pair();
     all.push_back({lobe_geometry(wi, wo), s.value, s.weight});
   }
   return all;

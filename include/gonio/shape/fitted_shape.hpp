@@ -1,5 +1,6 @@
 #pragma once
-/// Shapes from some of their vertices, by the equations and solvers that complete BRDFs. "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 4-7.
+/// Shapes from some of their vertices, by the equations and solvers that complete BRDFs. "Anatomically correct surface
+/// recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), Eq. 4-7.
 ///
 /// With the rows Q2 of the known vertices and m shapes, S22 = Q2 Q2' / m and S12 = Q1 Q2' / m, so that the paper's
 /// E{s1|y2} = mu1 + S12 P L^-1 P' (s2 - mu2) is mu1 + Q1 w for the w of least norm with Q2 w = s2 - mu2 in the k
@@ -36,8 +37,9 @@ struct vertex_observations {
 /// Which of so many vertices are known.
 [[nodiscard]] std::vector<bool> marks_of(const vertex_observations& known, Eigen::Index vertices);
 
-/// The rows of a shape's basis that known vertices are compared with: three for each, along its axes. Throws gonio::error if no vertex is known, one does not exist or is not
-/// finite, or for another number of positions or normals.
+/// The rows of a shape's basis that known vertices are compared with: three for each, along its axes. Throws
+/// gonio::error if no vertex is known, one does not exist or is not finite, or for another number of positions or
+/// normals.
 [[nodiscard]] located_samples locate_vertices(const vertex_coordinates& coordinates, const vertex_observations& known);
 
 /// A shape held as the weights of a basis, and the solver's report.

@@ -33,11 +33,29 @@ class channel_weights {
   rgb of_each_;
 };
 
+/// The directions of a measurement as they were given: a pair, which keeps light and viewer apart, or half and
+/// difference angles. Either is read from it; what was given is read back bit by bit.
+class sample_directions {
+ public:
+  sample_directions() : sample_directions(half_difference{}) {}
+  sample_directions(const direction_pair& pair) : pair_(pair), angles_(to_half_difference(pair.wi, pair.wo)) {}
+  sample_directions(const half_difference& angles) : pair_(to_directions(angles)), angles_(angles) {}
+
+  [[nodiscard]] const direction_pair& pair() const noexcept { return pair_; }
+  [[nodiscard]] const half_difference& angles() const noexcept { return angles_; }
+
+ private:
+  direction_pair pair_;
+  half_difference angles_;
+};
+
 /// One measurement: where, what (sr^-1, without the cosine; may be negative), and how much it counts.
 struct sample {
-  half_difference angles;
+  sample_directions directions = {};
   rgb value{0.0, 0.0, 0.0};
   channel_weights weight = {};
+
+  [[nodiscard]] const half_difference& angles() const noexcept { return directions.angles(); }
 };
 
 /// Any range of measurements. A laboratory with a struct of its own hands it over in place:

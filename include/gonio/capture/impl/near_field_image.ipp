@@ -5,7 +5,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
-#include <gonio/table/image_samples.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +108,7 @@ GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& s
   return seen;
 }
 
-GONIO_INLINE image_samples near_field_pairs(const image& picture, const near_field_setup& setup) {
+GONIO_INLINE sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
   require_usable(setup);
   const camera_intrinsics& whole = setup.camera.intrinsics();
   detail::require_size(picture, whole);
@@ -118,7 +118,7 @@ GONIO_INLINE image_samples near_field_pairs(const image& picture, const near_fie
   const rgb reflected = setup.light.irradiance * setup.light.towards.z();
   const double pixels_of_block = static_cast<double>(setup.block) * static_cast<double>(setup.block);
 
-  image_samples samples;
+  sample_set samples;
   bool any_saturated = false;
   for (std::size_t row = window.row; row < last_row; row = end(row, last_row))
     for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {

@@ -27,7 +27,7 @@ GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sam
       throw error{"sample ", number, ": a reflectance is beyond the range of float"};
     samples.values(i, channel) = s.value[channel];
   }
-  samples.at[static_cast<std::size_t>(i)].angles = s.angles;
+  samples.at[static_cast<std::size_t>(i)].angles = s.angles();
   for (Eigen::Index channel = 0; channel < samples.weights.cols(); ++channel)
     samples.weights(i, channel) = s.weight[channel];
 }

@@ -6,6 +6,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/solve/dense.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 
@@ -28,16 +29,15 @@ namespace gonio::detail {
 
 /// One sample of an image after the turns; where that would be below the horizon, as it was. Its radiance is what was
 /// measured: reflectance is radiance over irradiance and the light's cosine, which turns with the light.
-[[nodiscard]] GONIO_INLINE sample turned_sample(const pair_sample& s, const pose_correction& turns,
-                                                bool by_irradiance) {
-  const auto& [nominal_wi, nominal_wo] = s.directions;
+[[nodiscard]] GONIO_INLINE sample turned_sample(const sample& s, const pose_correction& turns, bool by_irradiance) {
+  const auto& [nominal_wi, nominal_wo] = s.directions.pair();
   const direction wi = turned_by(nominal_wi, turns.light), wo = turned_by(nominal_wo, turns.camera);
-  if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {to_half_difference(nominal_wi, nominal_wo), s.value, s.weight};
+  if (!(wi.z() > 0.0 && wo.z() > 0.0)) return s;
   const double cosines = by_irradiance ? nominal_wi.z() / wi.z() : 1.0;
-  return {to_half_difference(wi, wo), cosines * s.value, s.weight};
+  return {direction_pair{wi, wo}, cosines * s.value, s.weight};
 }
 
-GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<image_samples>> materials,
+GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<sample_set>> materials,
                                             const pose_refinement_options& options, Eigen::Index components,
                                             Eigen::Index observations, const reader& read)
     : materials_(std::move(materials)), options_(options), components_(components), observations_(observations) {
@@ -59,15 +59,13 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
       throw error{"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count};
   for (std::size_t p = 0; p < count; ++p) {
     sample_set all;
-    for (const std::vector<image_samples>& pictures : materials_) {
-      const sample_set own = as_sample_set(pictures[p]);
-      all.insert(all.end(), own.begin(), own.end());
-    }
+    for (const std::vector<sample_set>& pictures : materials_)
+      all.insert(all.end(), pictures[p].begin(), pictures[p].end());
     require_usable(all);
   }
 }
 
-GONIO_INLINE sample pose_iteration::turned(const pair_sample& s, const pose_correction& turns) const {
+GONIO_INLINE sample pose_iteration::turned(const sample& s, const pose_correction& turns) const {
   return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
 }
 
@@ -82,10 +80,10 @@ GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material
 
 GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
   require_material(material);
-  const std::vector<image_samples>& pictures = materials_[material];
+  const std::vector<sample_set>& pictures = materials_[material];
   sample_set all;
   for (std::size_t p = 0; p < pictures.size(); ++p)
-    for (const pair_sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
+    for (const sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
 
@@ -107,30 +105,30 @@ GONIO_INLINE void pose_iteration::solve(const reader& read) {
   for (int i = 0; i < options_.iterations && !converged_; ++i) step(read);
 }
 
-GONIO_INLINE void pose_iteration::add_image(const image_samples& picture, const pose_correction& turns,
-                                            const reader& read, Eigen::Index begin, equations& out) const {
+GONIO_INLINE void pose_iteration::add_image(const sample_set& picture, const pose_correction& turns, const reader& read,
+                                            Eigen::Index begin, equations& out) const {
   for_each_block(
       picture.size(), 64,
       [&](block range) {
         for (std::size_t i = range.begin; i < range.end; ++i) {
-          const Eigen::Index sample = begin + static_cast<Eigen::Index>(i);
-          const double root = std::sqrt(picture[i].weight);
-          const auto [angles, value, weight] = turned(picture[i], turns);
+          const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
+          const sample seen = turned(picture[i], turns);
+          const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
           rgb right;
-          auto column = out.columns.col(sample);
-          read(angles, value, column.transpose(), right);
+          auto column = out.columns.col(at);
+          read(seen.angles(), seen.value, column.transpose(), right);
           column *= root;
-          for (Eigen::Index c = 0; c < 3; ++c) out.right(sample, c) = root * right[c];
+          for (Eigen::Index c = 0; c < 3; ++c) out.right(at, c) = root * right[c];
         }
       },
       options_.threads);
 }
 
-GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<image_samples>& pictures,
+GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample_set>& pictures,
                                                         const std::vector<pose_correction>& turns,
                                                         const reader& read) const {
   Eigen::Index n = 0;
-  for (const image_samples& picture : pictures) n += std::ssize(picture);
+  for (const sample_set& picture : pictures) n += std::ssize(picture);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
   for (std::size_t p = 0; p < pictures.size(); ++p) {
@@ -150,7 +148,7 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<image_
 GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<pose_correction>& turns,
                                                       const reader& read) const {
   state found;
-  for (const std::vector<image_samples>& pictures : materials_) {
+  for (const std::vector<sample_set>& pictures : materials_) {
     found.fits.push_back(fit_of(pictures, turns, read));
     found.objective += found.fits.back().objective;
   }
@@ -177,7 +175,7 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
                                                         const reader& read) const {
-  const image_samples& samples = materials_[material][picture];
+  const sample_set& samples = materials_[material][picture];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
     pose_correction turns = turns_[picture];
@@ -195,7 +193,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, st
 /// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
 /// unknowns.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
-  const std::vector<image_samples>& pictures = materials_[material];
+  const std::vector<sample_set>& pictures = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures));
   Eigen::Index begin = 0;

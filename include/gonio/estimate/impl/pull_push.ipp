@@ -105,7 +105,7 @@ GONIO_INLINE completed_table pull_push::fit(const brdf_table& table) const {
 }
 
 GONIO_INLINE void pull_push::splats::add(const sample& s) {
-  auto sum = sums_.col(static_cast<Eigen::Index>(over_.linear(over_.nearest(s.angles))));
+  auto sum = sums_.col(static_cast<Eigen::Index>(over_.linear(over_.nearest(s.angles()))));
   // A cell is known in all channels or in none, so that a sample has one weight.
   sum.head<3>() += s.weight.mean() * s.value;
   sum[3] += s.weight.mean();

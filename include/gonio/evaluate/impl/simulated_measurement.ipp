@@ -22,7 +22,7 @@ GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::spa
   sample_set samples;
   for (const auto& [wi, wo] : pairs) {
     const direction light = misplaced(wi, angle, generator), viewer = misplaced(wo, angle, generator);
-    samples.push_back({to_half_difference(wi, wo), table(light, viewer), 1.0});
+    samples.push_back({direction_pair{wi, wo}, table(light, viewer), 1.0});
   }
   return samples;
 }

@@ -75,7 +75,7 @@ GONIO_INLINE void cornell_parser::read_sample() {
                     " sr^-1 is beyond the range of float");
   }
   const direction wi = read_direction(0), wo = read_direction(2);
-  samples_.push_back({to_half_difference(wi, wo), (*colour_)(reflectances_), 1.0});
+  samples_.push_back({direction_pair{wi, wo}, (*colour_)(reflectances_), 1.0});
 }
 
 GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {

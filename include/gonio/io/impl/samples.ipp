@@ -240,31 +240,20 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
 }
 
-/// A row's directions in both ways. Rounding may put one that grazes the surface below it in one of the two ways alone;
-/// it is refused in both.
-struct row_place {
-  half_difference angles;
-  direction_pair pair;
-};
-
-[[nodiscard]] GONIO_INLINE row_place place_of(const parsed_row& row) {
-  row_place at;
-  if (row.has_half_difference()) {
-    at.angles = given_angles(row);
-    at.pair = to_directions(at.angles);
-    at.angles.phi_d = fold_phi_d(at.angles.phi_d);
-  } else {
-    at.pair = given_directions(row);
-    at.angles = to_half_difference(at.pair.wi, at.pair.wo);
-  }
-  require_above_horizon(cosines(at.angles), row);
-  require_above_horizon({at.pair.wi.z(), at.pair.wo.z()}, row);
-  return at;
+/// Angles as they were given. Those of phi_d beyond half a turn exchange light and viewer: they are kept as a pair.
+[[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
+  if (fold_phi_d(given.phi_d) == given.phi_d) return given;
+  return to_directions(given);
 }
 
-[[nodiscard]] GONIO_INLINE half_difference row_angles(const parsed_row& row) { return place_of(row).angles; }
-
-[[nodiscard]] GONIO_INLINE direction_pair row_directions(const parsed_row& row) { return place_of(row).pair; }
+/// A row's directions. Rounding may put one that grazes the surface below it in one of the two ways alone; it is
+/// refused in both.
+[[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
+  const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
+  require_above_horizon(cosines(at.angles()), row);
+  require_above_horizon({at.pair().wi.z(), at.pair().wo.z()}, row);
+  return at;
+}
 
 [[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
   const double* first = &row.numbers[row.weights.first];
@@ -281,7 +270,7 @@ struct row_place {
 }
 
 GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
-  const half_difference& at = s.angles;
+  const half_difference& at = s.angles();
   for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
                              s.value.y(), s.value.z()}) {
     text += shortest(value);
@@ -308,7 +297,7 @@ GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& 
   detail::row_reader rows(text, name, true);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
-    samples.push_back({detail::row_angles(row), detail::row_value(row), detail::row_weight(row)});
+    samples.push_back({detail::row_directions(row), detail::row_value(row), detail::row_weight(row)});
   }
   return samples;
 }
@@ -322,7 +311,7 @@ GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem:
   const auto bytes = read_bytes(path);
   detail::row_reader rows(detail::as_text(bytes), path.native(), false);
   std::vector<half_difference> all;
-  while (rows.next()) all.push_back(detail::row_angles(rows.row()));
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
   return all;
 }
 
@@ -330,7 +319,7 @@ GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesys
   const auto bytes = read_bytes(path);
   detail::row_reader rows(detail::as_text(bytes), path.native(), false);
   std::vector<direction_pair> all;
-  while (rows.next()) all.push_back(detail::row_directions(rows.row()));
+  while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;
 }
 

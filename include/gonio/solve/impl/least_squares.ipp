@@ -122,7 +122,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   found.report.objective.resize(found.report.residual.size());
   for (Eigen::Index column = 0; column < found.report.residual.size(); ++column)
     found.report.objective[column] = 0.5 * (found.report.residual[column] * found.report.residual[column] -
-                                     problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
+                                            problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
   found.report.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
   for (Eigen::Index column = 0; column < found.report.objective.size(); ++column) {
     const double residual = found.report.residual[column];

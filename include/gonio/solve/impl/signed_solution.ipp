@@ -126,7 +126,8 @@ GONIO_INLINE solution certified(const normal_equations& normal, const signed_tas
       const solution other = evaluated(normal, task, std::move(again));
       const std::string why = objection_to(other, column, kkt_residual_limit);
       if (!why.empty()) throw no_optimum(task, why);
-      if (!good_enough || other.report.kkt_residual[column] < found.report.kkt_residual[column]) take(other, column, found);
+      if (!good_enough || other.report.kkt_residual[column] < found.report.kkt_residual[column])
+        take(other, column, found);
     } catch (const error&) {
       if (!good_enough) throw;
     }

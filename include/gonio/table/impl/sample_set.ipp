@@ -13,7 +13,7 @@ namespace gonio::detail {
 
 GONIO_INLINE void require_usable_sample(const sample& s, std::size_t number) {
   const auto refuse = [&](const char* what) { throw error{"sample ", number, ": ", what}; };
-  const auto& [theta_h, theta_d, phi_d] = s.angles;
+  const auto& [theta_h, theta_d, phi_d] = s.angles();
   if (!std::isfinite(theta_h) || !std::isfinite(theta_d) || !std::isfinite(phi_d)) refuse("an angle is not finite");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.value[channel])) refuse("a reflectance is not finite");
@@ -22,7 +22,7 @@ GONIO_INLINE void require_usable_sample(const sample& s, std::size_t number) {
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.weight[channel]) || s.weight[channel] < 0.0)
       refuse("the weight must be finite and not negative");
-  const cosine_pair cosine = cosines(s.angles);
+  const cosine_pair cosine = cosines(s.angles());
   constexpr double right_angle = std::numbers::pi / 2.0;
   const bool in_range = theta_h >= 0.0 && theta_h < right_angle && theta_d >= 0.0 && theta_d < right_angle;
   if (!in_range || !(cosine.i > 0.0 && cosine.o > 0.0))
