@@ -149,7 +149,7 @@ gonio::image iteration_figure::draw_input() const {
 /// From the table and not from the run, which may look at some of the samples only.
 gonio::image iteration_figure::draw_factors(const moment& before) const {
   return sparse_slice(samples_, gonio::rgb::Zero(), [&](std::size_t i) {
-    const gonio::location at = gonio::locate(before.estimate.cells(), samples_[i].angles);
+    const gonio::location at = gonio::locate(before.estimate.cells(), samples_[i].angles());
     const Eigen::Array3f measured = samples_[i].value.cast<float>(), estimate = before.estimate.at(at).cast<float>();
     const Eigen::Array3f sigma = corrections_.rule().factor.quotient(measured, estimate);
     return factor_colour(sigma.cast<double>());

@@ -185,8 +185,8 @@ TEST_CASE("several materials in the same images: each has its own weights, all o
       apart.solve();
       off_together += off(together.samples(m), both[m]);
       off_apart += off(apart.samples(), both[m]);
-      error_together += mapped_error(together.fit(m), material(number + m));
-      error_apart += mapped_error(apart.fit(), material(number + m));
+      error_together += mapped_error(together.result(m), material(number + m));
+      error_apart += mapped_error(apart.result(), material(number + m));
       CHECK(together.samples(m).size() == both[m][0].size() + both[m][1].size());
     }
   }

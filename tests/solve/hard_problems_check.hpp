@@ -101,10 +101,10 @@ inline void check(family what, unsigned seed, std::map<std::string, tally>& tall
       const verdict by_rows = judge(problem, found.weights.col(0), each.lambda, each.non_negative);
       sum.violation = std::max(sum.violation, by_rows.violation);
       if (!(by_rows.violation <= 1e-9)) wrong("violation " + std::to_string(by_rows.violation * 1e9) + "e-9");
-      if (!(by_rows.report.residual <= 1.0 + 1e-12))
-        wrong("residual " + std::to_string(by_rows.report.residual) + " |b|");
-      if (!reference) reference = by_rows.report.objective;
-      const double apart = std::abs(by_rows.report.objective - *reference);
+      if (!(by_rows.residual <= 1.0 + 1e-12))
+        wrong("residual " + std::to_string(by_rows.residual) + " |b|");
+      if (!reference) reference = by_rows.objective;
+      const double apart = std::abs(by_rows.objective - *reference);
       sum.disagreement = std::max(sum.disagreement, apart);
       if (!(apart <= 1e-9)) wrong("objectives differ by " + std::to_string(apart * 1e9) + "e-9");
     }

@@ -79,10 +79,10 @@ TEST_CASE("a path is the solutions of its penalties, from nothing to nearly leas
     for (std::size_t i = 0; i < 20; ++i) {
       const auto alone = lasso(path.lambdas[i]).solve(normal);
       const double scale = 0.5 * normal.rhs_squared_norm()[0];
-      CHECK(path.solutions[i].kkt_residual[0] <= 1e-9);
-      CHECK(std::abs(path.solutions[i].objective[0] - alone.report.objective[0]) <= 1e-8 * scale);
-      CHECK(path.solutions[i].residual[0] <= last * (1.0 + 1e-12));
-      last = path.solutions[i].residual[0];
+      CHECK(path.solutions[i].report.kkt_residual[0] <= 1e-9);
+      CHECK(std::abs(path.solutions[i].report.objective[0] - alone.report.objective[0]) <= 1e-8 * scale);
+      CHECK(path.solutions[i].report.residual[0] <= last * (1.0 + 1e-12));
+      last = path.solutions[i].report.residual[0];
     }
   }
 }

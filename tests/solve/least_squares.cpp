@@ -191,7 +191,7 @@ TEST_CASE("a condition number of 1e14") {
       CHECK(least_squares(threshold).solve(problem).report.kkt_residual.maxCoeff() < threshold);
     }
     const least_squares_problem problem(rows, random_matrix(n, 3, 5), weights);
-    CHECK(least_squares().solve(problem.normal()).kkt_residual.maxCoeff() < least_squares::gram_threshold);
+    CHECK(least_squares().solve(problem.normal()).report.kkt_residual.maxCoeff() < least_squares::gram_threshold);
   }
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("dependent columns of very different lengths still leave no gradient")
   CHECK(least_squares().rank(problem) == 5);
   CHECK(least_squares().solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
   CHECK(least_squares().rank(problem.normal()) == 5);
-  CHECK(least_squares().solve(problem.normal()).kkt_residual.maxCoeff() < 1e-9);
+  CHECK(least_squares().solve(problem.normal()).report.kkt_residual.maxCoeff() < 1e-9);
 }
 
 TEST_CASE("nothing to fit: no weight, no matrix, no right-hand side, or one orthogonal to all columns") {
@@ -231,7 +231,7 @@ TEST_CASE("nothing to fit: no weight, no matrix, no right-hand side, or one orth
     CHECK(least_squares().solve(problem).weights.isZero(0.0));
     CHECK(least_squares().solve(problem).report.kkt_residual[0] == 0.0);
     CHECK(least_squares().solve(problem.normal()).weights.isZero(0.0));
-    CHECK(least_squares().solve(problem.normal()).kkt_residual[0] == 0.0);
+    CHECK(least_squares().solve(problem.normal()).report.kkt_residual[0] == 0.0);
   }
   const Eigen::MatrixXd columns = random_orthonormal(8, 4, 3);
   const auto orthogonal = least_squares().solve(least_squares_problem{columns.leftCols(3), columns.rightCols(1)});

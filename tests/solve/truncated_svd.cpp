@@ -83,7 +83,7 @@ TEST_CASE("KKT residuals hold for any share, also where singular values fall to 
     const auto problem = fading_problem(n, k, 0.1, *rc::gen::arbitrary<unsigned>());
     RC_ASSERT(truncated_svd(share).solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
     RC_ASSERT(truncated_svd(1.0).solve(problem).report.kkt_residual.maxCoeff() < 1e-9);
-    RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).kkt_residual.maxCoeff() < 1e-9);
+    RC_ASSERT(truncated_svd(1.0).solve(problem.normal()).report.kkt_residual.maxCoeff() < 1e-9);
   }));
 }
 

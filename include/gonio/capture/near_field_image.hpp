@@ -8,6 +8,7 @@
 
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,5 +99,4 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/capture/impl/near_field_image.ipp>
-#include <gonio/table/sample_set.hpp>
 #endif

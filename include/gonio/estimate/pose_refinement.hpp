@@ -6,6 +6,7 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <Eigen/Core>
 
@@ -189,5 +190,4 @@ class pose_refinement {
 
 #if !defined(GONIO_COMPILED)
 #include <gonio/estimate/impl/pose_refinement.ipp>
-#include <gonio/table/sample_set.hpp>
 #endif

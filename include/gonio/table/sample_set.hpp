@@ -40,6 +40,8 @@ class sample_directions {
   sample_directions() : sample_directions(half_difference{}) {}
   sample_directions(const direction_pair& pair) : pair_(pair), angles_(to_half_difference(pair.wi, pair.wo)) {}
   sample_directions(const half_difference& angles) : pair_(to_directions(angles)), angles_(angles) {}
+  sample_directions(double theta_h, double theta_d, double phi_d)
+      : sample_directions(half_difference{theta_h, theta_d, phi_d}) {}
 
   [[nodiscard]] const direction_pair& pair() const noexcept { return pair_; }
   [[nodiscard]] const half_difference& angles() const noexcept { return angles_; }

@@ -139,9 +139,9 @@ namespace gonio::detail {
 template <quadratic_problem Problem>
 [[nodiscard]] solution certified_signed_program(const Problem& problem, bool non_negative, solution found) {
   const sign_rule signs = non_negative ? sign_rule::non_negative : sign_rule::any;
-  const int iterations = found.iterations;
+  const int iterations = found.report.iterations;
   found = certified(problem, {signs, 0.0, "the quadratic program"}, std::move(found.weights));
-  found.iterations = iterations;
+  found.report.iterations = iterations;
   return found;
 }
 
