@@ -3,6 +3,7 @@
 #include "command_line/fixed.hpp"
 #include "command_line/machine_choice.hpp"
 #include "lab.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/capture/calibration.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
@@ -105,8 +106,7 @@ void run(const calibrate_command& options) {
   }
   gonio::io::write_samples(options.output, samples);
   if (!options.response.empty()) write_responses(options.response, known);
-  std::ranges::nth_element(deviations, deviations.begin() + std::ssize(deviations) / 2);
-  std::cout << samples.size() << " samples, each known to " << fixed(100.0 * deviations[deviations.size() / 2], 2)
+  std::cout << samples.size() << " samples, each known to " << fixed(100.0 * gonio::upper_median(deviations), 2)
             << " % (median)\n";
   if (material.subject && reference.subject)
     std::cout << "of '" << material.subject->sample << "' beside '" << reference.subject->sample << "'\n";

@@ -5,6 +5,7 @@
 /// 2016, contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and a blunt tip as of an
 /// impression. Millimetres. The vertical axis is y, inwards is about -x, to the back of the head is -z.
 
+#include <gonio/core/random.hpp>
 #include <gonio/core/error.hpp>
 
 #include <Eigen/Core>
@@ -30,7 +31,7 @@ class number_source {
   explicit number_source(std::uint64_t seed) : generator_(seed) {}
 
   /// In [0, 1).
-  [[nodiscard]] double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double uniform() { return gonio::uniform_number(generator_); }
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
   /// Of mean 0 and variance 1 (Box and Muller).

@@ -3,6 +3,7 @@
 /// sample it. The materials are those that a prior remembers; what reconstructs ten of them is learned from the others.
 /// Usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]
 
+#include <gonio/core/random.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -116,7 +117,7 @@ gonio::image render(const scene& world, std::size_t rows, std::size_t columns, i
   std::atomic<std::size_t> done = 0;
   gonio::for_each_block(rows, 1, [&](gonio::block range) {
     std::mt19937_64 generator(range.begin + 1);
-    auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    auto number = [&] { return gonio::uniform_number(generator); };
     for (std::size_t column = 0; column < columns; ++column) {
       rgb sum = rgb::Zero();
       for (int i = 0; i < samples; ++i) {

@@ -2,6 +2,7 @@
 /// Measurements simulated from a table, with the defects that real ones have. Noell et al. 2014, section 3.1
 /// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015.
 
+#include <gonio/core/random.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -39,9 +40,6 @@ template <class Generator>
 [[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
   return std::max<std::size_t>(static_cast<std::size_t>(std::llround(share * static_cast<double>(all))), 1);
 }
-
-/// `count` different ones of the numbers 0 ... all - 1 at random, in increasing order; `count` is at most `all`.
-[[nodiscard]] std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed);
 
 /// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
 /// between 1 and the number of cells.

@@ -3,6 +3,7 @@
 /// combined. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
 /// 1995: the balance heuristic. Light that is reflected once is all there is on a sphere.
 
+#include <gonio/core/random.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/core/sampled_direction.hpp>
@@ -52,7 +53,7 @@ class even_pairs {
  private:
   static constexpr double root = 1.324717957244746;
 
-  [[nodiscard]] double next() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double next() { return uniform_number(generator_); }
 
   std::mt19937_64 generator_;
   std::vector<pairs> all_;

@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of basis/rbf.hpp.
 
+#include <gonio/core/random.hpp>
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/core/compiled.hpp>
@@ -31,11 +32,8 @@ GONIO_INLINE gaussian_kernel::gaussian_kernel(double width) : width_(width) {
 GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
                                                                  std::uint64_t seed) {
   constexpr std::size_t most_candidates = 60'000;
-  std::vector<std::size_t> all(cells.size()), candidates;
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> candidates = random_choice(cells.size(), most_candidates, seed);
   std::mt19937_64 generator(seed);
-  std::ranges::sample(all, std::back_inserter(candidates),
-                      static_cast<std::ptrdiff_t>(std::min(most_candidates, all.size())), generator);
   Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i)
     places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();

@@ -1,6 +1,8 @@
 #pragma once
 /// Bodies of capture/colour_clusters.hpp.
 
+#include <gonio/core/statistics.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/compiled.hpp>
@@ -32,11 +34,8 @@ inline constexpr std::size_t clustered_sample = 2000;
 
 /// The positions of `clustered_sample` of n points at random, or of all if there are not as many, in their order.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(n)), chosen(std::min(all.size(), clustered_sample));
-  std::iota(all.begin(), all.end(), Eigen::Index{0});
-  std::mt19937_64 generator(seed);
-  std::ranges::sample(all, chosen.begin(), std::ssize(chosen), generator);
-  return chosen;
+  const std::vector<std::size_t> chosen = random_choice(static_cast<std::size_t>(n), clustered_sample, seed);
+  return {chosen.begin(), chosen.end()};
 }
 
 GONIO_INLINE void require_colours(const point_matrix_view& colours) {
@@ -65,12 +64,11 @@ GONIO_INLINE point_matrix clustering_coordinates(const point_matrix_view& colour
   detail::require_colours(colours);
   std::vector<double> largest(static_cast<std::size_t>(colours.rows()));
   for (Eigen::Index i = 0; i < colours.rows(); ++i) largest[static_cast<std::size_t>(i)] = colours.row(i).maxCoeff();
-  const auto white = largest.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(largest.size() - 1));
-  std::ranges::nth_element(largest, white);
-  if (!(*white > 0.0)) throw error("99 of 100 pixels are black: there is no colour to cluster by");
+  const double white = quantile(largest, 0.99);
+  if (!(white > 0.0)) throw error("99 of 100 pixels are black: there is no colour to cluster by");
   point_matrix coordinates(colours.rows(), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i)
-    coordinates.row(i) = to_lab(colours.row(i).transpose().array() / *white).matrix().transpose();
+    coordinates.row(i) = to_lab(colours.row(i).transpose().array() / white).matrix().transpose();
   return coordinates;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of evaluate/simulated_measurement.hpp.
 
+#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/table/brdf_table.hpp>
@@ -25,20 +26,6 @@ GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::spa
     samples.push_back({direction_pair{wi, wo}, table(light, viewer), 1.0});
   }
   return samples;
-}
-
-GONIO_INLINE std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<std::size_t> chosen(all);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  // The first steps of a Fisher-Yates shuffle.
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
-    std::swap(chosen[i], chosen[rest(generator)]);
-  }
-  chosen.resize(count);
-  std::ranges::sort(chosen);
-  return chosen;
 }
 
 GONIO_INLINE std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed) {

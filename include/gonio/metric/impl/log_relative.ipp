@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of metric/log_relative.hpp.
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
@@ -14,20 +15,6 @@
 #include <vector>
 
 namespace gonio {
-
-namespace detail {
-
-/// Reorders the values.
-[[nodiscard]] GONIO_INLINE float median_of(std::vector<float>& values) {
-  float* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  if (values.size() % 2 != 0) return *middle;
-  float below = values[0];
-  for (const float* value = values.data(); value != middle; ++value) below = std::max(below, *value);
-  return 0.5f * (*middle + below);
-}
-
-}  // namespace detail
 
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting)
     : cells_(std::move(cells)), weighting_(weighting) {
@@ -48,7 +35,7 @@ GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, c
         std::vector<float> row(static_cast<std::size_t>(values.cols()));
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
           std::copy_n(values.data() + cell * row.size(), row.size(), row.begin());
-          reference[cell] = std::max(detail::median_of(row), 0.0f);
+          reference[cell] = std::max(median(row), 0.0f);
         }
       },
       threads);

@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of render/environment_map.hpp.
 
+#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/render/environment_map.hpp>
@@ -72,7 +73,7 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
   std::vector<double> draws;
   draws.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
-    draws.push_back(static_cast<double>(i) + static_cast<double>(generator() >> 11) * 0x1p-53);
+    draws.push_back(static_cast<double>(i) + uniform_number(generator));
   return draws;
 }
 

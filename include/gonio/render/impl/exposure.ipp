@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of render/exposure.hpp.
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/render/exposure.hpp>
@@ -20,9 +21,7 @@ GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
   std::vector<double> brightest;
   for (const sphere_point& point : sphere_points(static_cast<int>(picture.shape(0))))
     brightest.push_back(pixel(picture, point.row, point.column).maxCoeff());
-  const auto at = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(brightest.size() - 1)));
-  std::ranges::nth_element(brightest, brightest.begin() + at);
-  return brightest[static_cast<std::size_t>(at)];
+  return quantile(brightest, share);
 }
 
 GONIO_INLINE double exposure_of_spheres(std::span<const image> pictures) {

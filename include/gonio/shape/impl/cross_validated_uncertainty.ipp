@@ -1,6 +1,8 @@
 #pragma once
 /// Bodies of shape/cross_validated_uncertainty.hpp.
 
+#include <gonio/core/statistics.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
@@ -39,9 +41,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
 /// The noise of a scan, mm: where it is as noisy as in most places.
 [[nodiscard]] GONIO_INLINE double noise_of(const surface_index& scan) {
   Eigen::RowVectorXd variances = noise_variances(scan.mesh(), scan.topology());
-  double* const middle = variances.data() + variances.size() / 2;
-  std::nth_element(variances.data(), middle, variances.data() + variances.size());
-  return std::sqrt(*middle);
+  return std::sqrt(upper_median(std::span(variances.data(), static_cast<std::size_t>(variances.size()))));
 }
 
 /// The models of all shapes but those of one part.
@@ -71,7 +71,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   std::mt19937_64 generator(seed);
   // Only its variance matters: a uniform number, as the standard's normal ones differ between libraries.
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
-    const double centred = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
+    const double centred = uniform_number(generator) - 0.5;
     noisy.vertices.col(v) += noise * std::sqrt(12.0) * centred * normals.col(v);
   }
   try {

@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of shape/fit_to_scan.hpp.
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/shape/alignment.hpp>
@@ -60,10 +61,7 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
     const Eigen::Vector3d off = places.positions.col(std::ssize(distances)) - shape.col(vertex);
     distances.push_back(off.norm());
   }
-  std::vector<double> sorted = distances;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
-  const double usual = 3.0 * std::max(position_error, *middle);
+  const double usual = 3.0 * std::max(position_error, upper_median(std::vector(distances)));
   Eigen::VectorXd weights(places.positions.cols());
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;

@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of shape/registration.hpp.
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
@@ -26,9 +27,7 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     smallest.push_back(degrees(std::min({mesh.angle(t, 0), mesh.angle(t, 1), mesh.angle(t, 2)})));
   }
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
-  std::ranges::nth_element(smallest, smallest.begin() + place);
-  return smallest[static_cast<std::size_t>(place)];
+  return quantile(smallest, share);
 }
 
 }  // namespace gonio::shape
