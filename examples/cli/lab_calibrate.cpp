@@ -3,8 +3,8 @@
 #include "command_line/fixed.hpp"
 #include "command_line/machine_choice.hpp"
 #include "lab.hpp"
-#include <gonio/core/statistics.hpp>
 #include <gonio/capture/calibration.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 

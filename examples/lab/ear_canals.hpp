@@ -5,8 +5,8 @@
 /// 2016, contribution C.V), section 1.1: left ears with a bowl at the outer end, two bends and a blunt tip as of an
 /// impression. Millimetres. The vertical axis is y, inwards is about -x, to the back of the head is -z.
 
-#include <gonio/core/random.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -3,10 +3,10 @@
 /// sample it. The materials are those that a prior remembers; what reconstructs ten of them is learned from the others.
 /// Usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]
 
-#include <gonio/core/random.hpp>
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/test_materials.hpp>

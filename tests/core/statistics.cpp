@@ -8,8 +8,8 @@
 
 TEST_CASE("quantiles and medians are those of the sorted numbers") {
   CHECK(rc::check([] {
-    auto numbers = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(rc::gen::map(
-        rc::gen::inRange(-50, 50), [](int number) { return 0.25 * number; })));
+    auto numbers = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
+        rc::gen::map(rc::gen::inRange(-50, 50), [](int number) { return 0.25 * number; })));
     auto sorted = numbers;
     std::ranges::sort(sorted);
     const double share = 0.01 * *rc::gen::inRange(0, 101);

@@ -13,8 +13,8 @@
 #include "papers/experiments.hpp"
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
-#include <gonio/core/random.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>

@@ -14,8 +14,8 @@
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/scattered_errors.hpp"
 #include "papers/resumable_results.hpp"
-#include <gonio/core/random.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>

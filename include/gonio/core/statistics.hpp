@@ -11,7 +11,8 @@ namespace gonio {
 /// The number at floor(share (n - 1)) when they are sorted: the least for a share of 0, the greatest for 1.
 template <class Numbers>
 [[nodiscard]] auto quantile(Numbers&& numbers, double share) {
-  const auto at = std::begin(numbers) + static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1));
+  const auto at =
+      std::begin(numbers) + static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1));
   std::nth_element(std::begin(numbers), at, std::end(numbers));
   return *at;
 }

@@ -3,8 +3,8 @@
 /// estimators that need one. A linear combination of materials is dragged along by outliers; one material that is only
 /// brightened or darkened cannot follow them.
 
-#include <gonio/core/random.hpp>
 #include <gonio/basis/measured.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>

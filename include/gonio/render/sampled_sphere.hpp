@@ -3,9 +3,9 @@
 /// combined. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
 /// 1995: the balance heuristic. Light that is reflected once is all there is on a sphere.
 
-#include <gonio/core/random.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/image.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 /// Bodies of basis/rbf.hpp.
 
-#include <gonio/core/random.hpp>
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/random.hpp>
 
 #include <Eigen/Core>
 
@@ -23,11 +23,6 @@
 #include <vector>
 
 namespace gonio {
-
-GONIO_INLINE gaussian_kernel::gaussian_kernel(double width) : width_(width) {
-  if (!(width > 0.0 && std::isfinite(width)))
-    throw error{"the width of a Gaussian kernel must be positive and finite, not ", width};
-}
 
 GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
                                                                  std::uint64_t seed) {

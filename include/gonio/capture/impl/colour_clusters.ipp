@@ -1,13 +1,13 @@
 #pragma once
 /// Bodies of capture/colour_clusters.hpp.
 
-#include <gonio/core/statistics.hpp>
-#include <gonio/core/random.hpp>
 #include <gonio/capture/colour_clusters.hpp>
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/statistics.hpp>
 
 #include <algorithm>
 #include <numeric>

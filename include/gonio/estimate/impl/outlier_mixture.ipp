@@ -1,8 +1,8 @@
 #pragma once
 /// Bodies of estimate/outlier_mixture.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/sample_regions.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 /// Bodies of evaluate/simulated_measurement.hpp.
 
-#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>

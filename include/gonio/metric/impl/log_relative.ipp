@@ -1,10 +1,10 @@
 #pragma once
 /// Bodies of metric/log_relative.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/log_relative.hpp>
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Bodies of model/model_loss.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/model/model_loss.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/nnls.hpp>

@@ -1,9 +1,9 @@
 #pragma once
 /// Bodies of render/environment_map.hpp.
 
-#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
@@ -72,8 +72,7 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
   std::mt19937_64 generator(seed);
   std::vector<double> draws;
   draws.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
-    draws.push_back(static_cast<double>(i) + uniform_number(generator));
+  for (std::size_t i = 0; i < count; ++i) draws.push_back(static_cast<double>(i) + uniform_number(generator));
   return draws;
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 /// Bodies of render/exposure.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/sphere.hpp>
 #include <gonio/table/image.hpp>

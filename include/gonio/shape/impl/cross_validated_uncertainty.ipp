@@ -1,11 +1,11 @@
 #pragma once
 /// Bodies of shape/cross_validated_uncertainty.hpp.
 
-#include <gonio/core/statistics.hpp>
-#include <gonio/core/random.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/recovery.hpp>

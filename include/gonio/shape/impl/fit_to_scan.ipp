@@ -1,9 +1,9 @@
 #pragma once
 /// Bodies of shape/fit_to_scan.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 /// Bodies of shape/registration.hpp.
 
-#include <gonio/core/statistics.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
