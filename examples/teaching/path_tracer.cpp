@@ -162,10 +162,9 @@ std::vector<material> measured_and_reconstructed(const std::filesystem::path& pr
 }  // namespace
 
 int main(int count, char** arguments) try {
-  if (count < 3)
-    throw gonio::error("usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]");
+  if (count < 3) gonio::refuse("usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]");
   const int samples = count > 4 ? std::atoi(arguments[4]) : 64;
-  if (samples < 1) throw gonio::error("the samples for each pixel are a number, at least 1");
+  if (samples < 1) gonio::refuse("the samples for each pixel are a number, at least 1");
   const auto made_of = measured_and_reconstructed(arguments[1]);
   scene world{{},
               gonio::render::environment_sampler(

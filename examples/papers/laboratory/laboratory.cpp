@@ -73,7 +73,7 @@ std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
       if (found.is_reachable()) poses.push_back(found.at);
     }
   });
-  if (poses.empty()) throw gonio::error("the machine can measure none of the directions");
+  if (poses.empty()) gonio::refuse("the machine can measure none of the directions");
   return poses;
 }
 

@@ -115,7 +115,7 @@ std::vector<named_table> tables_of(const sampling_options& options) {
       tables.push_back({networks.names[i], gonio::tabulate(networks.networks[i], cells, options.threads)});
   }
   for (const auto& path : options.tables) tables.push_back({path.stem().string(), gonio::io::read_merl_any(path)});
-  if (tables.empty()) throw gonio::error("no materials: give --networks or tables");
+  if (tables.empty()) gonio::refuse("no materials: give --networks or tables");
   return tables;
 }
 

@@ -94,11 +94,11 @@ class rbf {
   /// one is not finite.
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
-    if (centres.empty()) throw error("radial basis functions need at least one centre");
+    if (centres.empty()) refuse("radial basis functions need at least one centre");
     coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
-      if (!place.allFinite()) throw error{"centre ", i + 1, " of radial basis functions is not finite"};
+      if (!place.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
       places.col(static_cast<Eigen::Index>(i)) = place.array();
     }
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));

@@ -175,8 +175,7 @@ class robust_reconstruction {
         limits_(limits),
         options_(start),
         threads_(threads) {
-    if (!(materials_.cells() == corrections_.cells()))
-      throw error("materials and corrections must be over the same cells");
+    if (!(materials_.cells() == corrections_.cells())) refuse("materials and corrections must be over the same cells");
   }
 
   /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws

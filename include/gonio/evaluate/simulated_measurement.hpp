@@ -55,9 +55,9 @@ template <class AnyValue>
 [[nodiscard]] sample_set corrupt(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
                                  AnyValue&& any_value) {
   if (!(defects.outlier_ratio >= 0.0 && defects.outlier_ratio <= 1.0))
-    throw error("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
+    refuse("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
-    throw error("the noise must be finite and not negative, not " + std::to_string(defects.noise));
+    refuse("the noise must be finite and not negative, not " + std::to_string(defects.noise));
 
   // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
   std::mt19937_64 generator(seed);

@@ -44,8 +44,7 @@ GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cel
     nearest.maxCoeff(&farthest);
   }
   if (centres.size() < count)
-    throw error{"cannot choose ", count, " different centres of radial basis functions among ", centres.size(),
-                " places"};
+    refuse({"cannot choose ", count, " different centres of radial basis functions among ", centres.size(), " places"});
   return centres;
 }
 

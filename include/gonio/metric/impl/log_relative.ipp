@@ -19,15 +19,15 @@ namespace gonio {
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting)
     : cells_(std::move(cells)), weighting_(weighting) {
   if (reference.size() != cells_.size())
-    throw error{"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"};
+    refuse({"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"});
   for (const float value : reference)
-    if (!(value >= 0.0f && std::isfinite(value))) throw error("a reference BRDF must be finite and not negative");
+    if (!(value >= 0.0f && std::isfinite(value))) refuse("a reference BRDF must be finite and not negative");
   reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
 }
 
 GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                      thread_count threads) {
-  if (values.cols() == 0) throw error("the median of no material is not defined");
+  if (values.cols() == 0) refuse("the median of no material is not defined");
   std::vector<float> reference(cells.size());
   for_each_block(
       reference.size(), 1024,

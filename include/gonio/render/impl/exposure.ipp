@@ -17,7 +17,7 @@ namespace gonio::render {
 
 GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
   if (picture.shape(0) != picture.shape(1))
-    throw error{"an image of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"};
+    refuse({"an image of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"});
   std::vector<double> brightest;
   for (const sphere_point& point : sphere_points(static_cast<int>(picture.shape(0))))
     brightest.push_back(pixel(picture, point.row, point.column).maxCoeff());

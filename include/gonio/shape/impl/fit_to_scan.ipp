@@ -44,9 +44,8 @@ GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return 
 GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
   constexpr std::size_t least = 10;
   if (places.vertices.size() < least)
-    throw error{"the scan shows ",     places.vertices.size(),          " of the model's ",
-                model.vertices(),      " vertices, expected at least ", least,
-                ": is its pose right?"};
+    refuse({"the scan shows ", places.vertices.size(), " of the model's ", model.vertices(),
+            " vertices, expected at least ", least, ": is its pose right?"});
 }
 
 }  // namespace gonio::shape
