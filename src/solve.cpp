@@ -11,8 +11,6 @@
 #include <gonio/solve/impl/levenberg_marquardt.ipp>
 #include <gonio/solve/impl/linear_constraints.ipp>
 #include <gonio/solve/impl/nnls.ipp>
-#include <gonio/solve/impl/nnls_block_pivoting.ipp>
-#include <gonio/solve/impl/nnls_coordinate_descent.ipp>
 #include <gonio/solve/impl/normal_equations.ipp>
 #include <gonio/solve/impl/quadratic_program.ipp>
 #include <gonio/solve/impl/row_active_set.ipp>

@@ -1,6 +1,7 @@
 /// What it costs to accumulate a Gram matrix in float: each of the ten test materials from the 99 others, the normal
 /// equations once from products and block sums in float, once in double; both solutions judged in double. No timings.
 
+#include "../../tests/solve/oracles/nnls_block_pivoting.hpp"
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/evaluate/test_materials.hpp>
@@ -10,7 +11,6 @@
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>

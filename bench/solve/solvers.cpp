@@ -1,6 +1,8 @@
 /// All solvers on the same problem: one material from the 99 others, every cell of it or a tenth. And larger ones:
 /// 50 to 800 columns. Counters: objective over that of NNLS, KKT residual, weights that are not zero.
 
+#include "../../tests/solve/oracles/nnls_block_pivoting.hpp"
+#include "../../tests/solve/oracles/nnls_coordinate_descent.hpp"
 #include "../real_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/metric/log.hpp>
@@ -9,8 +11,6 @@
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
-#include <gonio/solve/nnls_coordinate_descent.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>

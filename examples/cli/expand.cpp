@@ -29,7 +29,7 @@ gonio::brdf_table table_of_prior(const expand_options& options, const gonio::val
   const auto prior = gonio::io::read_prior(options.prior);
   const auto found = std::ranges::find(prior.names(), options.name);
   if (found == prior.names().end())
-    throw gonio::error(options.prior.string() + ": there is no material named '" + options.name + "'");
+    gonio::refuse(options.prior.string() + ": there is no material named '" + options.name + "'");
   gonio::solution stored;
   stored.weights = prior.weights_of(static_cast<std::size_t>(found - prior.names().begin()));
   return gonio::fitted_brdf(prior, std::move(stored)).tabulate(cells, options.threads);
@@ -63,7 +63,7 @@ void add_expand(command& app) {
   add_threads_option(command, options->threads);
   command.callback([options] {
     if (options->formula.empty() && options->name.empty())
-      throw gonio::error("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
+      gonio::refuse("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
     write_table(options->output, table_of(*options, gonio::valid_cells()));
   });
 }

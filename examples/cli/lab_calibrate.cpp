@@ -4,6 +4,7 @@
 #include "command_line/machine_choice.hpp"
 #include "lab.hpp"
 #include <gonio/capture/calibration.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 
@@ -61,8 +62,8 @@ void require_same_poses(const calibrate_command& options, const gonio::io::recor
                         const gonio::io::recorded_scan& reference) {
   const auto same = [](const auto& a, const auto& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (material.largest_count != reference.largest_count || !std::ranges::equal(material.poses, reference.poses, same))
-    throw gonio::error(options.material.string() + " and " + options.reference.string() +
-                       ": expected scans of the same poses by the same camera");
+    gonio::refuse(options.material.string() + " and " + options.reference.string() +
+                  ": expected scans of the same poses by the same camera");
 }
 
 void require_reference(const calibrate_command& options,
@@ -70,8 +71,8 @@ void require_reference(const calibrate_command& options,
   if (!options.brighter) try {
       gonio::capture::require_bright_reference(usable, options.reflectance);
     } catch (const gonio::error& refusal) {
-      throw gonio::error{options.reference.native(), ": ", refusal.what(),
-                         " (if not, as where only a highlight was measured: --brighter)"};
+      gonio::refuse({options.reference.native(), ": ", refusal.what(),
+                     " (if not, as where only a highlight was measured: --brighter)"});
     }
 }
 
@@ -95,7 +96,7 @@ void run(const calibrate_command& options) {
     else
       leave_out(i, found.doubt);
   }
-  if (usable.empty()) throw gonio::error(options.material.string() + ": no pose can be used");
+  if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
   require_reference(options, usable);
   gonio::sample_set samples;
   std::vector<double> deviations;
@@ -105,8 +106,7 @@ void run(const calibrate_command& options) {
   }
   gonio::io::write_samples(options.output, samples);
   if (!options.response.empty()) write_responses(options.response, known);
-  std::ranges::nth_element(deviations, deviations.begin() + std::ssize(deviations) / 2);
-  std::cout << samples.size() << " samples, each known to " << fixed(100.0 * deviations[deviations.size() / 2], 2)
+  std::cout << samples.size() << " samples, each known to " << fixed(100.0 * gonio::upper_median(deviations), 2)
             << " % (median)\n";
   if (material.subject && reference.subject)
     std::cout << "of '" << material.subject->sample << "' beside '" << reference.subject->sample << "'\n";

@@ -46,7 +46,7 @@ timed_plan whole_hemisphere(const lab::robot& machine) {
 timed_plan plan_of(const plan_command& options) {
   lab::dark_room room(lab::white(), {}, {});
   if (options.whole) {
-    if (options.machine.name != "robot") throw gonio::error("--whole is the scan of --machine robot");
+    if (options.machine.name != "robot") gonio::refuse("--whole is the scan of --machine robot");
     return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
   }
   const auto pairs = gonio::io::read_direction_pairs(options.directions);
@@ -61,7 +61,7 @@ timed_plan plan_of(const plan_command& options) {
 
 void run(const plan_command& options) {
   const auto [plan, stops, lamps] = plan_of(options);
-  if (plan.poses.empty()) throw gonio::error("the machine can measure none of the directions");
+  if (plan.poses.empty()) gonio::refuse("the machine can measure none of the directions");
   gonio::io::write_direction_pairs(options.output, plan.poses);
   const double minutes = gonio::capture::duration_of_scan(plan.length, stops, lamps) / 60.0;
   std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the way is "

@@ -41,9 +41,9 @@ void photograph(const probe_command& options) {
 gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::filesystem::path& file) {
   const std::size_t factor = picture.shape(0) / rows;
   if (factor * rows != picture.shape(0) || picture.shape(1) % factor != 0)
-    throw gonio::error(file.string() + ": an image of " + std::to_string(picture.shape(0)) + " rows and " +
-                       std::to_string(picture.shape(1)) + " columns cannot be shown in, or compared with, one of " +
-                       std::to_string(rows) + " rows");
+    gonio::refuse(file.string() + ": an image of " + std::to_string(picture.shape(0)) + " rows and " +
+                  std::to_string(picture.shape(1)) + " columns cannot be shown in, or compared with, one of " +
+                  std::to_string(rows) + " rows");
   gonio::image means = gonio::uniform_image(rows, picture.shape(1) / factor);
   for (std::size_t row = 0; row < picture.shape(0); ++row)
     for (std::size_t column = 0; column < picture.shape(1); ++column) {
@@ -89,7 +89,7 @@ void unwrap(const probe_command& options) {
     try {
       return gonio::capture::unwrap(probe, sphere, options.unwrapping, options.threads);
     } catch (const gonio::error& refusal) {
-      throw gonio::error(options.input.string() + ": " + refusal.what());
+      gonio::refuse(options.input.string() + ": " + refusal.what());
     }
   }();
   gonio::io::write_hdr(options.output, map);

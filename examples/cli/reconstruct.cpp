@@ -70,11 +70,10 @@ void require_taken(const command& given, const method& chosen) {
       std::string names;
       for (const method& m : methods())
         if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
-      throw gonio::error(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " +
-                         names);
+      gonio::refuse(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " + names);
     }
   if (given.count("--truth") > 0 && given.count("--iteration-figure") == 0)
-    throw gonio::error("--truth is only for the image of --iteration-figure, which is not asked for");
+    gonio::refuse("--truth is only for the image of --iteration-figure, which is not asked for");
 }
 
 /// A line for each round; docs/formats.md has the columns.
@@ -118,8 +117,8 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
   for (const gonio::sample& s : samples) largest = std::max(largest, s.value.abs().maxCoeff());
   std::ostringstream value;
   value << largest;
-  throw gonio::error{options.samples.native(), ": these samples, of up to ", value.str(),
-                     " sr^-1, complete to a table that is not finite by the method ", options.method};
+  gonio::refuse({options.samples.native(), ": these samples, of up to ", value.str(),
+                 " sr^-1, complete to a table that is not finite by the method ", options.method});
 }
 
 void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {

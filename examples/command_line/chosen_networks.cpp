@@ -12,8 +12,8 @@ gonio::model::named_networks select(const gonio::model::named_networks& all, con
                                     bool wanted) {
   for (const std::string& name : names)
     if (std::ranges::find(all.names, name) == all.names.end())
-      throw gonio::error("there is no material named '" + name + "' among the " + std::to_string(all.names.size()) +
-                         " networks");
+      gonio::refuse("there is no material named '" + name + "' among the " + std::to_string(all.names.size()) +
+                    " networks");
   gonio::model::named_networks chosen;
   for (std::size_t i = 0; i < all.names.size(); ++i) {
     const bool listed = std::ranges::find(names, all.names[i]) != names.end();

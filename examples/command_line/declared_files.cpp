@@ -44,9 +44,9 @@ std::string listed(const std::vector<std::string>& words) {
 void require_place(const std::string& option, const fs::path& path) {
   const fs::path folder = gonio::io::detail::follow_links(path).parent_path();
   std::error_code failed;
-  if (fs::is_directory(path, failed)) throw gonio::error{option, " ", path.native(), ": is a directory"};
+  if (fs::is_directory(path, failed)) gonio::refuse({option, " ", path.native(), ": is a directory"});
   if (folder.empty() || fs::is_directory(folder, failed)) return;
-  throw gonio::error{option, " ", path.native(), ": cannot be written: there is no folder '", folder.native(), "'"};
+  gonio::refuse({option, " ", path.native(), ": cannot be written: there is no folder '", folder.native(), "'"});
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ void declared_files::require_writable() const {
     require_not_read(all[i]);
     for (std::size_t j = 0; j < i; ++j)
       if (is_same_file(all[i].path, all[j].path))
-        throw gonio::error{all[i].option, " ", all[i].path.native(), ": is what ", all[j].option, " writes, too"};
+        gonio::refuse({all[i].option, " ", all[i].path.native(), ": is what ", all[j].option, " writes, too"});
   }
 }
 
@@ -89,7 +89,7 @@ std::vector<declared_files::output> declared_files::outputs() const {
         continue;
       }
       if (!each.names.empty() && !has_extension(path, each.names))
-        throw gonio::error{each.option, " ", path.native(), ": expected a name that ends in ", listed(each.names)};
+        gonio::refuse({each.option, " ", path.native(), ": expected a name that ends in ", listed(each.names)});
       require_place(each.option, path);
       all.push_back({each.option, path});
     }
@@ -104,9 +104,8 @@ void declared_files::require_not_read(const output& written) const {
                                                 is_same_file(resolved(written.path).parent_path(), path)
                                           : is_same_file(written.path, path);
       if (is_read)
-        throw gonio::error{written.option,        " ",
-                           written.path.native(), ": would overwrite what is read as ",
-                           each.option,           ", expected another name"};
+        gonio::refuse({written.option, " ", written.path.native(), ": would overwrite what is read as ", each.option,
+                       ", expected another name"});
     }
 }
 

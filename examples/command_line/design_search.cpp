@@ -57,7 +57,7 @@ capture_plan sweep(const Objective& objective, const design_options& options, co
 template <class Objective>
 capture_plan slide(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   if (!options.start.empty())
-    throw gonio::error("a start can be added to by the expected error and an exhaustive search only");
+    gonio::refuse("a start can be added to by the expected error and an exhaustive search only");
   return gonio::design::grow_and_descend(objective.geometry(), objective, options.count, random_candidates,
                                          options.seed, listener);
 }
@@ -132,15 +132,15 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
   if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
-    throw gonio::error("directions that are not quite met are expected of points alone, by the expected error");
+    gonio::refuse("directions that are not quite met are expected of points alone, by the expected error");
   if (!expects_errors && (options.common_shift != 0.0 || options.in_sample))
-    throw gonio::error("--common-shift and --in-sample are of --criterion expected-error or perceived, not of " +
-                       options.criterion);
+    gonio::refuse("--common-shift and --in-sample are of --criterion expected-error or perceived, not of " +
+                  options.criterion);
   if (options.criterion == "condition" && options.noise != 0.0)
-    throw gonio::error("--noise means nothing to --criterion condition, which knows of no noise");
+    gonio::refuse("--noise means nothing to --criterion condition, which knows of no noise");
   if (!(options.angular_error >= 0.0 && options.angular_error < gonio::radians(45.0)))
-    throw gonio::error("directions may be off by 0 to 45 degrees, not by " +
-                       std::to_string(gonio::degrees(options.angular_error)));
+    gonio::refuse("directions may be off by 0 to 45 degrees, not by " +
+                  std::to_string(gonio::degrees(options.angular_error)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")
     return with(prior, gonio::design::point_geometry(prior.cells(), near_field.constraint), options, listener);

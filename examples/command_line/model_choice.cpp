@@ -28,9 +28,8 @@ const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind
   const std::string name = std::string(kind.name()) + "-fresnel";
   for (const gonio::model::lobe_kind* other : gonio::model::lobe_kinds())
     if (other->name() == name) return *other;
-  throw gonio::error(
-      "there is no " + std::string(kind.name()) +
-      " with Fresnel's factor: it is for phong, blinn-phong and phong-blinn (microfacet models have it)");
+  gonio::refuse("there is no " + std::string(kind.name()) +
+                " with Fresnel's factor: it is for phong, blinn-phong and phong-blinn (microfacet models have it)");
 }
 
 void add_fit_options(command& to, gonio::model::model_fit_options& options) {

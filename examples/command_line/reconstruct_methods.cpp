@@ -56,7 +56,7 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
                                      const gonio::sample_set& samples) {
   const std::string& stated = options.solver.eta;
   if ((!options.solver.name.empty() && options.solver.name != "tikhonov") || stated == "gcv" || stated == "loo")
-    throw gonio::error("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
+    gonio::refuse("--misplaced needs --solver tikhonov, and --noise or a number as its --eta");
   const double eta = stated.empty() ? gonio::eta_of_noise(prior, samples, options.noise.value_or(0.0), options.threads)
                                     : number_of_eta(stated);
   const gonio::errors_in_variables_decomposition estimator{prior, eta, gonio::radians(options.angular_error),
@@ -71,19 +71,19 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
   if (options.noise && !options.solver.eta.empty())
-    throw gonio::error("--noise and --eta both say what the penalty is: give one of them");
+    gonio::refuse("--noise and --eta both say what the penalty is: give one of them");
   if (options.noise && !penalised)
-    throw gonio::error("--noise chooses the penalty of tikhonov: it means nothing to --solver " + options.solver.name);
+    gonio::refuse("--noise chooses the penalty of tikhonov: it means nothing to --solver " + options.solver.name);
   const auto solver = make_solver(options.solver, {"tikhonov", "gcv"});
   if (solver.non_negative())
-    throw gonio::error("--solver " + options.solver.name +
-                       " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
-                       "use tikhonov, lasso, tsvd or ls, or --method linear");
+    gonio::refuse("--solver " + options.solver.name +
+                  " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
+                  "use tikhonov, lasso, tsvd or ls, or --method linear");
   if (!options.metric.empty() && options.metric != "log-relative")
-    throw gonio::error("a prior is learned under the log-relative metric: --metric " + options.metric +
-                       " needs --method linear");
+    gonio::refuse("a prior is learned under the log-relative metric: --metric " + options.metric +
+                  " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
-    throw gonio::error("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
+    gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
   const auto prior = gonio::io::read_prior(options.materials.prior);
   if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
   if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);

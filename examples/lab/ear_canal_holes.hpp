@@ -65,7 +65,7 @@ struct sampled_surface {
     while (remove_small_fans(kept)) {
     }
     if (kept.empty())
-      throw gonio::error("nothing is left of a scan of " + std::to_string(mesh.vertices.cols()) + " vertices");
+      gonio::refuse("nothing is left of a scan of " + std::to_string(mesh.vertices.cols()) + " vertices");
     keep_largest_part(kept);
     return renumber(kept);
   }
@@ -149,10 +149,10 @@ class ear_hole {
   /// Throws gonio::error for a hole without size, with too ragged an edge or a negative probability or length.
   ear_hole(const ear_canal& individual, const hole_options& options, number_source& numbers) : options_(options) {
     if (!(options.length > 0.0 && options.share > 0.0))
-      throw gonio::error("a hole of a scan must have a length and a share of the circumference above 0");
+      gonio::refuse("a hole of a scan must have a length and a share of the circumference above 0");
     if (!(options.ragged >= 0.0 && options.ragged < 0.5 && options.edge_noise >= 0.0 && options.edge_reach >= 0.0 &&
           options.flaps >= 0.0 && options.flaps <= 1.0))
-      throw gonio::error(
+      gonio::refuse(
           "a hole's raggedness must be in [0, 0.5), its noise and reach not negative and the "
           "probability of flaps in [0, 1]");
     const double anywhere = numbers.uniform(0.0, 2.0 * std::numbers::pi);

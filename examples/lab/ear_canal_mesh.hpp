@@ -51,8 +51,7 @@ class ring_mesher {
   ring_mesher(const parametric_surface& surface, double from, std::size_t vertices,
               const std::optional<irregularity>& irregular)
       : surface_(surface), from_(from), irregular_(irregular), numbers_(irregular ? irregular->seed : 0) {
-    if (vertices < 50)
-      throw gonio::error("a mesh of rings needs at least 50 vertices, not " + std::to_string(vertices));
+    if (vertices < 50) gonio::refuse("a mesh of rings needs at least 50 vertices, not " + std::to_string(vertices));
     measure();
     choose_counts(vertices);
     if (irregular_) skew_phase_ = numbers_.uniform(0.0, full);

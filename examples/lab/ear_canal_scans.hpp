@@ -73,8 +73,7 @@ inline void require_options(const scan_options& options) {
                                                                {"cut", options.cut}}};
   for (const auto& [name, value] : lengths)
     if (!(value >= 0.0 && std::isfinite(value)))
-      throw gonio::error(std::string("a scan's ") + name + " must be finite and not negative, not " +
-                         std::to_string(value));
+      gonio::refuse(std::string("a scan's ") + name + " must be finite and not negative, not " + std::to_string(value));
 }
 
 /// A smooth closed thing of the size of an ear canal, cut open at u = 0. It owns its shape.
@@ -236,7 +235,7 @@ class scanner {
                                                       std::size_t count, std::uint64_t seed,
                                                       double share_of_defects = 0.0, const scan_options& options = {}) {
   if (!(share_of_defects >= 0.0 && share_of_defects <= 1.0))
-    throw gonio::error("a share of defective scans must be from 0 to 1, not " + std::to_string(share_of_defects));
+    gonio::refuse("a share of defective scans must be from 0 to 1, not " + std::to_string(share_of_defects));
   constexpr std::array defects{scan_defect::mirrored, scan_defect::half, scan_defect::upside_down,
                                scan_defect::heavy_noise, scan_defect::other_object};
   number_source numbers(seed);

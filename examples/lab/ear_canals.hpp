@@ -6,6 +6,7 @@
 /// impression. Millimetres. The vertical axis is y, inwards is about -x, to the back of the head is -z.
 
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -30,7 +31,7 @@ class number_source {
   explicit number_source(std::uint64_t seed) : generator_(seed) {}
 
   /// In [0, 1).
-  [[nodiscard]] double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double uniform() { return gonio::uniform_number(generator_); }
   [[nodiscard]] double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
   /// Of mean 0 and variance 1 (Box and Muller).
@@ -78,10 +79,10 @@ class ear_canal {
   explicit ear_canal(std::vector<double> latents, std::optional<abnormality> oddity = std::nullopt)
       : latents_(std::move(latents)), oddity_(oddity) {
     if (latents_.size() != latent_count)
-      throw gonio::error("an ear canal was given " + std::to_string(latents_.size()) + " latent numbers, not " +
-                         std::to_string(latent_count));
+      gonio::refuse("an ear canal was given " + std::to_string(latents_.size()) + " latent numbers, not " +
+                    std::to_string(latent_count));
     if (!std::ranges::all_of(latents_, [](double z) { return std::isfinite(z); }))
-      throw gonio::error("a latent number of an ear canal is not finite");
+      gonio::refuse("a latent number of an ear canal is not finite");
     read_latents();
     follow_centre_line();
   }
@@ -341,9 +342,9 @@ class ear_canal_family {
   explicit ear_canal_family(double variation = 1.0, double abnormal_share = 0.03)
       : variation_(variation), abnormal_share_(abnormal_share) {
     if (!(variation >= 0.0 && variation <= 1.0))
-      throw gonio::error("an ear canal family's variation must be from 0 to 1, not " + std::to_string(variation));
+      gonio::refuse("an ear canal family's variation must be from 0 to 1, not " + std::to_string(variation));
     if (!(abnormal_share >= 0.0 && abnormal_share <= 1.0))
-      throw gonio::error("a share of abnormal ear canals must be from 0 to 1, not " + std::to_string(abnormal_share));
+      gonio::refuse("a share of abnormal ear canals must be from 0 to 1, not " + std::to_string(abnormal_share));
   }
 
   /// The individual of a seed: latent numbers within 3 standard deviations, drawn again until the surface keeps clear

@@ -30,17 +30,13 @@ class recorded_frames {
     const auto bytes = gonio::io::read_bytes(manifest);
     const auto text = cli::json::parse(std::string(gonio::io::detail::as_text(bytes)));
     if (!text.is_object())
-      throw gonio::error{name_,
-                         ": is not a JSON object, of at most ",
-                         cli::json::most_values,
-                         " values and nested at most ",
-                         cli::json::deepest,
-                         " deep"};
+      gonio::refuse({name_, ": is not a JSON object, of at most ", cli::json::most_values,
+                     " values and nested at most ", cli::json::deepest, " deep"});
     largest_count_ = static_cast<std::uint16_t>(whole(text, "largest_count", 65535));
-    if (largest_count_ == 0) throw gonio::error(name_ + ": 'largest_count' must be positive");
+    if (largest_count_ == 0) gonio::refuse(name_ + ": 'largest_count' must be positive");
     if (text.contains("window")) window_ = parse_window(text["window"]);
     if (!text.contains("frames") || !text["frames"].is_array() || text["frames"].empty())
-      throw gonio::error(name_ + ": 'frames' must be a list with a frame at least");
+      gonio::refuse(name_ + ": 'frames' must be a list with a frame at least");
     for (const auto& each : text["frames"].elements()) add(each);
   }
 
@@ -79,13 +75,13 @@ class recorded_frames {
 
   [[nodiscard]] double number(const cli::json& object, const std::string& key) const {
     if (!object.contains(key) || !object[key].is_number())
-      throw gonio::error(name_ + ": '" + key + "' is missing or no number in " + shown(object));
+      gonio::refuse(name_ + ": '" + key + "' is missing or no number in " + shown(object));
     return object[key].number();
   }
   [[nodiscard]] std::size_t whole(const cli::json& object, const std::string& key, double most) const {
     const double value = number(object, key);
     if (!(value >= 0.0 && value <= most && value == std::floor(value)))
-      throw gonio::error(name_ + ": '" + key + "' must be a whole number up to " + std::to_string(most));
+      gonio::refuse(name_ + ": '" + key + "' must be a whole number up to " + std::to_string(most));
     return static_cast<std::size_t>(value);
   }
   /// The beginning of what is not what it should be.
@@ -94,10 +90,10 @@ class recorded_frames {
   }
 
   [[nodiscard]] window parse_window(const cli::json& given) const {
-    if (!given.is_object()) throw gonio::error(name_ + ": 'window' must have column, row, columns and rows");
+    if (!given.is_object()) gonio::refuse(name_ + ": 'window' must have column, row, columns and rows");
     const window parsed{whole(given, "column", 1e6), whole(given, "row", 1e6), whole(given, "columns", 1e6),
                         whole(given, "rows", 1e6)};
-    if (parsed.columns == 0 || parsed.rows == 0) throw gonio::error(name_ + ": 'window' has no pixel");
+    if (parsed.columns == 0 || parsed.rows == 0) gonio::refuse(name_ + ": 'window' has no pixel");
     return parsed;
   }
 
@@ -105,18 +101,17 @@ class recorded_frames {
                                          const std::string& phi) const {
     const double polar = number(frame, theta), azimuth = number(frame, phi);
     if (!(polar >= 0.0 && polar < 90.0 && std::abs(azimuth) <= 360.0))
-      throw gonio::error(name_ + ": '" + theta + "' and '" + phi + "' must be degrees above the horizon in " +
-                         shown(frame));
+      gonio::refuse(name_ + ": '" + theta + "' and '" + phi + "' must be degrees above the horizon in " + shown(frame));
     return gonio::spherical_direction(gonio::radians(polar), gonio::radians(azimuth));
   }
 
   void add(const cli::json& frame) {
-    if (!frame.is_object()) throw gonio::error(name_ + ": " + shown(frame) + " is no frame");
+    if (!frame.is_object()) gonio::refuse(name_ + ": " + shown(frame) + " is no frame");
     const gonio::direction_pair at{towards(frame, "theta_i", "phi_i"), towards(frame, "theta_o", "phi_o")};
     const double seconds = number(frame, "seconds");
-    if (!(seconds > 0.0)) throw gonio::error(name_ + ": 'seconds' must be positive in " + shown(frame));
+    if (!(seconds > 0.0)) gonio::refuse(name_ + ": 'seconds' must be positive in " + shown(frame));
     if (!frame.contains("file") || !frame["file"].is_string())
-      throw gonio::error(name_ + ": 'file' is missing or no text in " + shown(frame));
+      gonio::refuse(name_ + ": 'file' is missing or no text in " + shown(frame));
     recorded_pose* known = find(at);
     if (known == nullptr) {
       by_key_.emplace(key_of(at), recorded_.size());

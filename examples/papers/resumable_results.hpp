@@ -19,7 +19,7 @@ class resumable_results {
   explicit resumable_results(const std::filesystem::path& path) : path_(path) {
     if (path.empty()) return;
     if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-      throw gonio::error("'" + path.string() + "' is not a regular file");
+      gonio::refuse("'" + path.string() + "' is not a regular file");
     std::ifstream earlier(path);
     for (std::string line; std::getline(earlier, line);) {
       // A run that was killed may have left half a line.
@@ -28,7 +28,7 @@ class resumable_results {
         results_.insert_or_assign(entry["key"].dump(), entry["result"]);
     }
     file_.open(path, std::ios::app);
-    if (!file_) throw gonio::error("cannot write '" + path.string() + "'");
+    if (!file_) gonio::refuse("cannot write '" + path.string() + "'");
     if (!results_.empty()) file_ << '\n';
   }
 
@@ -42,7 +42,7 @@ class resumable_results {
     results_.insert_or_assign(key.dump(), result);
     if (!file_.is_open()) return;
     file_ << json{{"key", key}, {"result", result}}.dump() << std::endl;
-    if (!file_) throw gonio::error("cannot write '" + path_.string() + "'");
+    if (!file_) gonio::refuse("cannot write '" + path_.string() + "'");
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/evaluate/test_materials.hpp>
@@ -116,7 +117,7 @@ gonio::image render(const scene& world, std::size_t rows, std::size_t columns, i
   std::atomic<std::size_t> done = 0;
   gonio::for_each_block(rows, 1, [&](gonio::block range) {
     std::mt19937_64 generator(range.begin + 1);
-    auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+    auto number = [&] { return gonio::uniform_number(generator); };
     for (std::size_t column = 0; column < columns; ++column) {
       rgb sum = rgb::Zero();
       for (int i = 0; i < samples; ++i) {
@@ -161,10 +162,9 @@ std::vector<material> measured_and_reconstructed(const std::filesystem::path& pr
 }  // namespace
 
 int main(int count, char** arguments) try {
-  if (count < 3)
-    throw gonio::error("usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]");
+  if (count < 3) gonio::refuse("usage: example_path_tracer materials.prior spheres.png [ENVIRONMENT.hdr] [SAMPLES]");
   const int samples = count > 4 ? std::atoi(arguments[4]) : 64;
-  if (samples < 1) throw gonio::error("the samples for each pixel are a number, at least 1");
+  if (samples < 1) gonio::refuse("the samples for each pixel are a number, at least 1");
   const auto made_of = measured_and_reconstructed(arguments[1]);
   scene world{{},
               gonio::render::environment_sampler(

@@ -12,6 +12,8 @@
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/core/spectrum.hpp>
+#include <gonio/core/statistics.hpp>

@@ -23,8 +23,6 @@
 #include <gonio/solve/linear_constraints.hpp>
 #include <gonio/solve/matrix_view.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
-#include <gonio/solve/nnls_coordinate_descent.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/product.hpp>
 #include <gonio/solve/quadratic_program.hpp>

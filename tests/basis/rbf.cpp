@@ -17,7 +17,6 @@
 using gonio::rbf;
 
 static_assert(gonio::computed_basis<rbf<gonio::log>> && !gonio::tabulated_basis<rbf<gonio::log>>);
-static_assert(gonio::colour_basis<rbf<gonio::log_relative, gonio::cubic_kernel>>);
 static_assert(gonio::estimator<gonio::decomposition<rbf<gonio::log>, gonio::tikhonov>>);
 static_assert(!gonio::non_negative_weights_need_functions_of_definite_sign<rbf<gonio::log>, gonio::nnls>);
 static_assert(!gonio::radial_kernel<int>);
@@ -40,6 +39,25 @@ gonio::sample_set fifteen_samples() {
                        gonio::rgb::Constant(1.0 + 2.0 * std::exp(-i / 3.0) + 0.1 * (i % 3))});
   return samples;
 }
+
+/// The cube of the distance: smoother, and worse conditioned.
+struct cubic_kernel {
+  static void apply(gonio::kernel_row squares) noexcept { squares *= squares.sqrt(); }
+};
+
+/// exp(-(r / width)^2), of local support in effect.
+class gaussian_kernel {
+ public:
+  explicit gaussian_kernel(double width) : width_(width) {}
+
+  void apply(gonio::kernel_row squares) const noexcept { squares = (squares / (-width_ * width_)).exp(); }
+
+ private:
+  double width_;
+};
+
+static_assert(gonio::radial_kernel<cubic_kernel> && gonio::radial_kernel<gaussian_kernel>);
+static_assert(gonio::colour_basis<rbf<gonio::log_relative, cubic_kernel>>);
 
 /// The kernel as documented in `radial_kernel`.
 struct thin_plate_kernel {
@@ -96,8 +114,8 @@ TEST_CASE("kernels are what they say of the distance") {
   squares << 0.0, 0.25, 1.0, 4.0;
   linear = cubic = gaussian = thin = squares;
   gonio::linear_kernel::apply(linear);
-  gonio::cubic_kernel::apply(cubic);
-  gonio::gaussian_kernel{0.5}.apply(gaussian);
+  cubic_kernel::apply(cubic);
+  gaussian_kernel{0.5}.apply(gaussian);
   thin_plate_kernel{}.apply(thin);
   for (Eigen::Index i = 0; i < 4; ++i) {
     const double r = std::sqrt(squares[i]);
@@ -106,7 +124,6 @@ TEST_CASE("kernels are what they say of the distance") {
     CHECK(gaussian[i] == doctest::Approx(std::exp(-4.0 * r * r)));
     CHECK(thin[i] == doctest::Approx(r > 0.0 ? r * r * std::log(r) : 0.0));
   }
-  CHECK(gonio::gaussian_kernel{0.5}.width() == 0.5);
 }
 
 // From exact arithmetic in a script that shares no code with the library.
@@ -117,9 +134,8 @@ TEST_CASE("golden: the fit of fifteen samples by five centres") {
     CHECK(value_at(fit, in_degrees(30, 30, 135)).z() == doctest::Approx(far_from_it).epsilon(1e-7));
   };
   check(rbf{small_cells(), gonio::log{}, five_centres}, 2.3851735377459895, 1.0773435275343592);
-  check(rbf{small_cells(), gonio::log{}, five_centres, gonio::cubic_kernel{}}, 2.3796288130559278, 1.0833480874645973);
-  check(rbf{small_cells(), gonio::log{}, five_centres, gonio::gaussian_kernel{0.5}}, 2.339723311740751,
-        1.0825730112110894);
+  check(rbf{small_cells(), gonio::log{}, five_centres, cubic_kernel{}}, 2.3796288130559278, 1.0833480874645973);
+  check(rbf{small_cells(), gonio::log{}, five_centres, gaussian_kernel{0.5}}, 2.339723311740751, 1.0825730112110894);
 }
 
 TEST_CASE("affine functions of the coordinates come back exactly, wherever they are asked for") {
@@ -223,8 +239,6 @@ TEST_CASE("radial basis functions that cannot be are refused") {
   auto centres = five_centres;
   centres[3].phi_d = nan;
   CHECK_THROWS_WITH_AS((rbf{small_cells(), gonio::lin{}, centres}), doctest::Contains("centre 4"), gonio::error);
-  CHECK_THROWS_AS(gonio::gaussian_kernel{0.0}, gonio::error);
-  CHECK_THROWS_AS(gonio::gaussian_kernel{nan}, gonio::error);
   CHECK_THROWS_WITH_AS(gonio::farthest_point_centres(small_cells(), 100'000), doctest::Contains("100000"),
                        gonio::error);
   // Where theta_d = 0 all phi_d are one place.

@@ -20,6 +20,18 @@ TEST_CASE("every index is visited once, whatever the block size and the number o
     }
 }
 
+TEST_CASE("one index at a time: each once, and the first one's exception") {
+  for (const unsigned threads : {1u, 3u}) {
+    std::vector<std::atomic<int>> visits(257);
+    gonio::for_each_index(visits.size(), 10, [&](std::size_t i) { ++visits[i]; }, {threads});
+    for (const auto& count : visits) CHECK(count == 1);
+    const auto fail = [](std::size_t i) {
+      if (i == 3) throw std::runtime_error("three");
+    };
+    CHECK_THROWS_WITH(gonio::for_each_index(5, 1, fail, {threads}), "three");
+  }
+}
+
 TEST_CASE("an empty range calls nothing") {
   gonio::for_each_block(0, 8, [](gonio::block) { FAIL("called for an empty range"); });
   CHECK(gonio::sum_over_blocks(0, 8, 1.5, [](double&, gonio::block) {}) == 1.5);

@@ -1,5 +1,6 @@
 #include "../golden_noell.hpp"
 #include "../synthetic_materials.hpp"
+#include "tukey_weights.hpp"
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>

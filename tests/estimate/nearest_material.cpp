@@ -116,19 +116,6 @@ TEST_CASE("the same seed chooses the same from many samples, for any number of t
   }
 }
 
-TEST_CASE("some of n: different, ascending, and all if there are not more") {
-  CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(0, 100));
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(0, 100));
-    const auto some = gonio::detail::some_of(n, count, 3);
-    RC_ASSERT(some.size() == std::min(n, count));
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      RC_ASSERT(some[i] < n);
-      if (i > 0) RC_ASSERT(some[i - 1] < some[i]);
-    }
-  }));
-}
-
 TEST_CASE("the factor of a mixture is found from the differences alone") {
   CHECK(rc::check([] {
     const double logarithm = 0.1 * *rc::gen::inRange(-30, 31);

@@ -1,3 +1,4 @@
+#include "tukey_weights.hpp"
 #include <gonio/estimate/outlier_weights.hpp>
 
 #include <doctest/doctest.h>

@@ -74,7 +74,8 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
       const double tolerance = 5e-7;
       RC_ASSERT(((normal.gram() - gram).array().abs() <= tolerance * gram.array()).all());
       RC_ASSERT(((normal.rhs() - rhs).array().abs() <= tolerance * rhs.array()).all());
-      RC_ASSERT(std::abs(normal.rhs_squared_norm()[0] - b.dot(w.asDiagonal() * b)) <= tolerance * normal.rhs_squared_norm()[0]);
+      RC_ASSERT(std::abs(normal.rhs_squared_norm()[0] - b.dot(w.asDiagonal() * b)) <=
+                tolerance * normal.rhs_squared_norm()[0]);
       RC_ASSERT(((all_rhs.col(column) - rhs).array().abs() <= tolerance * rhs.array()).all());
       const Eigen::ArrayXd applied = all_applied.row(column).cast<double>().transpose();
       RC_ASSERT(((applied - (rows * x.col(column)).array()).abs() <= 2e-6 * (rows * x.col(column)).array()).all());

@@ -1,5 +1,7 @@
 /// Every basis x metric x solver that makes sense: fitted, certified, tabulated, evaluated.
 
+#include "../solve/oracles/nnls_block_pivoting.hpp"
+#include "../solve/oracles/nnls_coordinate_descent.hpp"
 #include "../synthetic_materials.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
@@ -12,8 +14,6 @@
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
-#include <gonio/solve/nnls_coordinate_descent.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>

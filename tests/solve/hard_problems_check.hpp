@@ -2,12 +2,12 @@
 /// Every solver on problems of `hard_problems`, judged from the rows.
 
 #include "hard_problems.hpp"
+#include "oracles/nnls_block_pivoting.hpp"
+#include "oracles/nnls_coordinate_descent.hpp"
 #include <gonio/solve/any_solver.hpp>
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/least_squares.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
-#include <gonio/solve/nnls_coordinate_descent.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>

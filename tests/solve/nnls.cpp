@@ -1,11 +1,11 @@
 #include "../dense_reference.hpp"
 #include "../golden.hpp"
 #include "../json.hpp"
+#include "oracles/nnls_block_pivoting.hpp"
+#include "oracles/nnls_coordinate_descent.hpp"
 #include "random_problems.hpp"
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/nnls.hpp>
-#include <gonio/solve/nnls_block_pivoting.hpp>
-#include <gonio/solve/nnls_coordinate_descent.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 
 #include <doctest/doctest.h>

@@ -1,5 +1,6 @@
 #include "../golden.hpp"
 #include "../json.hpp"
+#include "oracles/online_quadratic_program.hpp"
 #include "random_programs.hpp"
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/quadratic_program.hpp>

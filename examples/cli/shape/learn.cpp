@@ -29,8 +29,8 @@ std::vector<gonio::shape::point_columns> read_corresponded(const std::vector<std
     if (shapes.empty()) triangles = mesh.triangles;
     const bool same = mesh.triangles.cols() == triangles.cols() && mesh.triangles == triangles;
     if (!same || (!shapes.empty() && mesh.vertices.cols() != shapes[0].cols()))
-      throw gonio::error(file.string() + ": does not have the vertices and triangles of " + files[0].string() +
-                         ", expected shapes in correspondence");
+      gonio::refuse(file.string() + ": does not have the vertices and triangles of " + files[0].string() +
+                    ", expected shapes in correspondence");
     shapes.push_back(std::move(mesh.vertices));
   }
   return shapes;

@@ -32,7 +32,7 @@ auto in_file(const std::filesystem::path& file, Work&& work) {
   try {
     return work();
   } catch (const gonio::error& refusal) {
-    throw gonio::error(file.string() + ": " + refusal.what());
+    gonio::refuse(file.string() + ": " + refusal.what());
   }
 }
 

@@ -31,8 +31,8 @@ gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& mo
   // What the scan lacks is far from the model, but not the other way round.
   constexpr double largest = 5.0;
   if (found.mean_scan_distance > largest)
-    throw gonio::error("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
-                       " mm away in the mean, expected at most " + fixed(largest, 1));
+    gonio::refuse("the scan matches the model nowhere: it is " + fixed(found.mean_scan_distance, 1) +
+                  " mm away in the mean, expected at most " + fixed(largest, 1));
   return found.transform;
 }
 

@@ -14,6 +14,7 @@
 #include "papers/material_result.hpp"
 #include "papers/mean_errors.hpp"
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -72,7 +73,7 @@ std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
       if (found.is_reachable()) poses.push_back(found.at);
     }
   });
-  if (poses.empty()) throw gonio::error("the machine can measure none of the directions");
+  if (poses.empty()) gonio::refuse("the machine can measure none of the directions");
   return poses;
 }
 

@@ -3,6 +3,7 @@
 #include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/xu2016/figures.hpp"
+#include <gonio/core/random.hpp>
 #include <gonio/design/cell_candidates.hpp>
 #include <gonio/design/criterion_of_plan.hpp>
 #include <gonio/design/image_candidates.hpp>

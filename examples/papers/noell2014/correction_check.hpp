@@ -30,7 +30,8 @@ template <gonio::normal_solver Solver>
       std::vector<Eigen::Index> others = gonio::columns_of(functions);
       std::erase(others, targets[i]);
       const gonio::solution found = solver.solve(gonio::leave_one_out(channel.products(threads), targets[i], others));
-      residual.col(static_cast<Eigen::Index>(i)) = -gonio::scatter_columns(found, others, size).weights.template cast<float>();
+      residual.col(static_cast<Eigen::Index>(i)) =
+          -gonio::scatter_columns(found, others, size).weights.template cast<float>();
       residual(targets[i], static_cast<Eigen::Index>(i)) = 1.0f;
     }
     const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(std::ssize(targets));

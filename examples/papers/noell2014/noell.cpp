@@ -37,7 +37,7 @@ struct noell_options {
   if (choice == "test") return gonio::nielsen_test_materials();
   if (choice == "all") return names;
   if (std::ranges::find(names, choice) == names.end())
-    throw gonio::error("--materials is test, all or the name of one, not '" + choice + "'");
+    gonio::refuse("--materials is test, all or the name of one, not '" + choice + "'");
   return {choice};
 }
 

@@ -134,9 +134,8 @@ struct noell_experiment::parts {
     limits.rounds = which.iterations.value_or(limits.rounds);
     if (which.iterations) limits.smallest_change = 0.0;
     if (method.method == "our") {
-      auto run =
-          gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}.initialise(
-              samples);
+      auto run = gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}
+                     .initialise(samples);
       while (!run.converged()) run.step();
       const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
       return {run.result().tabulate(truths.cells, threads), 1.0 - good};

@@ -15,6 +15,7 @@
 #include "papers/our_own/scattered_errors.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
@@ -202,7 +203,7 @@ class experiment {
     json rows = json::array();
     if (given_.tables.empty()) return rows;
     const auto files = gonio::io::list_merl_directory(given_.tables);
-    if (files.empty()) throw gonio::error(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    if (files.empty()) gonio::refuse(given_.tables.string() + ": holds no table (*.binary or *.binary.gz)");
     for (const auto& [name, path] : files) {
       std::optional<gonio::brdf_table> truth;
       each_set(name, rows, [&](const std::string& set, std::size_t count) -> json {
@@ -221,7 +222,7 @@ class experiment {
       const gonio::sample_set all = read_measurements(file);
       each_set(file.stem().string(), rows, [&](const std::string& set, std::size_t count) -> json {
         if (count >= all.size())
-          throw gonio::error(file.string() + ": no sample is left to judge by after " + std::to_string(count));
+          gonio::refuse(file.string() + ": no sample is left to judge by after " + std::to_string(count));
         const auto drawn = samples_of(given_, all, set, count);
         if (drawn.empty()) return {};
         return judge_samples(given_, shop_for(gonio::valid_cells()), all, drawn);
@@ -330,13 +331,13 @@ void require_sets(const directions_options& given) {
     if (set != "random" && std::ranges::none_of(given.counts, [&](std::size_t count) {
           return written_points(given.folder, set, count).has_value();
         }))
-      throw gonio::error("--sets: there is no set by " + set + " of these numbers, no " +
-                         (given.folder / points_file(set, given.counts.front())).string());
+      gonio::refuse("--sets: there is no set by " + set + " of these numbers, no " +
+                    (given.folder / points_file(set, given.counts.front())).string());
 }
 
 void run(const directions_options& given) {
   if (given.tables.empty() && given.samples.empty())
-    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+    gonio::refuse("there is nothing to reconstruct: give --tables or --samples");
   require_sets(given);
   progress_bar bar;
   experiment work(given, bar);

@@ -92,8 +92,8 @@ class reconstruction_error {
 
 std::vector<gonio::half_difference> directions_of(const std::string& set, std::size_t count) {
   if (const auto found = written_points(shipped_directions(), set, count)) return *found;
-  throw gonio::error("there is no set of " + std::to_string(count) + " directions by " + set + ", no " +
-                     (shipped_directions() / points_file(set, count)).string());
+  gonio::refuse("there is no set of " + std::to_string(count) + " directions by " + set + ", no " +
+                (shipped_directions() / points_file(set, count)).string());
 }
 
 /// What a way to choose eta comes to.

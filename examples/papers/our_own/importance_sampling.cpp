@@ -9,6 +9,7 @@
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
+#include <gonio/core/random.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -62,7 +63,7 @@ struct variances {
 /// for both kinds: drawn by either kind alone, a small lamp would be missed and the table be one of chance.
 variances variances_at(const gonio::render::surface_frame& surface, const sampled_material& f,
                        const gonio::render::environment_sampler& light, std::size_t draws, std::mt19937_64& generator) {
-  const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto number = [&] { return gonio::uniform_number(generator); };
   const gonio::direction wo = surface.to_local(gonio::direction::UnitZ());
   variances squares;
   double mean = 0.0;
@@ -85,7 +86,7 @@ variances variances_at(const gonio::render::surface_frame& surface, const sample
 double ratio_of_variances(const sampled_material& f, const gonio::render::environment_sampler& light,
                           const sampling_options& options) {
   std::mt19937_64 generator(options.seed);
-  const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  const auto number = [&] { return gonio::uniform_number(generator); };
   variances sum;
   for (std::size_t point = 0; point < options.points; ++point) {
     const double within = number(), turn = 2.0 * std::numbers::pi * number();
@@ -114,7 +115,7 @@ std::vector<named_table> tables_of(const sampling_options& options) {
       tables.push_back({networks.names[i], gonio::tabulate(networks.networks[i], cells, options.threads)});
   }
   for (const auto& path : options.tables) tables.push_back({path.stem().string(), gonio::io::read_merl_any(path)});
-  if (tables.empty()) throw gonio::error("no materials: give --networks or tables");
+  if (tables.empty()) gonio::refuse("no materials: give --networks or tables");
   return tables;
 }
 

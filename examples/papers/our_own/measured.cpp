@@ -86,7 +86,7 @@ void run(const measured_options& options) {
   progress_bar bar;
   const auto prior = gonio::io::read_prior(options.prior);
   const auto files = gonio::io::list_merl_directory(options.tables);
-  if (files.empty()) throw gonio::error(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+  if (files.empty()) gonio::refuse(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
   std::vector<gonio::image> rows;
   std::vector<gonio::appearance_metric> judges;  // of the last table's cells, most often those of the next, too
   json result = json::object();

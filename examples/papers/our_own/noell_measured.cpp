@@ -95,7 +95,7 @@ void judge_samples(const measured_options& given, const benchmark_setup& shop, c
   const gonio::sample_set all = read_measurements(path);
   const std::size_t count = gonio::share_of(all.size(), given.data_ratio);
   const auto [some, others] = gonio::split_samples(all, count, given.seed);
-  if (others.empty()) throw gonio::error(path.string() + ": no sample is left to judge by, expected --data below 1");
+  if (others.empty()) gonio::refuse(path.string() + ": no sample is left to judge by, expected --data below 1");
   std::uniform_int_distribution<std::size_t> any_sample(0, all.size() - 1);
   for (const double outlier_ratio : given.outlier_ratios) {
     const auto samples = gonio::corrupt(some, {.outlier_ratio = outlier_ratio}, given.seed,
@@ -135,7 +135,7 @@ void print(const measured_options& given, const json& rows) {
 
 void run(const measured_options& given) {
   if (given.tables.empty() && given.samples.empty())
-    throw gonio::error("there is nothing to reconstruct: give --tables or --samples");
+    gonio::refuse("there is nothing to reconstruct: give --tables or --samples");
   progress_bar bar;
   json rows = json::array();
   std::unique_ptr<benchmark_setup> shop;  // of the last table's cells, most often those of the next, too
@@ -148,7 +148,7 @@ void run(const measured_options& given) {
   };
   if (!given.tables.empty()) {
     const auto files = gonio::io::list_merl_directory(given.tables);
-    if (files.empty()) throw gonio::error(given.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+    if (files.empty()) gonio::refuse(given.tables.string() + ": holds no table (*.binary or *.binary.gz)");
     for (std::size_t f = 0; f < files.size(); ++f) {
       const auto truth = gonio::io::read_merl_any(files[f].path);
       const benchmark_setup& here = shop_for(truth.cells());

@@ -73,7 +73,7 @@ void print_row(const json& row) {
 
 void run(const cosine_options& options) {
   for (const std::string& eta : options.etas)
-    if (eta != "auto" && !(number_of_eta(eta) > 0.0)) throw gonio::error("--eta must be positive, or auto");
+    if (eta != "auto" && !(number_of_eta(eta) > 0.0)) gonio::refuse("--eta must be positive, or auto");
   progress_bar bar;
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();

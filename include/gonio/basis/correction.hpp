@@ -132,7 +132,7 @@ class leave_one_out_approximations {
  private:
   [[nodiscard]] static measured<Metric> at_least_two(measured<Metric> materials) {
     if (materials.columns().size() < 2)
-      throw error("correction functions need at least two materials: each is explained by the others");
+      refuse("correction functions need at least two materials: each is explained by the others");
     return materials;
   }
 

@@ -19,16 +19,14 @@ namespace detail {
 template <observation_set Set, error_metric Metric>
 [[nodiscard]] std::vector<float> map_and_centre(Set& materials, const Metric& metric, thread_count threads) {
   std::vector<float> mean(materials.cells.size());
-  for_each_block(
+  for_each_index(
       mean.size(), 1024,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const location at = locate_cell(materials.cells, cell);
-          map_cell(materials, cell, [&](double rho) { return metric.forward(rho, at); });
-          auto row = materials.values.row(static_cast<Eigen::Index>(cell));
-          mean[cell] = static_cast<float>(row.template cast<double>().mean());
-          row.array() -= mean[cell];
-        }
+      [&](std::size_t cell) {
+        const location at = locate_cell(materials.cells, cell);
+        map_cell(materials, cell, [&](double rho) { return metric.forward(rho, at); });
+        auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+        mean[cell] = static_cast<float>(row.template cast<double>().mean());
+        row.array() -= mean[cell];
       },
       threads);
   return mean;
@@ -64,7 +62,7 @@ struct component_set {
 template <observation_set Set, error_metric Metric>
 [[nodiscard]] pca<Metric, domain_of_set<Set>> learn_pca(Set materials, const Metric& metric, std::size_t components,
                                                         thread_count threads = {}, const progress& listener = {}) {
-  if (components == 0) throw error("at least one principal component must be kept");
+  if (components == 0) refuse("at least one principal component must be kept");
   require_complete(materials);
   report(listener, "mapping", 0.0);
   std::vector<float> mean = detail::map_and_centre(materials, metric, threads);

@@ -89,7 +89,7 @@ class material_functions {
         mapped_(std::make_shared<const cell_matrix>(std::move(mapped))) {
     if (mapped_->cols() % 3 != 0 || mapped_->cols() < static_cast<Eigen::Index>(3 * names_->size()) ||
         mapped_->cols() == 0 || mapped_->rows() != static_cast<Eigen::Index>(cells_.size()))
-      throw error{"functions of ", names_->size(), " materials over ", cells_.size(), " cells do not match in size"};
+      refuse({"functions of ", names_->size(), " materials over ", cells_.size(), " cells do not match in size"});
     std::vector<Eigen::Index> all(size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
     columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(all));
@@ -126,7 +126,7 @@ class material_functions {
   void leave_out(const std::vector<std::string>& excluded) {
     for (const std::string& name : excluded)
       if (std::ranges::find(*names_, name) == names_->end())
-        throw error{"there is no material named '", name, "' to leave out"};
+        refuse({"there is no material named '", name, "' to leave out"});
     const auto is_out = [&](Eigen::Index column) {
       const auto i = static_cast<std::size_t>(column);
       return i < names_->size() && std::ranges::find(excluded, (*names_)[i]) != excluded.end();
@@ -134,7 +134,7 @@ class material_functions {
     std::vector<Eigen::Index> kept;
     std::ranges::copy_if(*columns_, std::back_inserter(kept), [&](Eigen::Index column) { return !is_out(column); });
     if (kept.empty() || static_cast<std::size_t>(kept.front()) >= names_->size())
-      throw error{"all ", columns_->size() - kept.size(), " materials are left out"};
+      refuse({"all ", columns_->size() - kept.size(), " materials are left out"});
     columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(kept));
   }
 

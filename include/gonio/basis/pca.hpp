@@ -47,13 +47,8 @@ class pca {
     if (k == 0 || parts_->components.rows() != cells || parts_->mean.size() != parts_->cells.size() ||
         parts_->singular_values.size() != k || parts_->coefficients.cols() != k ||
         parts_->coefficients.rows() != channels * static_cast<Eigen::Index>(parts_->names.size()))
-      throw error{"the parts of a principal component basis of ",
-                  k,
-                  " components over ",
-                  cells,
-                  " cells and ",
-                  parts_->names.size(),
-                  " materials do not match in size"};
+      refuse({"the parts of a principal component basis of ", k, " components over ", cells, " cells and ",
+              parts_->names.size(), " materials do not match in size"});
   }
 
   /// Number of components k.
@@ -79,7 +74,7 @@ class pca {
 
   /// The first k components alone. Throws gonio::error unless k is from 1 to size().
   [[nodiscard]] pca truncated(std::size_t k) const {
-    if (k == 0 || k > size()) throw error{"cannot keep ", k, " of ", size(), " components"};
+    if (k == 0 || k > size()) refuse({"cannot keep ", k, " of ", size(), " components"});
     const auto kept = static_cast<Eigen::Index>(k);
     const double share = parts_->singular_values.head(kept).squaredNorm() / parts_->singular_values.squaredNorm();
     return pca({parts_->cells, parts_->metric, parts_->names, parts_->singular_values.head(kept),

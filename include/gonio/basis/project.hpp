@@ -12,7 +12,7 @@ namespace gonio {
 /// out. O(cells x k).
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
-  if (!(table.cells() == basis.cells())) throw error("only a table over the basis' own cells can be projected on it");
+  if (!(table.cells() == basis.cells())) refuse("only a table over the basis' own cells can be projected on it");
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(k, 3);
   Eigen::MatrixXd products = sum_over_blocks(

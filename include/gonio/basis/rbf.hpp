@@ -61,25 +61,7 @@ struct linear_kernel {
   static void apply(kernel_row squares) noexcept { squares = squares.sqrt(); }
 };
 
-/// The cube of the distance: smoother, and worse conditioned.
-struct cubic_kernel {
-  static void apply(kernel_row squares) noexcept { squares *= squares.sqrt(); }
-};
-
-/// exp(-(r / width)^2), of local support in effect.
-class gaussian_kernel {
- public:
-  /// Throws gonio::error unless the width, in units of `radial_coordinates`, is positive and finite.
-  explicit gaussian_kernel(double width);
-
-  [[nodiscard]] double width() const noexcept { return width_; }
-  void apply(kernel_row squares) const noexcept { squares = (squares / (-width_ * width_)).exp(); }
-
- private:
-  double width_;
-};
-
-static_assert(radial_kernel<linear_kernel> && radial_kernel<cubic_kernel> && radial_kernel<gaussian_kernel>);
+static_assert(radial_kernel<linear_kernel>);
 
 /// Centres of Noell et al. 2014, for each colour channel.
 inline constexpr std::size_t published_centre_count = 758;
@@ -98,7 +80,7 @@ inline constexpr std::size_t published_centre_count = 758;
 /// ```cpp
 /// const gonio::decomposition rival{gonio::rbf{cells, gonio::log{}}, gonio::tikhonov{1e-6}};  // Noell et al.'s
 /// const auto paint = rival.fit(samples);
-/// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), gonio::cubic_kernel{}};
+/// const gonio::rbf smooth{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), thin_plate_kernel{}};
 /// ```
 /// The penalty only keeps the system solvable where samples are few. Beyond that it must be tiny, as the Gram matrix
 /// has a condition number of almost 1e10: 1e-6 is 1e-11 of its mean diagonal entry for 100,000 samples.
@@ -112,11 +94,11 @@ class rbf {
   /// one is not finite.
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
-    if (centres.empty()) throw error("radial basis functions need at least one centre");
+    if (centres.empty()) refuse("radial basis functions need at least one centre");
     coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
     for (std::size_t i = 0; i < centres.size(); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
-      if (!place.allFinite()) throw error{"centre ", i + 1, " of radial basis functions is not finite"};
+      if (!place.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
       places.col(static_cast<Eigen::Index>(i)) = place.array();
     }
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));

@@ -40,21 +40,22 @@ class message_part {
 
 /// Thrown when data that came from outside (a file, a caller's array, a command line) is not what it
 /// should be. The message is one sentence that names what is wrong, where, and what was expected.
-/// Evaluating a BRDF never throws.
-///
-/// ```cpp
-/// throw gonio::error{"row ", row, " of ", name, " has ", found, " values, expected ", expected};
-/// ```
+/// Evaluating a BRDF never throws. Who refuses input calls `refuse`.
 class error : public std::runtime_error {
  public:
-  explicit error(const std::string& sentence) : std::runtime_error(sentence) {}
-  /// The parts are put together here, where it costs the thrower no code of its own.
-  error(std::initializer_list<message_part> parts);
+  /// What a file held may stand in the sentence: control characters are escaped (`printable`).
+  explicit error(const std::string& sentence);
 };
 
 /// Throws gonio::error. In a program that is compiled without exceptions, as renderers may be, it prints the sentence
 /// to the standard error stream and aborts.
+///
+/// ```cpp
+/// if (found != expected) gonio::refuse({"row ", row, " has ", found, " values, expected ", expected});
+/// ```
 [[noreturn]] void refuse(const std::string& sentence);
+/// The parts are put together there, where it costs the caller no code of its own.
+[[noreturn]] void refuse(std::initializer_list<message_part> parts);
 
 }  // namespace gonio
 

@@ -48,6 +48,17 @@ void for_each_block(std::size_t count, std::size_t block_size, Body&& body, thre
   detail::run_blocks(count, block_size, {const_cast<void*>(static_cast<const void*>(&body)), call}, threads);
 }
 
+/// Calls `body(i)` once for each i of [0, count), in blocks of at most `block_size`, as `for_each_block` does.
+template <class Body>
+void for_each_index(std::size_t count, std::size_t block_size, Body&& body, thread_count threads = {}) {
+  for_each_block(
+      count, block_size,
+      [&](block range) {
+        for (std::size_t i = range.begin; i < range.end; ++i) body(i);
+      },
+      threads);
+}
+
 /// Sums over a range: `accumulate(partial, block)` adds a block's contribution to a partial result that
 /// starts as a copy of `zero`, and the partial results are added with `+=`. The range is cut into at most
 /// 16 runs of blocks, each summed in order, so that the same bytes come out for any number of threads.

@@ -48,16 +48,16 @@ class spectral_colour {
   /// the observer sees.
   explicit spectral_colour(std::span<const double> wavelengths)
       : weights_(static_cast<Eigen::Index>(wavelengths.size()), 3) {
-    if (wavelengths.size() < 2) throw error("a spectrum needs at least two wavelengths");
+    if (wavelengths.size() < 2) refuse("a spectrum needs at least two wavelengths");
     for (std::size_t i = 0; i < wavelengths.size(); ++i) {
       if (!std::isfinite(wavelengths[i]) || (i > 0 && !(wavelengths[i] > wavelengths[i - 1])))
-        throw error{"wavelength ", i + 1, " of a spectrum is not above the one before"};
+        refuse({"wavelength ", i + 1, " of a spectrum is not above the one before"});
       const double from = wavelengths[i == 0 ? 0 : i - 1], to = wavelengths[std::min(i + 1, wavelengths.size() - 1)];
       weights_.row(static_cast<Eigen::Index>(i)) =
           (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();
     }
     const Eigen::Array3d white = weights_.colwise().sum().transpose();
-    if (!(white > 0.0).all()) throw error("a spectrum has no visible wavelength");
+    if (!(white > 0.0).all()) refuse("a spectrum has no visible wavelength");
     weights_.rowwise() *= (to_xyz(rgb::Ones()) / white).transpose();
   }
 

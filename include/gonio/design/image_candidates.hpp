@@ -112,11 +112,10 @@ class image_candidates {
   [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
     std::vector<float> errors(rows_.size(), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);
-    for_each_block(
+    for_each_index(
         rows_.size(), 16,
-        [&](block range) {
-          for (std::size_t candidate = range.begin; candidate < range.end; ++candidate)
-            if (geometry().allows(candidate)) errors[candidate] = static_cast<float>(with(candidate));
+        [&](std::size_t candidate) {
+          if (geometry().allows(candidate)) errors[candidate] = static_cast<float>(with(candidate));
         },
         threads_);
     return errors;

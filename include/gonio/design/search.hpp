@@ -45,7 +45,7 @@ void require_choice(std::size_t n, const Geometry& geometry) {
   for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) ++allowed;
   if (n == 0 || n > allowed)
-    throw error("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
+    refuse("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
 }
 
 [[nodiscard]] inline bool holds(const std::vector<std::size_t>& candidates, std::size_t candidate) {

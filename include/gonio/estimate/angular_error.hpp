@@ -46,11 +46,10 @@ template <error_metric Metric>
 [[nodiscard]] std::vector<double> angular_error_penalties(const pca<Metric>& basis, double angle,
                                                           thread_count threads = {}) {
   std::vector<double> etas(basis.cells().size());
-  for_each_block(
+  for_each_index(
       etas.size(), 256,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell)
-          etas[cell] = angular_error_penalty(basis, to_directions(basis.cells().angles(cell)), angle);
+      [&](std::size_t cell) {
+        etas[cell] = angular_error_penalty(basis, to_directions(basis.cells().angles(cell)), angle);
       },
       threads);
   return etas;

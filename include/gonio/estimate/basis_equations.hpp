@@ -76,16 +76,14 @@ class basis_equations {
   [[nodiscard]] Eigen::MatrixXd mapped(const Functions& functions, Eigen::Index first) const {
     const Eigen::Index together = systems() == 1 ? channels() : 1;
     Eigen::MatrixXd right(measured_->values.rows(), together);
-    for_each_block(
+    for_each_index(
         measured_->at.size(), 4096,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i) {
-            const location& at = measured_->at[i];
-            const double offset = offset_at(functions, at);
-            const auto row = static_cast<Eigen::Index>(i);
-            for (Eigen::Index c = 0; c < together; ++c)
-              right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
-          }
+        [&](std::size_t i) {
+          const location& at = measured_->at[i];
+          const double offset = offset_at(functions, at);
+          const auto row = static_cast<Eigen::Index>(i);
+          for (Eigen::Index c = 0; c < together; ++c)
+            right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
         },
         threads_);
     return right;

@@ -53,12 +53,8 @@ class corrected_brdf {
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
     brdf_table table = initial_.tabulate(cells, threads);
     const brdf_table sigma = resample(correction_, cells, threads);
-    for_each_block(
-        cells.size(), 4096,
-        [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell)
-            table.set(cell, corrected(table.at(cell), sigma.at(cell)));
-        },
+    for_each_index(
+        cells.size(), 4096, [&](std::size_t cell) { table.set(cell, corrected(table.at(cell), sigma.at(cell))); },
         threads);
     return table;
   }

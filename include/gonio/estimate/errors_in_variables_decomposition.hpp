@@ -38,7 +38,7 @@ class errors_in_variables_decomposition {
   errors_in_variables_decomposition(pca<Metric> prior, double eta, double angle, thread_count threads = {})
       : prior_(std::move(prior)), solver_(eta), angle_(angle), threads_(threads) {
     if (!(angle >= 0.0 && angle <= std::numbers::pi / 4.0))
-      throw error("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
+      refuse("samples may be misplaced by 0 to 45 degrees, not by " + std::to_string(degrees(angle)));
   }
 
   /// O(16 n k) for n samples beside the solver's cost. Throws gonio::error for unusable samples.
@@ -83,13 +83,9 @@ class errors_in_variables_decomposition {
 
   template <class Use>
   void for_each_sample(const located_samples& measured, Use&& use) const {
-    for_each_block(
+    for_each_index(
         measured.size(), 16,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            use(static_cast<Eigen::Index>(i), measured.at[i], around(measured.at[i]));
-        },
-        threads_);
+        [&](std::size_t i) { use(static_cast<Eigen::Index>(i), measured.at[i], around(measured.at[i])); }, threads_);
   }
 
   [[nodiscard]] system average(const located_samples& measured) const {

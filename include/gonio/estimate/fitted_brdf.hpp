@@ -38,10 +38,10 @@ class fitted_brdf {
         report_(std::move(report)),
         float_weights_(weights_.rows(), weights_.cols()) {
     if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
-      throw error{"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"};
+      refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
     if (computed && weights_.rows() > most_computed_functions)
-      throw error{"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
-                  basis_.size()};
+      refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
+              basis_.size()});
     for (Eigen::Index i = 0; i < weights_.size(); ++i)
       float_weights_.data()[i] = static_cast<float>(weights_.data()[i]);
   }
@@ -100,13 +100,11 @@ class fitted_brdf {
     };
     const bool own = cells == basis_.cells();
     brdf_table table(cells);
-    for_each_block(
+    for_each_index(
         cells.size(), 4096,
-        [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-            const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
-            table.set(cell, reflectance(value_at(at), at));
-          }
+        [&](std::size_t cell) {
+          const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
+          table.set(cell, reflectance(value_at(at), at));
         },
         threads);
     return table;
@@ -117,14 +115,12 @@ class fitted_brdf {
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const {
     mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
-    for_each_block(
+    for_each_index(
         basis_.cells().size(), 4096,
-        [&](block range) {
-          for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-            const rgb value = mapped(cell);
-            for (Eigen::Index channel = 0; channel < 3; ++channel)
-              field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
-          }
+        [&](std::size_t cell) {
+          const rgb value = mapped(cell);
+          for (Eigen::Index channel = 0; channel < 3; ++channel)
+            field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
         },
         threads);
     return field;

@@ -60,7 +60,7 @@ template <class Luminance>
         }
       },
       threads);
-  if (!sums.complete()) throw error("the grid has no cell in the peak or none out of it: it is too coarse");
+  if (!sums.complete()) refuse("the grid has no cell in the peak or none out of it: it is too coarse");
   return sums.contrasts();
 }
 

@@ -86,14 +86,13 @@ template <error_metric Metric>
 [[nodiscard]] channel_values map_values(const Metric& metric, const channel_values& values,
                                         const std::vector<location>& places, thread_count threads = {}) {
   channel_values mapped(3, values.cols());
-  for_each_block(
+  for_each_index(
       places.size(), 1024,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-          for (Eigen::Index c = 0; c < 3; ++c) {
-            const auto place = static_cast<Eigen::Index>(i);
-            mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, places[i]));
-          }
+      [&](std::size_t i) {
+        for (Eigen::Index c = 0; c < 3; ++c) {
+          const auto place = static_cast<Eigen::Index>(i);
+          mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, places[i]));
+        }
       },
       threads);
   return mapped;

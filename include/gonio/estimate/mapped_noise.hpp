@@ -34,29 +34,27 @@ template <basis Basis>
 [[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> places, double noise,
                                      thread_count threads = {}) {
   if (!(noise >= 0.0 && std::isfinite(noise)))
-    throw error("the noise must be finite and not negative, not " + std::to_string(noise));
+    refuse("the noise must be finite and not negative, not " + std::to_string(noise));
   const auto n = static_cast<Eigen::Index>(places.size());
   mapped_noise mapped{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   if (noise == 0.0) return mapped;
   const std::vector<double> quantiles = detail::normal_quantiles(64);
   const auto count = static_cast<double>(quantiles.size());
-  for_each_block(
+  for_each_index(
       places.size(), 1024,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto& metric = functions.metric();
-          const double value = std::max(metric.inverse(offset_at(functions, places[i]), places[i]), 0.0);
-          const double exact = metric.forward(value, places[i]);
-          double sum = 0.0, squares = 0.0;
-          for (const double z : quantiles) {
-            const double deviation = metric.forward(value * (1.0 + noise * z), places[i]) - exact;
-            sum += deviation;
-            squares += deviation * deviation;
-          }
-          const auto row = static_cast<Eigen::Index>(i);
-          mapped.shift[row] = sum / count;
-          mapped.variance[row] = std::max(squares / count - std::pow(sum / count, 2), 0.0);
+      [&](std::size_t i) {
+        const auto& metric = functions.metric();
+        const double value = std::max(metric.inverse(offset_at(functions, places[i]), places[i]), 0.0);
+        const double exact = metric.forward(value, places[i]);
+        double sum = 0.0, squares = 0.0;
+        for (const double z : quantiles) {
+          const double deviation = metric.forward(value * (1.0 + noise * z), places[i]) - exact;
+          sum += deviation;
+          squares += deviation * deviation;
         }
+        const auto row = static_cast<Eigen::Index>(i);
+        mapped.shift[row] = sum / count;
+        mapped.variance[row] = std::max(squares / count - std::pow(sum / count, 2), 0.0);
       },
       threads);
   return mapped;

@@ -4,6 +4,7 @@
 /// brightened or darkened cannot follow them.
 
 #include <gonio/basis/measured.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/estimate/completed_table.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
@@ -42,9 +43,6 @@ struct scaled_likelihood {
 /// The best of several starts, for the mode of the differences may be anywhere.
 [[nodiscard]] scaled_likelihood best_factor(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& outliers);
 
-/// At most `count` of n numbers, at random, ascending.
-[[nodiscard]] std::vector<std::size_t> some_of(std::size_t n, std::size_t count, std::uint64_t seed);
-
 }  // namespace detail
 
 /// For each colour channel the material, and its factor, under which the measurements are most likely a mixture of good
@@ -59,8 +57,8 @@ class nearest_material {
 
   /// The choice for each channel.
   [[nodiscard]] std::array<scaled_material, 3> choose(const located_samples& samples) const {
-    const located_samples few = samples.subset(detail::some_of(samples.size(), 1'500, seed_));
-    const located_samples many = samples.subset(detail::some_of(samples.size(), 20'000, seed_));
+    const located_samples few = samples.subset(random_choice(samples.size(), 1'500, seed_));
+    const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));
     std::array<scaled_material, 3> chosen;
     for (std::size_t c = 0; c < 3; ++c) {
       const double offset = logarithm_offset(samples.values.col(static_cast<Eigen::Index>(c)));

@@ -4,6 +4,7 @@
 /// dynamic range and the outlier ratio") is estimated here from the residuals by expectation and maximisation
 /// (Dempster, Laird and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
 
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 
@@ -115,11 +116,23 @@ struct outlier_mixture {
 [[nodiscard]] outlier_mixture estimate_mixture(const std::vector<double>& residuals,
                                                const std::vector<double>& outliers, outlier_mixture start = {});
 
+namespace detail {
+
+/// Of an array that stays as it is.
+template <class Values>
+[[nodiscard]] auto upper_median_of(const Values& values) {
+  std::vector<typename Values::Scalar> copy(static_cast<std::size_t>(values.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) copy[static_cast<std::size_t>(i)] = values(i);
+  return upper_median(copy);
+}
+
+}  // namespace detail
+
 /// What is added to reflectance before its logarithm is taken, in sr^-1: a hundredth of the median measurement of a
 /// channel, so that the darkest measurements, which are mostly noise, do not decide; at least 0.0001.
 template <class Measurements>
 [[nodiscard]] double logarithm_offset(const Measurements& measured) {
-  return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median(measured)));
+  return std::max(1e-4, 0.01 * static_cast<double>(detail::upper_median_of(measured)));
 }
 
 /// Outlier weights without a parameter: the probability that a sample is good, times its weight on the tail. A sample

@@ -51,33 +51,6 @@ struct relative_deviation_weights {
 
 static_assert(outlier_weighting<relative_deviation_weights>);
 
-namespace detail {
-
-/// The median of an array, the upper one of an even number. O(n).
-template <class Values>
-[[nodiscard]] auto upper_median(const Values& values) {
-  std::vector<typename Values::Scalar> sorted(static_cast<std::size_t>(values.size()));
-  for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = values(static_cast<Eigen::Index>(i));
-  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
-  std::ranges::nth_element(sorted, middle);
-  return *middle;
-}
-
-}  // namespace detail
-
-/// Tukey's biweight of the logarithmic deviation, (1 - (u/c)^2)^2 within c and 0 beyond: a redescending M-estimator
-/// with 95 % efficiency for Gaussian errors (Huber, Robust Statistics, 1981). u is in units of the median deviation of
-/// the data, times 1.4826, for each channel by itself. Breaks down when half of the measurements are outliers.
-struct tukey_weights {
-  double cutoff = 4.685;
-  /// Added to measurement and estimate before the logarithm, in sr^-1.
-  float offset = 1e-3f;
-
-  [[nodiscard]] channel_values weigh(const channel_values& measured, const channel_values& estimated) const;
-};
-
-static_assert(outlier_weighting<tukey_weights>);
-
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

@@ -46,8 +46,8 @@ class planned_decomposition {
   /// finite, or if the solver gives up. O(places materials).
   [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(const channel_values& values) const {
     const auto count = std::ssize(plan_->places);
-    if (values.cols() != count) throw error{"there are ", values.cols(), " measurements at ", count, " planned places"};
-    if (!values.isFinite().all()) throw error("a measurement at a planned place is not finite");
+    if (values.cols() != count) refuse({"there are ", values.cols(), " measurements at ", count, " planned places"});
+    if (!values.isFinite().all()) refuse("a measurement at a planned place is not finite");
     const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->places, threads_);
     const Eigen::MatrixXd rhs = plan_->functions.rhs(channel_values::Ones(3, count), right_hand_sides);
     const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();

@@ -2,6 +2,7 @@
 /// Correction functions with everything chosen: reconstructs a BRDF from measurements of unknown quality. Goes beyond
 /// Noell, Koehler and Stricker 2014 by a start that outliers cannot drag along and by weights without a parameter.
 
+#include <gonio/core/random.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/nearest_material.hpp>
@@ -174,8 +175,7 @@ class robust_reconstruction {
         limits_(limits),
         options_(start),
         threads_(threads) {
-    if (!(materials_.cells() == corrections_.cells()))
-      throw error("materials and corrections must be over the same cells");
+    if (!(materials_.cells() == corrections_.cells())) refuse("materials and corrections must be over the same cells");
   }
 
   /// Steps 1 to 3 for samples, or a table, each cell of which is one: what is returned steps through 4. Throws
@@ -210,7 +210,7 @@ class robust_reconstruction {
   }
 
   [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
-    return samples.subset(detail::some_of(samples.size(), count, options_.seed));
+    return samples.subset(random_choice(samples.size(), count, options_.seed));
   }
 
   /// Steps 1 to 3.

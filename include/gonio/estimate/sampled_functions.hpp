@@ -92,14 +92,13 @@ class sampled_functions {
   [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
     const Eigen::MatrixXf weights = x.cast<float>();
     channel_values values(3, static_cast<Eigen::Index>(size()));
-    for_each_block(
+    for_each_index(
         size(), 1024,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            for (std::size_t c = 0; c < 3; ++c) {
-              const auto channel = static_cast<Eigen::Index>(c);
-              values(channel, static_cast<Eigen::Index>(i)) = row(c, i).dot(weights.col(channel));
-            }
+        [&](std::size_t i) {
+          for (std::size_t c = 0; c < 3; ++c) {
+            const auto channel = static_cast<Eigen::Index>(c);
+            values(channel, static_cast<Eigen::Index>(i)) = row(c, i).dot(weights.col(channel));
+          }
         },
         threads_);
     return values;

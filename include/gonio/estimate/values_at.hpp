@@ -18,12 +18,9 @@ template <tabulated_brdf Fit>
                                        thread_count threads = {}) {
   const auto collect = [&](auto&& value_at) {
     channel_values values(3, std::ssize(places));
-    for_each_block(
+    for_each_index(
         places.size(), 256,
-        [&](block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>();
-        },
+        [&](std::size_t i) { values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>(); },
         threads);
     return values;
   };

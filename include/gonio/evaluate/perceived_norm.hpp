@@ -68,7 +68,7 @@ template <error_metric Metric>
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
-  if (!(basis.cells() == sphere.cells())) throw error("a basis and a sphere over other cells cannot be combined");
+  if (!(basis.cells() == sphere.cells())) refuse("a basis and a sphere over other cells cannot be combined");
   constexpr std::size_t points_of_a_sum = 8;
   const std::size_t points = sphere.points().size();
   const auto k = static_cast<Eigen::Index>(basis.size());

@@ -2,6 +2,7 @@
 /// Measurements simulated from a table, with the defects that real ones have. Noell et al. 2014, section 3.1
 /// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015.
 
+#include <gonio/core/random.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -40,9 +41,6 @@ template <class Generator>
   return std::max<std::size_t>(static_cast<std::size_t>(std::llround(share * static_cast<double>(all))), 1);
 }
 
-/// `count` different ones of the numbers 0 ... all - 1 at random, in increasing order; `count` is at most `all`.
-[[nodiscard]] std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed);
-
 /// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
 /// between 1 and the number of cells.
 [[nodiscard]] std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed);
@@ -57,9 +55,9 @@ template <class AnyValue>
 [[nodiscard]] sample_set corrupt(sample_set samples, const measurement_defects& defects, std::uint64_t seed,
                                  AnyValue&& any_value) {
   if (!(defects.outlier_ratio >= 0.0 && defects.outlier_ratio <= 1.0))
-    throw error("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
+    refuse("the outlier ratio must be from 0 to 1, not " + std::to_string(defects.outlier_ratio));
   if (!(defects.noise >= 0.0 && std::isfinite(defects.noise)))
-    throw error("the noise must be finite and not negative, not " + std::to_string(defects.noise));
+    refuse("the noise must be finite and not negative, not " + std::to_string(defects.noise));
 
   // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
   std::mt19937_64 generator(seed);

@@ -81,7 +81,7 @@ class setup_text {
     try {
       return act();
     } catch (const error& refusal) {
-      throw error{name_, ": ", refusal.what()};
+      gonio::refuse({name_, ": ", refusal.what()});
     }
   }
 

@@ -94,7 +94,7 @@ void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std
     std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
     if constexpr (sizeof(T) < sizeof(Stored)) {
       if (std::isfinite(value) && std::abs(value) > Stored{std::numeric_limits<T>::max()})
-        throw error{name, ": element ", i, " is ", value, ", too large for float32"};
+        gonio::refuse({name, ": element ", i, " is ", value, ", too large for float32"});
     }
     out[i] = static_cast<T>(value);
   }
@@ -111,15 +111,11 @@ template <npy_element T, std::size_t Rank>
 [[nodiscard]] xt::xtensor<T, Rank> parse_npy(std::span<const std::byte> bytes, const std::string& name) {
   const detail::npy_layout layout = detail::take_npy_header(bytes, name);
   if (layout.shape.size() != Rank)
-    throw error{name,          ": has shape ", detail::npy_shape_text(layout.shape),
-                ", expected ", Rank,           (Rank == 1 ? " dimension" : " dimensions")};
+    gonio::refuse({name, ": has shape ", detail::npy_shape_text(layout.shape), ", expected ", Rank,
+                   (Rank == 1 ? " dimension" : " dimensions")});
   if (bytes.size() != layout.count * layout.word_size)
-    throw error{name,
-                ": has ",
-                bytes.size(),
-                " bytes of elements, expected ",
-                layout.count * layout.word_size,
-                " for its shape"};
+    gonio::refuse({name, ": has ", bytes.size(), " bytes of elements, expected ", layout.count * layout.word_size,
+                   " for its shape"});
   std::array<std::size_t, Rank> shape{};
   std::ranges::copy(layout.shape, shape.begin());
   xt::xtensor<T, Rank> array(shape);

@@ -60,7 +60,7 @@ void write_samples(const std::filesystem::path& path, const Samples& samples) {
   try {
     require_usable(samples);
   } catch (const error& unusable) {
-    throw error{path.native(), ": ", unusable.what()};
+    gonio::refuse({path.native(), ": ", unusable.what()});
   }
   detail::write_text(path, format_samples(samples));
 }

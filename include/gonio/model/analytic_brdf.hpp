@@ -112,7 +112,7 @@ class analytic_lobe {
   template <template <class> class Shape>
   [[nodiscard]] lobe<Shape> as() const {
     if (!(*kind_ == lobe_kind::of<Shape>()))
-      throw error("a lobe is " + std::string(kind_->name()) + ", not " + std::string(Shape<double>::name));
+      refuse("a lobe is " + std::string(kind_->name()) + ", not " + std::string(Shape<double>::name));
     std::array<double, parameter_count<Shape>> own{};
     std::copy_n(parameters_.begin(), own.size(), own.begin());
     return lobe<Shape>(colour_, shape_from<Shape, double>(own));

@@ -5,6 +5,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/render/environment_sampler.hpp>
 #include <gonio/render/image.hpp>
@@ -52,7 +53,7 @@ class even_pairs {
  private:
   static constexpr double root = 1.324717957244746;
 
-  [[nodiscard]] double next() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
+  [[nodiscard]] double next() { return uniform_number(generator_); }
 
   std::mt19937_64 generator_;
   std::vector<pairs> all_;

@@ -62,15 +62,14 @@ template <brdf Brdf, sphere_lighting Lighting>
   const std::vector<sphere_point> points = sphere_points(view.size * view.supersampling);
   std::vector<rgb> radiance(points.size(), rgb::Zero());
   std::vector<double> white(points.size());
-  for_each_block(
+  for_each_index(
       points.size(), detail::sphere_block,
-      [&](block range) {
-        for (std::size_t point = range.begin; point < range.end; ++point)
-          lighting.for_each_incident(points[point].normal,
-                                     [&](const direction& wi, const direction& wo, const rgb& weight) {
-                                       radiance[point] += rgb(f(wi, wo)) * weight;
-                                       white[point] += luminance(weight) * std::numbers::inv_pi;
-                                     });
+      [&](std::size_t point) {
+        lighting.for_each_incident(points[point].normal,
+                                   [&](const direction& wi, const direction& wo, const rgb& weight) {
+                                     radiance[point] += rgb(f(wi, wo)) * weight;
+                                     white[point] += luminance(weight) * std::numbers::inv_pi;
+                                   });
       },
       threads);
 

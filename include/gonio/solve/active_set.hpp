@@ -153,7 +153,7 @@ class active_set {
   /// and lets that column leave. If the optimum is `refined`, those that leave are barred: rounding had let them in.
   void settle(bool refined = false) {
     for (int round = 0; !passive_.empty(); ++round) {
-      if (round > step_limit(x_.size())) throw error("an active set does not settle: the normal equations overflow");
+      if (round > step_limit(x_.size())) refuse("an active set does not settle: the normal equations overflow");
       Eigen::VectorXd z = optimum_of_passive();
       if (refined) refine(z);
       double length = 1.0;

@@ -28,8 +28,8 @@ int run_to_convergence(Iteration& run, int limit, const std::string& method) {
   int steps = 0;
   for (; !run.converged(); run.step())
     if (++steps > limit)
-      throw error{method, " has not converged after ", limit,
-                  " steps: the normal equations are inconsistent or too ill-conditioned"};
+      refuse({method, " has not converged after ", limit,
+              " steps: the normal equations are inconsistent or too ill-conditioned"});
   return steps;
 }
 

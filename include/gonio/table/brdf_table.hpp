@@ -83,13 +83,11 @@ static_assert(brdf<nearest_lookup>);
 template <brdf Brdf>
 [[nodiscard]] brdf_table tabulate(const Brdf& f, const valid_cells& cells, thread_count threads = {}) {
   brdf_table table(cells);
-  for_each_block(
+  for_each_index(
       cells.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const auto [wi, wo] = to_directions(cells.angles(cell));
-          table.set(cell, f(wi, wo));
-        }
+      [&](std::size_t cell) {
+        const auto [wi, wo] = to_directions(cells.angles(cell));
+        table.set(cell, f(wi, wo));
       },
       threads);
   return table;

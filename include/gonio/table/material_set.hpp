@@ -56,8 +56,8 @@ void require_complete(const Set& things) {
   constexpr std::size_t channels = channels_over<domain_of_set<Set>>;
   if (things.names.empty() || things.values.cols() != static_cast<Eigen::Index>(channels * things.names.size()) ||
       things.values.rows() != static_cast<Eigen::Index>(things.cells.size()))
-    throw error{"a basis needs at least one material, of ", channels, " columns each over ", things.cells.size(),
-                " cells"};
+    refuse(
+        {"a basis needs at least one material, of ", channels, " columns each over ", things.cells.size(), " cells"});
 }
 
 /// Throws gonio::error naming the first material that is not finite at a cell. (Who observes other things
@@ -69,7 +69,7 @@ void require_finite(const Set& things, std::size_t cell) {
   Eigen::Index column = 0;
   while (std::isfinite(row[column])) ++column;
   const auto thing = static_cast<std::size_t>(column / channels_over<domain_of_set<Set>>);
-  throw error{"material '", things.names[thing], "' is not finite at cell ", cell};
+  refuse({"material '", things.names[thing], "' is not finite at cell ", cell});
 }
 
 /// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite

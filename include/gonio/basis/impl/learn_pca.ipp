@@ -44,7 +44,7 @@ GONIO_INLINE component_set principal_components(const cell_matrix& centred, std:
   // Rounding of the mean may pretend that centring costs none.
   const auto most = std::min(static_cast<Eigen::Index>(count), products.cols() - 1);
   const auto [eigenvalues, vectors] = largest_eigenpairs(products, most);
-  if (eigenvalues.size() == 0) throw error("the materials do not differ: there is nothing to learn");
+  if (eigenvalues.size() == 0) refuse("the materials do not differ: there is nothing to learn");
 
   component_set found{eigenvalues.cwiseSqrt(), cell_matrix(centred.rows(), vectors.cols()), vectors.cast<float>(),
                       eigenvalues.sum() / products.trace()};

@@ -4,6 +4,7 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/rbf.hpp>
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/random.hpp>
 
 #include <Eigen/Core>
 
@@ -23,19 +24,11 @@
 
 namespace gonio {
 
-GONIO_INLINE gaussian_kernel::gaussian_kernel(double width) : width_(width) {
-  if (!(width > 0.0 && std::isfinite(width)))
-    throw error{"the width of a Gaussian kernel must be positive and finite, not ", width};
-}
-
 GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
                                                                  std::uint64_t seed) {
   constexpr std::size_t most_candidates = 60'000;
-  std::vector<std::size_t> all(cells.size()), candidates;
-  std::iota(all.begin(), all.end(), std::size_t{0});
+  const std::vector<std::size_t> candidates = random_choice(cells.size(), most_candidates, seed);
   std::mt19937_64 generator(seed);
-  std::ranges::sample(all, std::back_inserter(candidates),
-                      static_cast<std::ptrdiff_t>(std::min(most_candidates, all.size())), generator);
   Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
   for (std::size_t i = 0; i < candidates.size(); ++i)
     places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();
@@ -51,8 +44,7 @@ GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cel
     nearest.maxCoeff(&farthest);
   }
   if (centres.size() < count)
-    throw error{"cannot choose ", count, " different centres of radial basis functions among ", centres.size(),
-                " places"};
+    refuse({"cannot choose ", count, " different centres of radial basis functions among ", centres.size(), " places"});
   return centres;
 }
 

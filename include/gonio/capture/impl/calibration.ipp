@@ -48,11 +48,11 @@ namespace gonio::capture {
 GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const reading> readings,
                                                                std::uint16_t largest_count,
                                                                const response_options& options) {
-  if (readings.empty()) throw error("a camera's response needs readings, and there is none");
+  if (readings.empty()) refuse("a camera's response needs readings, and there is none");
   const std::vector<double> times = detail::times_in_common(readings);
   if (times.size() < 2)
-    throw error("a camera's response needs readings with two exposure times or more in common, not " +
-                std::to_string(times.size()));
+    refuse("a camera's response needs readings with two exposure times or more in common, not " +
+           std::to_string(times.size()));
   const auto response_of = [&](Eigen::Index channel) {
     return estimate_response(detail::mean_counts(readings, times, channel, largest_count), times, largest_count,
                              options);
@@ -109,11 +109,11 @@ GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance>
     darker_matte += is_darker && is_matte ? 1 : 0;
   }
   if (2 * darker > usable.size())
-    throw error{"the reference is darker than the material in ", darker, " of ", usable.size(),
-                " samples: are the two exchanged?"};
+    refuse({"the reference is darker than the material in ", darker, " of ", usable.size(),
+            " samples: are the two exchanged?"});
   if (2 * darker_matte > matte)
-    throw error{"the reference is darker than the material in ", darker_matte, " of the ", matte,
-                " samples that are no highlight: are the two exchanged?"};
+    refuse({"the reference is darker than the material in ", darker_matte, " of the ", matte,
+            " samples that are no highlight: are the two exchanged?"});
 }
 
 }  // namespace gonio::capture

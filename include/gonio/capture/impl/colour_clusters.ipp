@@ -5,7 +5,9 @@
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/statistics.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -32,19 +34,16 @@ inline constexpr std::size_t clustered_sample = 2000;
 
 /// The positions of `clustered_sample` of n points at random, or of all if there are not as many, in their order.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(n)), chosen(std::min(all.size(), clustered_sample));
-  std::iota(all.begin(), all.end(), Eigen::Index{0});
-  std::mt19937_64 generator(seed);
-  std::ranges::sample(all, chosen.begin(), std::ssize(chosen), generator);
-  return chosen;
+  const std::vector<std::size_t> chosen = random_choice(static_cast<std::size_t>(n), clustered_sample, seed);
+  return {chosen.begin(), chosen.end()};
 }
 
 GONIO_INLINE void require_colours(const point_matrix_view& colours) {
   if (colours.rows() == 0 || colours.cols() != 3)
-    throw error("clusters need the colours of at least one pixel, three numbers each, not " +
-                std::to_string(colours.rows()) + " times " + std::to_string(colours.cols()));
+    refuse("clusters need the colours of at least one pixel, three numbers each, not " +
+           std::to_string(colours.rows()) + " times " + std::to_string(colours.cols()));
   for (Eigen::Index i = 0; i < colours.rows(); ++i)
-    if (!colours.row(i).allFinite()) throw error("the colour of pixel " + std::to_string(i + 1) + " is not finite");
+    if (!colours.row(i).allFinite()) refuse("the colour of pixel " + std::to_string(i + 1) + " is not finite");
 }
 
 /// Carries clusters of some of the points over to all of them.
@@ -65,12 +64,11 @@ GONIO_INLINE point_matrix clustering_coordinates(const point_matrix_view& colour
   detail::require_colours(colours);
   std::vector<double> largest(static_cast<std::size_t>(colours.rows()));
   for (Eigen::Index i = 0; i < colours.rows(); ++i) largest[static_cast<std::size_t>(i)] = colours.row(i).maxCoeff();
-  const auto white = largest.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(largest.size() - 1));
-  std::ranges::nth_element(largest, white);
-  if (!(*white > 0.0)) throw error("99 of 100 pixels are black: there is no colour to cluster by");
+  const double white = quantile(largest, 0.99);
+  if (!(white > 0.0)) refuse("99 of 100 pixels are black: there is no colour to cluster by");
   point_matrix coordinates(colours.rows(), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i)
-    coordinates.row(i) = to_lab(colours.row(i).transpose().array() / *white).matrix().transpose();
+    coordinates.row(i) = to_lab(colours.row(i).transpose().array() / white).matrix().transpose();
   return coordinates;
 }
 
@@ -87,7 +85,7 @@ GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, E
 
 GONIO_INLINE colour_clusters cluster_colours(const point_matrix_view& colours, const cluster_count_choice& choice,
                                              std::uint64_t seed, thread_count threads) {
-  if (choice.most < 1) throw error("at least one cluster must be allowed, not " + std::to_string(choice.most));
+  if (choice.most < 1) refuse("at least one cluster must be allowed, not " + std::to_string(choice.most));
   const point_matrix points = clustering_coordinates(colours);
   const std::vector<Eigen::Index> some = detail::some_points(points.rows(), seed);
   const point_matrix looked_at = points(some, Eigen::all);

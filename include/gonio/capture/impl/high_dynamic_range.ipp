@@ -20,7 +20,7 @@ namespace gonio::capture {
 GONIO_INLINE void sensor_noise::require_usable() const {
   for (const double number : {read, shot, relative})
     if (!(number >= 0.0 && std::isfinite(number)))
-      throw error("a sensor's noise must be finite and not negative, not " + std::to_string(number));
+      refuse("a sensor's noise must be finite and not negative, not " + std::to_string(number));
 }
 
 GONIO_INLINE double sensor_noise::relative_variance(const camera_response& response, double count,
@@ -64,10 +64,9 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
 
 GONIO_INLINE void require_times(std::size_t pictures, std::span<const double> times, const std::string& what) {
   if (pictures != times.size() || times.empty())
-    throw error(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
+    refuse(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
   for (const double time : times)
-    if (!(time > 0.0 && std::isfinite(time)))
-      throw error("an exposure time must be positive, not " + std::to_string(time));
+    if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
 }
 
 GONIO_INLINE measured_radiance saturated_radiance(const camera_response& response, std::span<const double> times,
@@ -110,8 +109,8 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
   for (std::size_t j = 0; j < taken.frames.size(); ++j) {
     const camera_frame& picture = taken.frames[j];
     if (picture.rows() != pixels || pixels == 0)
-      throw error("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +
-                  " and " + std::to_string(picture.rows()));
+      refuse("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +
+             " and " + std::to_string(picture.rows()));
     const auto counts = picture.col(channel);
     if (counts.maxCoeff() > 0) is_dark = false;
     if (counts.maxCoeff() == 0 || counts.maxCoeff() >= limit) continue;

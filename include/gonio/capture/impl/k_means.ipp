@@ -22,7 +22,7 @@ namespace gonio::capture::detail {
 
 GONIO_INLINE void require_finite_points(const point_matrix_view& points) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    if (!points.row(i).allFinite()) throw error("point " + std::to_string(i + 1) + " is not finite");
+    if (!points.row(i).allFinite()) refuse("point " + std::to_string(i + 1) + " is not finite");
 }
 
 GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eigen::Index limit) {
@@ -149,9 +149,8 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
                                             int most_steps) {
   const Eigen::Index n = points.rows(), k = centres.rows();
   if (k < 1 || n < k || points.cols() != centres.cols())
-    throw error(std::to_string(n) + " points of " + std::to_string(points.cols()) +
-                " numbers cannot be parted around " + std::to_string(k) + " centres of " +
-                std::to_string(centres.cols()));
+    refuse(std::to_string(n) + " points of " + std::to_string(points.cols()) + " numbers cannot be parted around " +
+           std::to_string(k) + " centres of " + std::to_string(centres.cols()));
   detail::require_finite_points(points);
   detail::require_finite_points(centres);
   Eigen::VectorXi labels = Eigen::VectorXi::Constant(n, -1);
@@ -169,11 +168,11 @@ GONIO_INLINE point_clusters refine_clusters(const point_matrix_view& points, poi
 GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Index k, std::uint64_t seed,
                                     thread_count threads) {
   constexpr int restarts = 10;
-  if (k < 1) throw error("points are parted into at least one cluster, not " + std::to_string(k));
+  if (k < 1) refuse("points are parted into at least one cluster, not " + std::to_string(k));
   detail::require_finite_points(points);
   if (const Eigen::Index different = detail::different_points(points, k); different < k)
-    throw error("only " + std::to_string(different) + " of " + std::to_string(points.rows()) +
-                " points differ: they cannot make " + std::to_string(k) + " clusters");
+    refuse("only " + std::to_string(different) + " of " + std::to_string(points.rows()) +
+           " points differ: they cannot make " + std::to_string(k) + " clusters");
   std::mt19937_64 generator(seed);
   point_clusters best;
   best.inertia = std::numeric_limits<double>::infinity();
@@ -187,7 +186,7 @@ GONIO_INLINE point_clusters k_means(const point_matrix_view& points, Eigen::Inde
 GONIO_INLINE double mean_silhouette(const point_matrix_view& points, const Eigen::VectorXi& labels,
                                     thread_count threads) {
   if (labels.size() != points.rows() || points.rows() == 0 || labels.minCoeff() < 0)
-    throw error("a silhouette needs a point at least, and a label from 0 on for each");
+    refuse("a silhouette needs a point at least, and a label from 0 on for each");
   const std::vector<std::size_t> sizes = detail::cluster_sizes(labels, labels.maxCoeff() + 1);
   const auto own_size = [&](Eigen::Index i) { return sizes[static_cast<std::size_t>(labels[i])]; };
   const auto width_of = [&](Eigen::Index i) {

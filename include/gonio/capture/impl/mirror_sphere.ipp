@@ -19,13 +19,13 @@ namespace gonio::capture {
 
 GONIO_INLINE mirror_sphere::mirror_sphere(double distance) : distance_(distance) {
   if (!(distance > 1.0))
-    throw error("the camera must stand outside the mirror sphere, more than one radius from its centre, not " +
-                std::to_string(distance));
+    refuse("the camera must stand outside the mirror sphere, more than one radius from its centre, not " +
+           std::to_string(distance));
 }
 
 GONIO_INLINE mirror_sphere mirror_sphere::spanning(double angle) {
   if (!(angle > 0.0 && angle < std::numbers::pi))
-    throw error("a mirror sphere spans an angle between 0 and 180 degrees, not " + std::to_string(degrees(angle)));
+    refuse("a mirror sphere spans an angle between 0 and 180 degrees, not " + std::to_string(degrees(angle)));
   return mirror_sphere(1.0 / std::sin(angle / 2.0));
 }
 
@@ -79,15 +79,15 @@ namespace gonio::capture::detail {
 GONIO_INLINE void require_unwrappable(const image& probe, const unwrap_options& options) {
   const std::size_t pixels = probe.shape(0);
   if (probe.shape(1) != pixels || probe.shape(2) != 3 || pixels < 8)
-    throw error("an image of a mirror sphere must be square and have 8 pixels a side or more, not " +
-                std::to_string(probe.shape(0)) + " x " + std::to_string(probe.shape(1)));
+    refuse("an image of a mirror sphere must be square and have 8 pixels a side or more, not " +
+           std::to_string(probe.shape(0)) + " x " + std::to_string(probe.shape(1)));
   if (!std::all_of(probe.data(), probe.data() + probe.size(),
                    [](float value) { return std::isfinite(value) && value >= 0.0f; }))
-    throw error("an image of a mirror sphere must be finite and not negative");
+    refuse("an image of a mirror sphere must be finite and not negative");
   if (options.rows == 0 || options.samples < 0)
-    throw error("an unwrapped map needs rows, and no negative number of directions across each pixel");
+    refuse("an unwrapped map needs rows, and no negative number of directions across each pixel");
   if (!(options.reflectance > 0.0 && options.reflectance <= 1.0))
-    throw error("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
+    refuse("a mirror's reflectance lies above 0 and up to 1, not " + std::to_string(options.reflectance));
 }
 
 GONIO_INLINE rgb read_probe(const image& probe, const Eigen::Vector2d& place) noexcept {

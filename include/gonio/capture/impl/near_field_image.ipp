@@ -22,7 +22,7 @@ GONIO_INLINE bool sample_disc::contains(const Eigen::Vector3d& point) const noex
 
 GONIO_INLINE void require_usable(const near_field_setup& setup) {
   const auto refuse_unless = [](bool usable, const std::string& what) {
-    if (!usable) throw error(what);
+    if (!usable) gonio::refuse(what);
   };
   const double height = setup.camera.position().z();
   refuse_unless(height > 0.0, "the camera is not above the sample's plane, its z is " + std::to_string(height));
@@ -75,8 +75,8 @@ GONIO_INLINE void add_pixel(const image& picture, const near_field_setup& setup,
   // In float, as the image is. Several exposures in one may hold infinity where all of them were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
-    throw error("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
-                ") is not finite, and it sees the sample");
+    gonio::refuse("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
+                  ") is not finite, and it sees the sample");
   block.saturated = block.saturated || saturated;
   block.radiance += value;
   block.views += *view;
@@ -87,10 +87,10 @@ GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& in
   const auto size = [](std::size_t columns, std::size_t rows) {
     return std::to_string(columns) + " x " + std::to_string(rows);
   };
-  if (picture.shape(2) != 3) throw error("an image of " + std::to_string(picture.shape(2)) + " channels, expected 3");
+  if (picture.shape(2) != 3) gonio::refuse("an image of " + std::to_string(picture.shape(2)) + " channels, expected 3");
   if (picture.shape(0) != intrinsics.rows || picture.shape(1) != intrinsics.columns)
-    throw error("the image has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
-                size(intrinsics.columns, intrinsics.rows));
+    gonio::refuse("the image has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
+                  size(intrinsics.columns, intrinsics.rows));
 }
 
 }  // namespace gonio::capture::detail
@@ -135,8 +135,8 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
       samples.push_back({seen, block.radiance / (pixels * reflected), pixels / pixels_of_block});
     }
   if (samples.empty())
-    throw error(any_saturated ? "all that the image sees of the sample is saturated"
-                              : "the image sees nothing of the sample: no pixel's ray meets the region of interest");
+    gonio::refuse(any_saturated ? "all that the image sees of the sample is saturated"
+                                : "the image sees nothing of the sample: no pixel's ray meets the region of interest");
   return samples;
 }
 

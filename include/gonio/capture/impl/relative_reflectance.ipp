@@ -15,7 +15,7 @@ namespace gonio::capture {
 GONIO_INLINE double pixel_solid_angle(double focal_length, double f_number, double distance) {
   for (const double number : {focal_length, f_number, distance})
     if (!(number > 0.0 && std::isfinite(number)))
-      throw error("focal length, f-number and distance must be positive, not " + std::to_string(number));
+      refuse("focal length, f-number and distance must be positive, not " + std::to_string(number));
   const double tangent = focal_length / f_number / (2.0 * distance);
   const double hypotenuse = std::hypot(1.0, tangent);
   // 1 - 1 / h as (h^2 - 1) / (h (h + 1)): a lens far away loses no digits.
@@ -25,7 +25,7 @@ GONIO_INLINE double pixel_solid_angle(double focal_length, double f_number, doub
 GONIO_INLINE reference_light::reference_light(const uncertain& exposure, double reflectance, const illumination& at)
     : relative_variance_(std::pow(exposure.relative_deviation(), 2)) {
   const auto require = [](bool holds, const char* what, double number) {
-    if (!holds) throw error(std::string(what) + ", not " + std::to_string(number));
+    if (!holds) refuse(std::string(what) + ", not " + std::to_string(number));
   };
   require(exposure.value > 0.0 && std::isfinite(exposure.value), "the reference's exposure must be positive",
           exposure.value);
@@ -45,9 +45,9 @@ GONIO_INLINE uncertain reference_light::brdf(const uncertain& exposure, const il
 
 GONIO_INLINE void reference_light::require_usable(const illumination& at) {
   if (!(at.cosine > 0.0 && at.cosine <= 1.0))
-    throw error("the cosine of the angle of incidence lies above 0 and up to 1, not " + std::to_string(at.cosine));
+    refuse("the cosine of the angle of incidence lies above 0 and up to 1, not " + std::to_string(at.cosine));
   if (!(at.distance > 0.0 && std::isfinite(at.distance)))
-    throw error("the distance to the lamp must be positive, not " + std::to_string(at.distance));
+    refuse("the distance to the lamp must be positive, not " + std::to_string(at.distance));
 }
 
 }  // namespace gonio::capture

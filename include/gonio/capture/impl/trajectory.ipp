@@ -25,7 +25,7 @@ GONIO_INLINE direction camera_pose::looks_along() const { return orientation() *
 
 GONIO_INLINE void camera_sphere::require_usable() const {
   if (!(radius > 0.0) || !std::isfinite(radius) || !centre.allFinite() || !std::isfinite(arc_azimuth))
-    throw error("a camera's sphere needs a positive radius and finite numbers");
+    refuse("a camera's sphere needs a positive radius and finite numbers");
 }
 
 GONIO_INLINE camera_pose camera_sphere::towards(const direction& wo) const {
@@ -40,7 +40,7 @@ GONIO_INLINE direction camera_sphere::seen_from(const camera_pose& pose) const {
 GONIO_INLINE int angular_grid::steps_to_horizon() const {
   const double steps = std::numbers::pi / 2.0 / step;
   if (!(step > 0.0) || !(steps >= 1.0) || std::abs(steps - std::round(steps)) > 1e-9)
-    throw error("steps of " + std::to_string(degrees(step)) + " degrees do not divide a right angle");
+    refuse("steps of " + std::to_string(degrees(step)) + " degrees do not divide a right angle");
   return static_cast<int>(std::lround(steps));
 }
 
@@ -83,7 +83,7 @@ GONIO_INLINE double length_of_way(const std::vector<direction>& directions, cons
 
 GONIO_INLINE double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
                                      const scan_pace& pace) {
-  if (!(pace.radians_per_second > 0.0)) throw error("a robot's speed must be positive");
+  if (!(pace.radians_per_second > 0.0)) refuse("a robot's speed must be positive");
   const double each = pace.settling + static_cast<double>(lamps) * (pace.exposure + pace.switching);
   return length_of_way / pace.radians_per_second + static_cast<double>(stops) * each;
 }

@@ -30,8 +30,7 @@ GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {
   return sentence;
 }
 
-GONIO_INLINE error::error(std::initializer_list<message_part> parts)
-    : std::runtime_error(printable(message_of(parts))) {}
+GONIO_INLINE error::error(const std::string& sentence) : std::runtime_error(printable(sentence)) {}
 
 GONIO_INLINE void refuse(const std::string& sentence) {
 #if defined(__cpp_exceptions)
@@ -41,5 +40,7 @@ GONIO_INLINE void refuse(const std::string& sentence) {
   std::abort();
 #endif
 }
+
+GONIO_INLINE void refuse(std::initializer_list<message_part> parts) { refuse(message_of(parts)); }
 
 }  // namespace gonio

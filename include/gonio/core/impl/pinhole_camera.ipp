@@ -25,17 +25,17 @@ GONIO_INLINE camera_intrinsics camera_intrinsics::square(std::size_t pixels, dou
 GONIO_INLINE pinhole_camera::pinhole_camera(const camera_intrinsics& intrinsics, const Eigen::Matrix3d& rotation,
                                             const Eigen::Vector3d& position)
     : intrinsics_(intrinsics), rotation_(rotation), position_(position) {
-  if (intrinsics.rows == 0 || intrinsics.columns == 0) throw error("a camera needs pixels");
+  if (intrinsics.rows == 0 || intrinsics.columns == 0) refuse("a camera needs pixels");
   const Eigen::Vector4d numbers(intrinsics.focal_length_x, intrinsics.focal_length_y, intrinsics.principal_x,
                                 intrinsics.principal_y);
-  if (!numbers.allFinite() || !position.allFinite()) throw error("a camera's numbers must be finite");
+  if (!numbers.allFinite() || !position.allFinite()) refuse("a camera's numbers must be finite");
   if (!(intrinsics.focal_length_x > 0.0 && intrinsics.focal_length_y > 0.0))
-    throw error{"a camera's focal lengths must be positive, not ", intrinsics.focal_length_x, " and ",
-                intrinsics.focal_length_y};
+    refuse({"a camera's focal lengths must be positive, not ", intrinsics.focal_length_x, " and ",
+            intrinsics.focal_length_y});
   constexpr double tolerance = 1e-3;
   if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < tolerance) ||
       !(rotation.determinant() > 0.0))
-    throw error("a camera's rotation must be an orthogonal matrix of determinant 1");
+    refuse("a camera's rotation must be an orthogonal matrix of determinant 1");
 }
 
 GONIO_INLINE pinhole_camera pinhole_camera::look_at(const camera_intrinsics& intrinsics,
@@ -43,7 +43,7 @@ GONIO_INLINE pinhole_camera pinhole_camera::look_at(const camera_intrinsics& int
                                                     const Eigen::Vector3d& up) {
   const Eigen::Vector3d forward = target - position, right = forward.cross(up);
   if (!(right.norm() > 1e-9 * forward.norm() * up.norm()))
-    throw error("a camera must look at another place than its own, and not along its own upward direction");
+    refuse("a camera must look at another place than its own, and not along its own upward direction");
   Eigen::Matrix3d rotation;
   rotation.row(0) = right.normalized();
   rotation.row(2) = forward.normalized();

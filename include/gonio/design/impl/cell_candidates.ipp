@@ -94,11 +94,11 @@ GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<cons
 GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> sample_noise_penalties,
                                                      std::size_t cells) {
   if (sample_noise_penalties.size() != cells)
-    throw error(std::to_string(sample_noise_penalties.size()) + " etas of their own for " + std::to_string(cells) +
-                " cells");
+    refuse(std::to_string(sample_noise_penalties.size()) + " etas of their own for " + std::to_string(cells) +
+           " cells");
   for (const double eta : sample_noise_penalties)
     if (!(eta >= 0.0 && std::isfinite(eta)))
-      throw error("a cell's own eta must be finite and not negative, not " + std::to_string(eta));
+      refuse("a cell's own eta must be finite and not negative, not " + std::to_string(eta));
   return Eigen::Map<const Eigen::ArrayXd>(sample_noise_penalties.data(), std::ssize(sample_noise_penalties))
       .cast<float>();
 }

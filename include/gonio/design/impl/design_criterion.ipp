@@ -38,7 +38,7 @@ namespace gonio::design::detail {
 }
 
 GONIO_INLINE void require_positive_eta(double eta) {
-  if (!(eta > 0.0 && std::isfinite(eta))) throw error("eta must be positive, not " + std::to_string(eta));
+  if (!(eta > 0.0 && std::isfinite(eta))) refuse("eta must be positive, not " + std::to_string(eta));
 }
 
 }  // namespace gonio::design::detail
@@ -54,7 +54,7 @@ GONIO_INLINE a_optimality::a_optimality(Eigen::VectorXd energies, double eta)
   detail::require_positive_eta(eta);
   const auto possible = [](double energy) { return energy >= 0.0 && std::isfinite(energy); };
   if (!std::all_of(energies_.data(), energies_.data() + energies_.size(), possible) || !(energies_.sum() > 0.0))
-    throw error("the components' energies must be finite, not negative, and not all zero");
+    refuse("the components' energies must be finite, not negative, and not all zero");
 }
 
 GONIO_INLINE double a_optimality::operator()(const Eigen::MatrixXd& components) const {

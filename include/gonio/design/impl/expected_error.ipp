@@ -44,13 +44,13 @@ GONIO_INLINE expected_error::expected_error(const Eigen::MatrixXf& coefficients,
   detail::require_positive_eta(options.eta);
   for (const auto& [name, value] : {std::pair{"noise", options.noise}, {"common shift", options.common_shift}})
     if (!(value >= 0.0 && std::isfinite(value)))
-      throw error{"the ", name, " must be finite and not negative, not ", value};
+      refuse({"the ", name, " must be finite and not negative, not ", value});
   if (options.leave_out && (coefficients.rows() % 3 != 0 || coefficients.rows() < 6))
-    throw error{"materials of three observations each, at least two of them, can be left out of what was learned, not ",
-                coefficients.rows(), " observations"};
+    refuse({"materials of three observations each, at least two of them, can be left out of what was learned, not ",
+            coefficients.rows(), " observations"});
   const Eigen::Index k = coefficients.cols();
   if (norm.rows() != k || norm.cols() != k)
-    throw error("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
+    refuse("a norm of " + std::to_string(k) + " weights must be a square matrix of as many rows");
   weighted_ = product(coefficients_, norm);
   energies_ = Eigen::VectorXd::Zero(coefficients_.rows());
   for (Eigen::Index j = 0; j < k; ++j) energies_ += coefficients_.col(j).cwiseProduct(weighted_.col(j));

@@ -23,7 +23,7 @@ GONIO_INLINE pinhole_camera near_field_camera(const direction& wo, double field_
 }
 
 GONIO_INLINE near_field_geometry::near_field_geometry(const near_field_options& options) : options_(options) {
-  const auto refuse = [](const std::string& what) { throw error("near-field images: " + what); };
+  const auto refuse = [](const std::string& what) { gonio::refuse("near-field images: " + what); };
   if (!(options.field_of_view > 0.0 && options.field_of_view < std::numbers::pi / 2.0))
     refuse("the field of view must be from 0 to 90 degrees, not " + std::to_string(degrees(options.field_of_view)));
   if (options.pixels == 0) refuse("there must be pixels");

@@ -46,7 +46,7 @@ GONIO_INLINE std::vector<half_difference> nielsen_directions(std::size_t n) {
       directions.push_back({radians(theta_h), radians(theta_d), radians(phi_d)});
     return directions;
   }
-  throw error("there is no published set of " + std::to_string(n) + " directions: choose 1, 2, 5, 10 or 20");
+  refuse("there is no published set of " + std::to_string(n) + " directions: choose 1, 2, 5, 10 or 20");
 }
 
 GONIO_INLINE std::vector<half_difference> westlund_meyer_directions() {

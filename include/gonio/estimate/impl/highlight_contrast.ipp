@@ -55,7 +55,7 @@ GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, 
   std::vector<std::size_t> soft, specular;
   for (std::size_t m = 0; m < materials.names.size(); ++m)
     if (!std::isfinite(contrasts[static_cast<Eigen::Index>(m)]))
-      throw error{"material '", materials.names[m], "' has no contrast: its table is not finite"};
+      refuse({"material '", materials.names[m], "' has no contrast: its table is not finite"});
   if (!threshold) {
     std::vector<double> sorted(contrasts.begin(), contrasts.end());
     std::ranges::sort(sorted);
@@ -64,13 +64,8 @@ GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, 
   for (std::size_t m = 0; m < materials.names.size(); ++m)
     (contrasts[static_cast<Eigen::Index>(m)] < *threshold ? soft : specular).push_back(m);
   if (soft.empty() || specular.empty())
-    throw error{"all ",
-                materials.names.size(),
-                " materials are ",
-                (soft.empty() ? "specular" : "soft"),
-                " at a threshold of ",
-                *threshold,
-                ": a prior needs some on either side"};
+    refuse({"all ", materials.names.size(), " materials are ", (soft.empty() ? "specular" : "soft"),
+            " at a threshold of ", *threshold, ": a prior needs some on either side"});
   return {materials.subset(soft), materials.subset(specular), *threshold};
 }
 

@@ -123,10 +123,9 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
 GONIO_INLINE void leave_one_material_out_error::require_sensible(std::size_t places, const Eigen::VectorXd& weights,
                                                                  std::size_t materials) {
   if (static_cast<std::size_t>(weights.size()) != places || places == 0)
-    throw error(std::to_string(places) + " places need as many weights, not " + std::to_string(weights.size()) +
-                ", and at least one");
-  if (materials < 2)
-    throw error("one material alone cannot be left out of what was learned from it: eta must be stated");
+    refuse(std::to_string(places) + " places need as many weights, not " + std::to_string(weights.size()) +
+           ", and at least one");
+  if (materials < 2) refuse("one material alone cannot be left out of what was learned from it: eta must be stated");
 }
 
 GONIO_INLINE void leave_one_material_out_error::initialise(const sums& all, const Eigen::VectorXd& singular_values,
@@ -143,7 +142,7 @@ GONIO_INLINE void leave_one_material_out_error::decompose(const Eigen::VectorXd&
   const double largest = eigen.values[eigen.values.size() - 1];
   const Eigen::Index rank = std::count_if(eigen.values.data(), eigen.values.data() + eigen.values.size(),
                                           [&](double value) { return value > 1e-12 * largest; });
-  if (rank == 0 || !(largest > 0.0)) throw error("eta cannot be chosen: the basis does not vary where was measured");
+  if (rank == 0 || !(largest > 0.0)) refuse("eta cannot be chosen: the basis does not vary where was measured");
   values_ = eigen.values.tail(rank);
   vectors_ = eigen.vectors.rightCols(rank);
   const Eigen::MatrixXd transposed = vectors_.transpose();

@@ -16,7 +16,7 @@
 namespace gonio::detail {
 
 GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart) {
-  if (count == 0) throw error("all samples have weight zero: nothing is known");
+  if (count == 0) refuse("all samples have weight zero: nothing is known");
   return {std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3),
           Eigen::MatrixXd(count, apart ? 3 : 1)};
 }
@@ -24,7 +24,7 @@ GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart) {
 GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number) {
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
     if (!std::isfinite(static_cast<float>(s.value[channel])))
-      throw error{"sample ", number, ": a reflectance is beyond the range of float"};
+      refuse({"sample ", number, ": a reflectance is beyond the range of float"});
     samples.values(i, channel) = s.value[channel];
   }
   samples.at[static_cast<std::size_t>(i)].angles = s.angles();
@@ -33,12 +33,8 @@ GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sam
 }
 
 GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
-  for_each_block(
-      samples.size(), 1024,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) samples.at[i] = locate(cells, samples.at[i].angles);
-      },
-      threads);
+  for_each_index(
+      samples.size(), 1024, [&](std::size_t i) { samples.at[i] = locate(cells, samples.at[i].angles); }, threads);
 }
 
 }  // namespace gonio::detail
@@ -79,18 +75,16 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf
   const auto count = static_cast<Eigen::Index>(table.cells().size());
   located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
                         Eigen::MatrixXd::Ones(count, 1)};
-  for_each_block(
+  for_each_index(
       found.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const auto row = static_cast<Eigen::Index>(cell);
-          for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double value = double{table.values()[3 * cell + channel]};
-            if (!std::isfinite(value)) throw error{"cell ", cell, " of a table is not finite"};
-            found.values(row, static_cast<Eigen::Index>(channel)) = value;
-          }
-          found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
+      [&](std::size_t cell) {
+        const auto row = static_cast<Eigen::Index>(cell);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+          const double value = double{table.values()[3 * cell + channel]};
+          if (!std::isfinite(value)) refuse({"cell ", cell, " of a table is not finite"});
+          found.values(row, static_cast<Eigen::Index>(channel)) = value;
         }
+        found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
       },
       threads);
   return found;

@@ -53,12 +53,4 @@ GONIO_INLINE scaled_likelihood best_factor(const Eigen::ArrayXd& differences, co
   return best;
 }
 
-GONIO_INLINE std::vector<std::size_t> some_of(std::size_t n, std::size_t count, std::uint64_t seed) {
-  std::vector<std::size_t> all(n), chosen(std::min(n, count));
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  std::mt19937_64 generator(seed);
-  std::ranges::sample(all, chosen.begin(), std::ssize(chosen), generator);
-  return chosen;
-}
-
 }  // namespace gonio::detail

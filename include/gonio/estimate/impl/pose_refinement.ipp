@@ -48,15 +48,14 @@ GONIO_INLINE pose_iteration::pose_iteration(std::vector<std::vector<sample_set>>
 
 GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.eta > 0.0 && std::isfinite(options_.eta)))
-    throw error("eta must be positive and finite, not " + std::to_string(options_.eta));
+    refuse("eta must be positive and finite, not " + std::to_string(options_.eta));
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
-    throw error("light and camera may be off by 0 to 45 degrees, not by " +
-                std::to_string(degrees(options_.deviation)));
-  if (materials_.empty() || materials_.front().empty()) throw error("there is no image");
+    refuse("light and camera may be off by 0 to 45 degrees, not by " + std::to_string(degrees(options_.deviation)));
+  if (materials_.empty() || materials_.front().empty()) refuse("there is no image");
   const std::size_t count = materials_.front().size();
   for (std::size_t m = 0; m < materials_.size(); ++m)
     if (materials_[m].size() != count)
-      throw error{"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count};
+      refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count});
   for (std::size_t p = 0; p < count; ++p) {
     sample_set all;
     for (const std::vector<sample_set>& pictures : materials_)
@@ -70,7 +69,7 @@ GONIO_INLINE sample pose_iteration::turned(const sample& s, const pose_correctio
 }
 
 GONIO_INLINE void pose_iteration::require_material(std::size_t material) const {
-  if (material >= materials_.size()) throw error{"there is no material ", material, " of ", materials_.size()};
+  if (material >= materials_.size()) refuse({"there is no material ", material, " of ", materials_.size()});
 }
 
 GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material) const {
@@ -107,19 +106,17 @@ GONIO_INLINE void pose_iteration::solve(const reader& read) {
 
 GONIO_INLINE void pose_iteration::add_image(const sample_set& picture, const pose_correction& turns, const reader& read,
                                             Eigen::Index begin, equations& out) const {
-  for_each_block(
+  for_each_index(
       picture.size(), 64,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
-          const sample seen = turned(picture[i], turns);
-          const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
-          rgb right;
-          auto column = out.columns.col(at);
-          read(seen.angles(), seen.value, column.transpose(), right);
-          column *= root;
-          for (Eigen::Index c = 0; c < 3; ++c) out.right(at, c) = root * right[c];
-        }
+      [&](std::size_t i) {
+        const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
+        const sample seen = turned(picture[i], turns);
+        const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
+        rgb right;
+        auto column = out.columns.col(at);
+        read(seen.angles(), seen.value, column.transpose(), right);
+        column *= root;
+        for (Eigen::Index c = 0; c < 3; ++c) out.right(at, c) = root * right[c];
       },
       options_.threads);
 }

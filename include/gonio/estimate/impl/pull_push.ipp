@@ -121,7 +121,7 @@ GONIO_INLINE detail::pyramid_level pull_push::splats::finest() const {
 GONIO_INLINE completed_table pull_push::complete(const splats& sums) const {
   std::vector<detail::pyramid_level> pyramid{sums.finest()};
   while (pyramid.back().cells.cols() > 1) pyramid.push_back(detail::pull(pyramid.back(), threads_));
-  if (!(pyramid.back().cells(3, 0) > 0.0f)) throw error("all samples have weight zero: nothing is known");
+  if (!(pyramid.back().cells(3, 0) > 0.0f)) refuse("all samples have weight zero: nothing is known");
   for (std::size_t level = pyramid.size() - 1; level > 0; --level)
     detail::push(pyramid[level], pyramid[level - 1], threads_);
 

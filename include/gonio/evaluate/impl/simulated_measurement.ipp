@@ -2,6 +2,7 @@
 /// Bodies of evaluate/simulated_measurement.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -27,23 +28,9 @@ GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::spa
   return samples;
 }
 
-GONIO_INLINE std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<std::size_t> chosen(all);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-  // The first steps of a Fisher-Yates shuffle.
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
-    std::swap(chosen[i], chosen[rest(generator)]);
-  }
-  chosen.resize(count);
-  std::ranges::sort(chosen);
-  return chosen;
-}
-
 GONIO_INLINE std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed) {
   if (count == 0 || count > cells.size())
-    throw error("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
+    refuse("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
   return random_choice(cells.size(), count, seed);
 }
 
@@ -52,10 +39,9 @@ GONIO_INLINE std::vector<std::size_t> cells_at(const valid_cells& cells, std::sp
   for (const half_difference& angles : directions) {
     const std::size_t linear = cells.grid().linear(cells.grid().nearest(angles));
     if (!cells.contains(linear))
-      throw error("direction " + std::to_string(chosen.size() + 1) + " (theta_h " +
-                  std::to_string(degrees(angles.theta_h)) + ", theta_d " + std::to_string(degrees(angles.theta_d)) +
-                  ", phi_d " + std::to_string(degrees(angles.phi_d)) +
-                  " degrees) is below the horizon or not in the table");
+      refuse("direction " + std::to_string(chosen.size() + 1) + " (theta_h " + std::to_string(degrees(angles.theta_h)) +
+             ", theta_d " + std::to_string(degrees(angles.theta_d)) + ", phi_d " +
+             std::to_string(degrees(angles.phi_d)) + " degrees) is below the horizon or not in the table");
     chosen.push_back(cells.representative(linear));
   }
   return chosen;
@@ -73,7 +59,7 @@ GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const st
 
 GONIO_INLINE sample_split split_samples(const sample_set& samples, std::size_t count, std::uint64_t seed) {
   if (count > samples.size())
-    throw error("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
+    refuse("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
   std::vector<bool> chosen(samples.size());
   for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
   sample_split parts;

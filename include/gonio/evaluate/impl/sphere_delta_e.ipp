@@ -48,8 +48,8 @@ GONIO_INLINE image sphere_delta_e::difference_image(const sphere_appearance& a, 
 
 GONIO_INLINE double sphere_delta_e::checked(double mean_luminance) {
   if (!(mean_luminance > 0.0 && std::isfinite(mean_luminance)))
-    throw error("a sphere cannot be exposed to a mean luminance of " + std::to_string(mean_luminance) +
-                ", expected a positive number");
+    refuse("a sphere cannot be exposed to a mean luminance of " + std::to_string(mean_luminance) +
+           ", expected a positive number");
   return mean_luminance;
 }
 

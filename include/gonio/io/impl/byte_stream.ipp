@@ -34,6 +34,8 @@ GONIO_INLINE std::span<const std::byte> byte_reader::take_bytes(std::size_t coun
   return taken;
 }
 
-GONIO_INLINE void byte_reader::fail() const { throw error{name_, ": the file is truncated or its counts are wrong"}; }
+GONIO_INLINE void byte_reader::fail() const {
+  gonio::refuse({name_, ": the file is truncated or its counts are wrong"});
+}
 
 }  // namespace gonio::io

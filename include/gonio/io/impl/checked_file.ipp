@@ -75,16 +75,18 @@ GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind
   byte_reader file(bytes, name);
   const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
   if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
-    throw error{name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"};
+    gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
   const auto version = file.take<std::uint32_t>();
   if (version != kind.version)
-    throw error{name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version};
+    gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version});
   const auto size = file.take<std::uint64_t>();
   const auto expected = file.take<std::uint32_t>();
   if (size > detail::payload_size_limit || !detail::is_believable(size, detail::freely_claimed_payload, file.left()))
-    throw error{name, ": a ", kind.noun, " of ", size, " bytes is not believable of ", file.left(), " compressed ones"};
+    gonio::refuse(
+        {name, ": a ", kind.noun, " of ", size, " bytes is not believable of ", file.left(), " compressed ones"});
   std::vector<std::byte> payload = decompress_bytes(file.take_bytes(file.left()), static_cast<std::size_t>(size), name);
-  if (detail::checksum(payload) != expected) throw error{name, ": the checksum does not match, the file is damaged"};
+  if (detail::checksum(payload) != expected)
+    gonio::refuse({name, ": the checksum does not match, the file is damaged"});
   return payload;
 }
 

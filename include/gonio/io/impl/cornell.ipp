@@ -30,8 +30,9 @@ GONIO_INLINE void cornell_parser::read(std::string_view line) {
 
 GONIO_INLINE sample_set cornell_parser::samples() && {
   if (!colour_)
-    throw error{place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()};
-  if (samples_.empty()) throw error{place_.name, ": has no samples, expected at least one"};
+    gonio::refuse(
+        {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
+  if (samples_.empty()) gonio::refuse({place_.name, ": has no samples, expected at least one"});
   return std::move(samples_);
 }
 

@@ -35,7 +35,7 @@ namespace gonio::io::detail {
 GONIO_INLINE std::string system_reason(int code) { return std::generic_category().message(code); }
 
 GONIO_INLINE void refuse_file(const std::filesystem::path& path, std::initializer_list<message_part> what) {
-  throw error{path.native(), ": ", message_of(what)};
+  gonio::refuse({path.native(), ": ", message_of(what)});
 }
 
 inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix = ".tmp";

@@ -57,7 +57,7 @@ GONIO_INLINE void inflater::restart() {
 }
 
 GONIO_INLINE void inflater::refuse(std::initializer_list<message_part> what) const {
-  throw error{name_, ": ", message_of(what)};
+  gonio::refuse({name_, ": ", message_of(what)});
 }
 
 GONIO_INLINE void inflater::fail(int status) const {

@@ -28,25 +28,26 @@ namespace gonio::io::detail {
 
 GONIO_INLINE void check_image_size(std::size_t rows, std::size_t columns, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > image_limit || columns > image_limit)
-    throw error{name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"};
+    gonio::refuse(
+        {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", image_limit, " each way"});
 }
 
 /// Nobody's image is so large and so empty; decoding it would take gigabytes.
 GONIO_INLINE void check_believable_pixels(const pixel_claims& claims, std::size_t rows, std::size_t columns,
                                           std::size_t bytes, const std::string& name) {
   if (!claims.are_believable(rows * columns, bytes))
-    throw error{name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"};
+    gonio::refuse({name, ": an image of ", columns, " x ", rows, " pixels is not believable of ", bytes, " bytes"});
 }
 
 GONIO_INLINE int stb_size(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-    throw error{name, ": has ", bytes.size(), " bytes, expected less than 2 GiB"};
+    gonio::refuse({name, ": has ", bytes.size(), " bytes, expected less than 2 GiB"});
   return static_cast<int>(bytes.size());
 }
 
 GONIO_INLINE void refuse_by_stb(const std::string& name) {
   const char* reason = stbi_failure_reason();
-  throw error{name, ": cannot be decoded (", (reason ? reason : "no reason given"), ")"};
+  gonio::refuse({name, ": cannot be decoded (", (reason ? reason : "no reason given"), ")"});
 }
 
 GONIO_INLINE std::size_t png_header::raw_size() const noexcept {
@@ -72,7 +73,7 @@ GONIO_INLINE std::uint32_t big_endian(std::span<const std::byte> bytes) noexcept
 }
 
 GONIO_INLINE png_header parse_png_header(std::span<const std::byte> data, const std::string& name) {
-  if (data.size() != 13) throw error{name, ": the PNG header has ", data.size(), " bytes, expected 13"};
+  if (data.size() != 13) gonio::refuse({name, ": the PNG header has ", data.size(), " bytes, expected 13"});
   // Channels of colour types 0 (grey), 2 (RGB), 3 (palette), 4 (grey and alpha), 6 (RGB and alpha).
   constexpr std::array<std::size_t, 7> channels{1, 0, 3, 1, 2, 0, 4};
   const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(data[i]); };
@@ -82,7 +83,7 @@ GONIO_INLINE png_header parse_png_header(std::span<const std::byte> data, const 
   check_image_size(header.rows, header.columns, name);
   constexpr std::array<std::size_t, 5> depths{1, 2, 4, 8, 16};
   if (header.channels == 0 || std::ranges::find(depths, header.depth) == depths.end())
-    throw error{name, ": PNG colour type ", type, " with ", header.depth, " bits is unknown"};
+    gonio::refuse({name, ": PNG colour type ", type, " with ", header.depth, " bits is unknown"});
   return header;
 }
 
@@ -100,27 +101,28 @@ GONIO_INLINE void check_png_pixels(std::span<const std::byte> deflated, std::siz
 GONIO_INLINE void check_png(std::span<const std::byte> bytes, const std::string& name) {
   constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
   if (!std::ranges::equal(bytes.first(std::min(signature.size(), bytes.size())), std::as_bytes(std::span(signature))))
-    throw error{name, ": is not a PNG file"};
+    gonio::refuse({name, ": is not a PNG file"});
   png_header header;
   std::vector<std::byte> pixels;
   std::string_view type;
   for (std::span<const std::byte> left = bytes.subspan(signature.size()); type != "IEND";) {
     const std::size_t length = left.size() < 12 ? 0 : big_endian(left);
-    if (left.size() < 12 || length > left.size() - 12) throw error{name, ": the PNG file is truncated"};
+    if (left.size() < 12 || length > left.size() - 12) gonio::refuse({name, ": the PNG file is truncated"});
     const std::span<const std::byte> data = left.subspan(8, length);
     const std::span<const std::byte> checked = left.subspan(4, 4 + length);
     if (crc32_z(0, stb_bytes(checked), checked.size()) != big_endian(left.subspan(8 + length)))
-      throw error{name, ": the checksum of a PNG chunk is wrong, the file is damaged"};
+      gonio::refuse({name, ": the checksum of a PNG chunk is wrong, the file is damaged"});
     const bool first = type.empty();
     type = {reinterpret_cast<const char*>(checked.data()), 4};
-    if (first != (type == "IHDR")) throw error{name, ": the PNG header is missing or appears twice"};
+    if (first != (type == "IHDR")) gonio::refuse({name, ": the PNG header is missing or appears twice"});
     if (first) {
       header = parse_png_header(data, name);
       check_believable_pixels(png_claims, header.rows, header.columns, bytes.size(), name);
     }
     if (type == "IDAT") pixels.insert(pixels.end(), data.begin(), data.end());
     left = left.subspan(12 + length);
-    if (type == "IEND" && !left.empty()) throw error{name, ": ", left.size(), " bytes follow the end of the PNG file"};
+    if (type == "IEND" && !left.empty())
+      gonio::refuse({name, ": ", left.size(), " bytes follow the end of the PNG file"});
   }
   check_png_pixels(pixels, header.raw_size(), name);
 }
@@ -173,19 +175,13 @@ GONIO_INLINE void byte_sink::write(void* user, void* data, int size) noexcept {
 
 GONIO_INLINE stb_extents check_pixels(const image& picture, float brightest, const std::string& name) {
   const std::size_t rows = picture.shape(0), columns = picture.shape(1);
-  if (picture.shape(2) != 3) throw error{name, ": an image of ", picture.shape(2), " channels, expected 3"};
+  if (picture.shape(2) != 3) gonio::refuse({name, ": an image of ", picture.shape(2), " channels, expected 3"});
   check_image_size(rows, columns, name);
   const auto bad =
       std::find_if(picture.data(), picture.data() + picture.size(), [&](float v) { return !(v <= brightest); });
   if (const auto at = static_cast<std::size_t>(bad - picture.data()); at < picture.size())
-    throw error{name,
-                ": pixel (row ",
-                at / 3 / columns,
-                ", column ",
-                at / 3 % columns,
-                ") is ",
-                *bad,
-                ", which the file cannot hold"};
+    gonio::refuse({name, ": pixel (row ", at / 3 / columns, ", column ", at / 3 % columns, ") is ", *bad,
+                   ", which the file cannot hold"});
   return {static_cast<int>(columns), static_cast<int>(rows)};
 }
 
@@ -242,7 +238,7 @@ GONIO_INLINE void write_png(const std::filesystem::path& path, const image& pict
   detail::byte_sink sink;
   if (stbi_write_png_to_func(detail::byte_sink::write, &sink, columns, rows, 3, codes.data(), 3 * columns) == 0 ||
       sink.failed)
-    throw error{path.string(), ": the image cannot be encoded"};
+    gonio::refuse({path.string(), ": the image cannot be encoded"});
   write_atomically(path, sink.bytes);
 }
 
@@ -251,23 +247,24 @@ GONIO_INLINE image read_hdr(const std::filesystem::path& path) {
   const std::string name = path.string();
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (!text.starts_with("#?RADIANCE\n") && !text.starts_with("#?RGBE\n"))
-    throw error{name, ": is not a Radiance HDR file"};
+    gonio::refuse({name, ": is not a Radiance HDR file"});
   int columns = 0, rows = 0, channels = 0;
   if (stbi_info_from_memory(detail::stb_bytes(bytes), detail::stb_size(bytes, name), &columns, &rows, &channels) == 0)
-    throw error{
-        name, ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)"};
+    gonio::refuse(
+        {name,
+         ": the header of the HDR file is truncated or of an unknown kind (expected 32-bit_rle_rgbe, -Y and +X)"});
   const auto across = static_cast<std::size_t>(std::max(columns, 0)),
              down = static_cast<std::size_t>(std::max(rows, 0));
   detail::check_image_size(down, across, name);
-  if (bytes.size() < detail::least_hdr_size(down, across)) throw error{name, ": the HDR file is truncated"};
+  if (bytes.size() < detail::least_hdr_size(down, across)) gonio::refuse({name, ": the HDR file is truncated"});
   detail::check_believable_pixels(detail::hdr_claims, down, across, bytes.size(), name);
 
   detail::byte_source source{bytes};
   const stbi_io_callbacks callbacks{detail::byte_source::read, detail::byte_source::skip, detail::byte_source::eof};
   const detail::stb_pixels<float> pixels(stbi_loadf_from_callbacks(&callbacks, &source, &columns, &rows, &channels, 3));
-  if (source.truncated) throw error{name, ": the HDR file is truncated"};
+  if (source.truncated) gonio::refuse({name, ": the HDR file is truncated"});
   if (!pixels) detail::refuse_by_stb(name);
-  if (!source.left.empty()) throw error{name, ": ", source.left.size(), " bytes follow the end of the HDR file"};
+  if (!source.left.empty()) gonio::refuse({name, ": ", source.left.size(), " bytes follow the end of the HDR file"});
   image picture({down, across, std::size_t{3}});
   std::copy_n(pixels.get(), picture.size(), picture.data());
   return picture;
@@ -281,7 +278,7 @@ GONIO_INLINE void write_hdr(const std::filesystem::path& path, const image& pict
     std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
   detail::byte_sink sink;
   if (stbi_write_hdr_to_func(detail::byte_sink::write, &sink, columns, rows, 3, rounded.data()) == 0 || sink.failed)
-    throw error{path.string(), ": the image cannot be encoded"};
+    gonio::refuse({path.string(), ": the image cannot be encoded"});
   write_atomically(path, sink.bytes);
 }
 

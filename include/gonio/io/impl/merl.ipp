@@ -28,18 +28,14 @@ GONIO_INLINE std::string to_text(const grid_extents& extents) {
 
 GONIO_INLINE grid_extents merl_extents(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() < merl_header_size)
-    throw error{name,
-                ": has ",
-                bytes.size(),
-                " bytes, expected at least ",
-                merl_header_size,
-                " for the extents of a MERL table"};
+    gonio::refuse({name, ": has ", bytes.size(), " bytes, expected at least ", merl_header_size,
+                   " for the extents of a MERL table"});
   std::array<std::int32_t, 3> header{};
   std::memcpy(header.data(), bytes.data(), merl_header_size);
   const grid_extents extents{header[0], header[1], header[2]};
   for (const std::int32_t extent : header)
     if (extent < 1 || extent > 4096)
-      throw error{name, ": is no MERL table, its extents are ", to_text(extents), ", expected each from 1 to 4096"};
+      gonio::refuse({name, ": is no MERL table, its extents are ", to_text(extents), ", expected each from 1 to 4096"});
   return extents;
 }
 
@@ -64,18 +60,8 @@ GONIO_INLINE void refuse_cell(const std::string& name, const grid& cells, std::s
                               double value) {
   constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
   const cell_index cell = cells.cell(linear);
-  throw error{name,
-              ": ",
-              channels[channel],
-              " of cell (theta_h ",
-              cell.theta_h,
-              ", theta_d ",
-              cell.theta_d,
-              ", phi_d ",
-              cell.phi_d,
-              ") is ",
-              value,
-              ", expected a finite number"};
+  gonio::refuse({name, ": ", channels[channel], " of cell (theta_h ", cell.theta_h, ", theta_d ", cell.theta_d,
+                 ", phi_d ", cell.phi_d, ") is ", value, ", expected a finite number"});
 }
 
 }  // namespace gonio::io::detail
@@ -86,14 +72,8 @@ GONIO_INLINE brdf_table parse_merl(std::span<const std::byte> bytes, const std::
                                    const merl_options& options) {
   const grid_extents extents = detail::merl_extents(bytes, name);
   if (const std::uint64_t expected = detail::merl_file_size(extents); bytes.size() != expected)
-    throw error{name,
-                ": has ",
-                bytes.size(),
-                " bytes, expected ",
-                expected,
-                " for a MERL table of ",
-                detail::to_text(extents),
-                " cells"};
+    gonio::refuse({name, ": has ", bytes.size(), " bytes, expected ", expected, " for a MERL table of ",
+                   detail::to_text(extents), " cells"});
   const detail::merl_planes planes(bytes.subspan(detail::merl_header_size), grid(extents).size());
   const table_convention convention =
       options.convention ? *options.convention

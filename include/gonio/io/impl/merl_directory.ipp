@@ -20,10 +20,10 @@ GONIO_INLINE std::vector<merl_file> list_merl_directory(const std::filesystem::p
       if (file.ends_with(ending) && file.size() > ending.size())
         files.push_back({file.substr(0, file.size() - ending.size()), entry.path()});
   }
-  if (failure) throw error{folder.string(), ": cannot be read as a folder: ", failure.message()};
+  if (failure) gonio::refuse({folder.string(), ": cannot be read as a folder: ", failure.message()});
   std::ranges::sort(files, {}, &merl_file::name);
   const auto twice = std::ranges::adjacent_find(files, {}, &merl_file::name);
-  if (twice != files.end()) throw error{folder.string(), ": two tables are named '", twice->name, "'"};
+  if (twice != files.end()) gonio::refuse({folder.string(), ": two tables are named '", twice->name, "'"});
   return files;
 }
 
@@ -32,8 +32,8 @@ GONIO_INLINE material_set read_merl_directory(const std::filesystem::path& folde
   std::vector<merl_file> files = list_merl_directory(folder);
   for (const std::string& name : excluded)
     if (std::erase_if(files, [&](const merl_file& file) { return file.name == name; }) == 0)
-      throw error{folder.string(), ": there is no table named '", name, "' to exclude"};
-  if (files.empty()) throw error{folder.string(), ": holds no table (*.binary or *.binary.gz)"};
+      gonio::refuse({folder.string(), ": there is no table named '", name, "' to exclude"});
+  if (files.empty()) gonio::refuse({folder.string(), ": holds no table (*.binary or *.binary.gz)"});
 
   material_set materials;
   for (std::size_t m = 0; m < files.size(); ++m) {
@@ -45,7 +45,7 @@ GONIO_INLINE material_set read_merl_directory(const std::filesystem::path& folde
       materials.values.resize(static_cast<Eigen::Index>(table.cells().size()),
                               static_cast<Eigen::Index>(3 * files.size()));
     } else if (!(table.cells() == materials.cells)) {
-      throw error{files[m].path.string(), ": its valid cells differ from those of ", files[0].path.string()};
+      gonio::refuse({files[m].path.string(), ": its valid cells differ from those of ", files[0].path.string()});
     }
     materials.names.push_back(files[m].name);
     materials.values.middleCols(static_cast<Eigen::Index>(3 * m), 3) =

@@ -18,8 +18,8 @@ GONIO_INLINE brdf_table parse_merl_any(std::span<const std::byte> bytes, const s
   const grid_extents extents = detail::merl_extents(header, name);
   const std::uint64_t size = detail::merl_file_size(extents);
   if (!detail::is_believable(size, detail::freely_claimed_table, bytes.size()))
-    throw error{name,         ": a MERL table of ", detail::to_text(extents), " cells is not believable of ",
-                bytes.size(), " compressed bytes"};
+    gonio::refuse({name, ": a MERL table of ", detail::to_text(extents), " cells is not believable of ", bytes.size(),
+                   " compressed bytes"});
   return parse_merl(gunzip(bytes, static_cast<std::size_t>(size), name), name, options);
 }
 

@@ -35,7 +35,7 @@ GONIO_INLINE void setup_text::require(std::initializer_list<std::string_view> na
   if (std::ranges::any_of(names, [&](std::string_view name) { return has(name); })) return;
   std::string missing;
   for (const std::string_view name : names) missing += (missing.empty() ? "" : " or ") + quoted(name);
-  throw error{name_, ": ", missing, " is missing"};
+  gonio::refuse({name_, ": ", missing, " is missing"});
 }
 
 GONIO_INLINE void setup_text::add(text_rule rule, const text_place& place) {

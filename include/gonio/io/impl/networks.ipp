@@ -30,8 +30,8 @@ GONIO_INLINE std::vector<std::string> read_names(const std::filesystem::path& pa
     name.remove_prefix(std::min(name.find_first_not_of(" \t\r"), name.size()));
     name = name.substr(0, name.find_last_not_of(" \t\r") + 1);
     const std::string place = path.string() + ", line " + std::to_string(names.size() + 1) + ": ";
-    if (name.empty()) throw error{place, "the name is empty"};
-    if (!seen.insert(name).second) throw error{place, "the name '", std::string(name), "' appears twice"};
+    if (name.empty()) gonio::refuse({place, "the name is empty"});
+    if (!seen.insert(name).second) gonio::refuse({place, "the name '", std::string(name), "' appears twice"});
     names.emplace_back(name);
   }
   return names;
@@ -41,20 +41,20 @@ GONIO_INLINE model::named_networks read_networks(const std::filesystem::path& pa
                                                  const std::filesystem::path& names_path) {
   const xt::xtensor<float, 2> rows = read_npy<float, 2>(path);
   constexpr std::size_t columns = model::network_brdf::parameter_count;
-  if (rows.shape(1) != columns) throw error{path.string(), ": has ", rows.shape(1), " columns, expected ", columns};
-  if (rows.shape(0) == 0) throw error{path.string(), ": holds no network, expected at least one"};
+  if (rows.shape(1) != columns) gonio::refuse({path.string(), ": has ", rows.shape(1), " columns, expected ", columns});
+  if (rows.shape(0) == 0) gonio::refuse({path.string(), ": holds no network, expected at least one"});
   model::named_networks materials{read_names(names_path), {}};
   if (materials.names.size() != rows.shape(0))
-    throw error{names_path.string(),          ": has ",     materials.names.size(), " names, expected ", rows.shape(0),
-                " as there are networks in ", path.string()};
+    gonio::refuse({names_path.string(), ": has ", materials.names.size(), " names, expected ", rows.shape(0),
+                   " as there are networks in ", path.string()});
 
   materials.networks.reserve(rows.shape(0));
   for (std::size_t i = 0; i < rows.shape(0); ++i) {
     const std::span<const float, columns> parameters(rows.data() + i * columns, columns);
     const auto bad = std::ranges::find_if(parameters, [](float value) { return !std::isfinite(value); });
     if (bad != parameters.end())
-      throw error{path.string(), ": column ", bad - parameters.begin(),    " of row ", i, " (", materials.names[i],
-                  ") is ",       *bad,        ", expected a finite number"};
+      gonio::refuse({path.string(), ": column ", bad - parameters.begin(), " of row ", i, " (", materials.names[i],
+                     ") is ", *bad, ", expected a finite number"});
     materials.networks.emplace_back(parameters);
   }
   return materials;

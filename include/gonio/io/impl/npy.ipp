@@ -123,25 +123,25 @@ GONIO_INLINE bool npy_header_parser::accept(char c) {
 }
 
 GONIO_INLINE void npy_header_parser::refuse(const std::string& what) const {
-  throw error{name_, ": npy header: ", what};
+  gonio::refuse({name_, ": npy header: ", what});
 }
 
 GONIO_INLINE npy_layout take_npy_header(std::span<const std::byte>& bytes, const std::string& name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with(npy_magic)) throw error{name, ": is no npy file, expected it to start with \\x93NUMPY"};
+  if (!text.starts_with(npy_magic)) gonio::refuse({name, ": is no npy file, expected it to start with \\x93NUMPY"});
   const std::size_t version_at = npy_magic.size();
   const auto byte_at = [&](std::size_t i) { return std::to_integer<std::size_t>(bytes[i]); };
-  if (bytes.size() < version_at + 2) throw error{name, ": npy header: truncated"};
+  if (bytes.size() < version_at + 2) gonio::refuse({name, ": npy header: truncated"});
   const std::size_t version = byte_at(version_at);
   if (version < 1 || version > 3 || byte_at(version_at + 1) != 0)
-    throw error{name, ": npy version ", version, ".", byte_at(version_at + 1), ", expected 1.0, 2.0 or 3.0"};
+    gonio::refuse({name, ": npy version ", version, ".", byte_at(version_at + 1), ", expected 1.0, 2.0 or 3.0"});
 
   // The length of the header takes two bytes in version 1, four in later ones.
   const std::size_t begin = version_at + 2 + (version == 1 ? 2 : 4);
-  if (bytes.size() < begin) throw error{name, ": npy header: truncated"};
+  if (bytes.size() < begin) gonio::refuse({name, ": npy header: truncated"});
   std::size_t length = 0;
   for (std::size_t i = begin; i > version_at + 2; --i) length = length * 256 + byte_at(i - 1);
-  if (bytes.size() - begin < length) throw error{name, ": npy header: truncated"};
+  if (bytes.size() - begin < length) gonio::refuse({name, ": npy header: truncated"});
   npy_layout layout = npy_header_parser(text.substr(begin, length), name).parse();
   bytes = bytes.subspan(begin + length);
   return layout;

@@ -212,7 +212,7 @@ template <class Rows>
 }
 
 GONIO_INLINE ply_header ply_header_parser::parse() {
-  if (!text_.starts_with("ply")) throw error(place_.name + ": is no PLY file, expected it to begin with 'ply'");
+  if (!text_.starts_with("ply")) gonio::refuse(place_.name + ": is no PLY file, expected it to begin with 'ply'");
   for (std::string_view line = next_line(); line != "end_header"; line = next_line()) add(line);
   if (!header_.encoding) place_.refuse("the header ends without a format");
   for (const ply_element& element : header_.elements) check(element);
@@ -305,7 +305,7 @@ GONIO_INLINE void ply_header_parser::check(const ply_element& element) const {
     place_.refuse("element 'face' lacks a list vertex_indices");
 }
 
-GONIO_INLINE void ply_binary_rows::refuse(const std::string& what) const { throw error(name_ + ": " + what); }
+GONIO_INLINE void ply_binary_rows::refuse(const std::string& what) const { gonio::refuse(name_ + ": " + what); }
 
 GONIO_INLINE void ply_text_rows::end_row() const {
   if (const std::string_view more = trimmed(row_); !more.empty())

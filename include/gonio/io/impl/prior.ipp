@@ -68,7 +68,7 @@ template <class Act>
   try {
     return act();
   } catch (const error& refusal) {
-    throw error{name, ": ", refusal.what()};
+    gonio::refuse({name, ": ", refusal.what()});
   }
 }
 
@@ -83,11 +83,11 @@ struct prior_domain {
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto conventions = in.take<std::uint32_t>();
   if (conventions > 3)
-    throw error{name, ": cell anchor and cosine weight are ", conventions,
-                ", expected 0 (centre) or 1 (lower corner), and 2 more for the larger cosine"};
+    gonio::refuse({name, ": cell anchor and cosine weight are ", conventions,
+                   ", expected 0 (centre) or 1 (lower corner), and 2 more for the larger cosine"});
   const auto minimum_cosine = in.take<double>();
   if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
-    throw error{name, ": the smallest cosine of a valid cell must be in [0, 1)"};
+    gonio::refuse({name, ": the smallest cosine of a valid cell must be in [0, 1)"});
   const gonio::grid grid = naming_prior(name, [&] {
     return gonio::grid({theta_h, theta_d, phi_d},
                        conventions % 2 == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
@@ -102,7 +102,7 @@ struct prior_domain {
       if (cosine > std::max(minimum_cosine, valid_cells::horizon)) ++valid;
     });
   if (valid > most || grid.size() > std::max(2 * most, small_grid))
-    throw error{name, ": the grid has more cells than the file has values"};
+    gonio::refuse({name, ": the grid has more cells than the file has values"});
   return {naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); }),
           conventions < 2 ? cosine_weighting::product : cosine_weighting::larger};
 }
@@ -124,13 +124,10 @@ struct prior_domain {
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
   if (components == 0 || components > 3 * std::uint64_t{materials})
-    throw error{name, ": ", components, " components of ", materials, " materials are impossible"};
+    gonio::refuse({name, ": ", components, " components of ", materials, " materials are impossible"});
   if (least_rest(static_cast<double>(cells.size()), components, materials) > static_cast<double>(in.left()))
-    throw error{name,         ": the file is truncated or its counts are wrong: ",
-                in.left(),    " bytes cannot hold ",
-                components,   " components of ",
-                materials,    " materials over ",
-                cells.size(), " cells"};
+    gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
+                   components, " components of ", materials, " materials over ", cells.size(), " cells"});
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(materials);
@@ -148,7 +145,7 @@ struct prior_domain {
     for (std::size_t cell = 0; cell < cells.size(); ++cell)
       functions(static_cast<Eigen::Index>(cell), c) = dequantise(column, cell);
   }
-  if (in.left() != 0) throw error{name, ": ", in.left(), " bytes follow the last component"};
+  if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});
 
   Eigen::VectorXd singular_values(k);
   std::copy(singular.begin(), singular.end(), singular_values.data());
@@ -157,7 +154,7 @@ struct prior_domain {
   const std::span<const float> values(functions.data(), static_cast<std::size_t>(functions.size()));
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
                       all_finite(values) && all_finite(mean);
-  if (!finite) throw error{name, ": a value of the prior is not finite"};
+  if (!finite) gonio::refuse({name, ": a value of the prior is not finite"});
   return naming_prior(name, [&] {
     return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
                              std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),

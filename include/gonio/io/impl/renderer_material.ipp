@@ -31,14 +31,14 @@ GONIO_INLINE rough_surface as_rough_surface(const model::analytic_brdf& model) {
     }
     found.beckmann = lobe.kind() == model::lobe_kind::of<model::torrance_sparrow_shape>();
     if (!found.beckmann && !(lobe.kind() == model::lobe_kind::of<model::ggx_shape>()))
-      throw error{"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
-                  std::string(lobe.kind().name())};
+      gonio::refuse({"renderers know the lobes ggx and torrance-sparrow beside a diffuse one, not ",
+                     std::string(lobe.kind().name())});
     found.specular = lobe.colour();
     found.alpha = lobe.parameters()[0];
     found.f0 = lobe.parameters()[1];
     ++rough;
   }
-  if (rough != 1) throw error{"a renderer's material has one rough lobe, not ", rough};
+  if (rough != 1) gonio::refuse({"a renderer's material has one rough lobe, not ", rough});
   return found;
 }
 
@@ -48,7 +48,7 @@ namespace gonio::io {
 
 GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_rough_surface(model);
-  if (surface.beckmann) throw error("pbrt has no Beckmann distribution: fit ggx instead of torrance-sparrow");
+  if (surface.beckmann) gonio::refuse("pbrt has no Beckmann distribution: fit ggx instead of torrance-sparrow");
   const std::string roughness =
       "  \"float roughness\" [ " + detail::shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
   if (surface.metal())

@@ -159,7 +159,7 @@ GONIO_INLINE bool row_reader::next() {
   std::string_view line;
   if (header_.columns().empty()) {
     if (!next_line(left_, place_, line))
-      throw error{place_.name, ": is empty, expected a header line that names the columns"};
+      gonio::refuse({place_.name, ": is empty, expected a header line that names the columns"});
     header_.read(line, needs_colour_, place_);
   }
   if (next_line(left_, place_, line)) {
@@ -167,7 +167,7 @@ GONIO_INLINE bool row_reader::next() {
     ++rows_;
     return true;
   }
-  if (rows_ == 0) throw error{place_.name, ": has a header line but no samples, expected at least one"};
+  if (rows_ == 0) gonio::refuse({place_.name, ": has a header line but no samples, expected at least one"});
   return false;
 }
 

@@ -52,7 +52,7 @@ GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::sp
                                             std::uint16_t largest_count) {
   for (const std::string& text : {subject.sample, subject.setup})
     if (text.empty() || trimmed(text) != text || has_control_characters(text))
-      throw error{"what a scan measures is told in one line of text, not in ", detail::quoted(text)};
+      gonio::refuse({"what a scan measures is told in one line of text, not in ", detail::quoted(text)});
   std::string pose_lines;
   for (const direction_pair& pose : poses) pose_lines += format_pose(pose);
   return "# gonio scan: what lies in the machine, how it is measured, with which seed; the poses' number and "
@@ -175,12 +175,13 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 }
 
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
-  if (scan.largest_count == 0) throw error{name, ": the line largest_count is missing"};
-  if (scan.poses.empty()) throw error{name, ": there is no pose"};
+  if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing"});
+  if (scan.poses.empty()) gonio::refuse({name, ": there is no pose"});
   if (all.plan && (all.plan->first != scan.poses.size() || all.plan->second != checksum(all.pose_lines)))
-    throw error{name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"};
+    gonio::refuse(
+        {name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"});
   if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
-    throw error{name, ": of the lines sample, setup, seed and plan some are missing"};
+    gonio::refuse({name, ": of the lines sample, setup, seed and plan some are missing"});
   if (all.has_sample) scan.subject = all.subject;
 }
 
@@ -219,7 +220,7 @@ GONIO_INLINE recorded_scan read_scan(const std::filesystem::path& path) {
 GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const scan_subject& subject,
                                         std::span<const direction_pair> poses, std::uint16_t largest_count)
     : path_(path) {
-  if (poses.empty()) throw error{path.string(), ": a scan needs a pose, and there is none"};
+  if (poses.empty()) gonio::refuse({path.string(), ": a scan needs a pose, and there is none"});
   const std::string header = detail::format_scan_header(subject, poses, largest_count);
   open();
   auto bytes = read_bytes(path);
@@ -236,7 +237,7 @@ GONIO_INLINE scan_journal::scan_journal(const std::filesystem::path& path, const
 }
 
 GONIO_INLINE void scan_journal::add(std::size_t pose, const capture::reading& taken) {
-  if (has(pose)) throw error{path_.string(), ": pose ", pose, " is read already"};
+  if (has(pose)) gonio::refuse({path_.string(), ": pose ", pose, " is read already"});
   write(detail::format_reading(pose, taken));
   scan_.readings[pose] = taken;
 }
@@ -246,7 +247,7 @@ GONIO_INLINE void scan_journal::open() {
   file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
-  if (errno == EWOULDBLOCK) throw error{path_.string(), ": another process is scanning into this file"};
+  if (errno == EWOULDBLOCK) gonio::refuse({path_.string(), ": another process is scanning into this file"});
   fail();
 }
 
@@ -264,25 +265,25 @@ GONIO_INLINE void scan_journal::require_same(const scan_subject& subject, std::s
                                              std::uint16_t largest_count) const {
   const std::string name = path_.string();
   if (scan_.largest_count != largest_count)
-    throw error{name, ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count};
+    gonio::refuse({name, ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count});
   const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
   if (!std::ranges::equal(scan_.poses, poses, same))
-    throw error{name,         ": is a scan of ", scan_.poses.size(), " other poses, expected the ",
-                poses.size(), " of this plan"};
+    gonio::refuse(
+        {name, ": is a scan of ", scan_.poses.size(), " other poses, expected the ", poses.size(), " of this plan"});
   if (!scan_.subject)
-    throw error{name,
-                ": does not say what it measures, as scans of earlier versions: it can be calibrated, but not be ",
-                "gone on with"};
+    gonio::refuse({name,
+                   ": does not say what it measures, as scans of earlier versions: it can be calibrated, but not be ",
+                   "gone on with"});
   const scan_subject& known = *scan_.subject;
   if (known.sample != subject.sample)
-    throw error{name, ": is a scan of '", known.sample, "', not of '", subject.sample, "'"};
+    gonio::refuse({name, ": is a scan of '", known.sample, "', not of '", subject.sample, "'"});
   if (known.checksum != subject.checksum)
-    throw error{
-        name, ": is a scan of another '", known.sample, "', of checksum ", known.checksum, ", not ", subject.checksum};
+    gonio::refuse({name, ": is a scan of another '", known.sample, "', of checksum ", known.checksum, ", not ",
+                   subject.checksum});
   if (known.setup != subject.setup)
-    throw error{name, ": was measured with '", known.setup, "', not with '", subject.setup, "'"};
+    gonio::refuse({name, ": was measured with '", known.setup, "', not with '", subject.setup, "'"});
   if (known.seed != subject.seed)
-    throw error{name, ": was measured with the seed ", known.seed, ", not ", subject.seed};
+    gonio::refuse({name, ": was measured with the seed ", known.seed, ", not ", subject.seed});
 }
 
 }  // namespace gonio::io

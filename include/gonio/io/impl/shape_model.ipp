@@ -56,16 +56,13 @@ template <class Matrix>
   const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
                     components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
-    throw error(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
-                " shapes are impossible");
+    gonio::refuse(name + ": " + std::to_string(components) + " components of " + std::to_string(shapes) +
+                  " shapes are impossible");
   const auto as_real = [](std::size_t count) { return static_cast<double>(count); };
   if (least_rest(as_real(vertices), as_real(triangles), as_real(components), as_real(shapes)) > as_real(in.left()))
-    throw error{name,       ": the file is truncated or its counts are wrong: ",
-                in.left(),  " bytes cannot hold ",
-                components, " components of ",
-                shapes,     " shapes of ",
-                vertices,   " vertices and ",
-                triangles,  " triangles"};
+    gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
+                   components, " components of ", shapes, " shapes of ", vertices, " vertices and ", triangles,
+                   " triangles"});
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(shapes);
@@ -75,11 +72,11 @@ template <class Matrix>
   const auto coefficients = take_matrix<Eigen::MatrixXf>(in, shapes, components);
   auto mean = in.take_all<float>(3 * vertices);
   auto functions = take_matrix<cell_matrix>(in, 3 * vertices, components);
-  if (in.left() != 0) throw error(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
+  if (in.left() != 0) gonio::refuse(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
   const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
                       functions.allFinite() &&
                       std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
-  if (!finite) throw error(name + ": a value of the shape model is not finite");
+  if (!finite) gonio::refuse(name + ": a value of the shape model is not finite");
   try {
     return {shape::shape_basis({{vertices},
                                 lin{},
@@ -92,7 +89,7 @@ template <class Matrix>
                                 std::move(source)}),
             std::move(corners)};
   } catch (const error& refusal) {
-    throw error(name + ": " + refusal.what());
+    gonio::refuse(name + ": " + refusal.what());
   }
 }
 

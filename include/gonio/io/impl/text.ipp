@@ -17,7 +17,7 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
-  throw error{name, ", line ", line, ": ", message_of(what)};
+  gonio::refuse({name, ", line ", line, ": ", message_of(what)});
 }
 
 GONIO_INLINE std::string quoted(std::string_view field) {

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/log_relative.hpp>
 
@@ -15,32 +16,18 @@
 
 namespace gonio {
 
-namespace detail {
-
-/// Reorders the values.
-[[nodiscard]] GONIO_INLINE float median_of(std::vector<float>& values) {
-  float* const middle = values.data() + values.size() / 2;
-  std::nth_element(values.data(), middle, values.data() + values.size());
-  if (values.size() % 2 != 0) return *middle;
-  float below = values[0];
-  for (const float* value = values.data(); value != middle; ++value) below = std::max(below, *value);
-  return 0.5f * (*middle + below);
-}
-
-}  // namespace detail
-
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting)
     : cells_(std::move(cells)), weighting_(weighting) {
   if (reference.size() != cells_.size())
-    throw error{"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"};
+    refuse({"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"});
   for (const float value : reference)
-    if (!(value >= 0.0f && std::isfinite(value))) throw error("a reference BRDF must be finite and not negative");
+    if (!(value >= 0.0f && std::isfinite(value))) refuse("a reference BRDF must be finite and not negative");
   reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
 }
 
 GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, const cell_matrix& values,
                                                      thread_count threads) {
-  if (values.cols() == 0) throw error("the median of no material is not defined");
+  if (values.cols() == 0) refuse("the median of no material is not defined");
   std::vector<float> reference(cells.size());
   for_each_block(
       reference.size(), 1024,
@@ -48,7 +35,7 @@ GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, c
         std::vector<float> row(static_cast<std::size_t>(values.cols()));
         for (std::size_t cell = range.begin; cell < range.end; ++cell) {
           std::copy_n(values.data() + cell * row.size(), row.size(), row.begin());
-          reference[cell] = std::max(detail::median_of(row), 0.0f);
+          reference[cell] = std::max(median(row), 0.0f);
         }
       },
       threads);

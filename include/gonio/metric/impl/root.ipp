@@ -13,7 +13,7 @@
 namespace gonio {
 
 GONIO_INLINE root::root(double p) : p_(p) {
-  if (!(p >= 1.0 && std::isfinite(p))) throw error{"the root of a metric must be finite and at least 1, not ", p};
+  if (!(p >= 1.0 && std::isfinite(p))) refuse({"the root of a metric must be finite and at least 1, not ", p});
 }
 
 }  // namespace gonio

@@ -44,7 +44,7 @@ GONIO_INLINE const lobe_kind& lobe_kind_named(std::string_view name) {
     if (kind->name() == name) return *kind;
     known += (known.empty() ? "" : ", ") + std::string(kind->name());
   }
-  throw error("there is no lobe named '" + std::string(name) + "'; the names are " + known);
+  refuse("there is no lobe named '" + std::string(name) + "'; the names are " + known);
 }
 
 GONIO_INLINE analytic_lobe::analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters)

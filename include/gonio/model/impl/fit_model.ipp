@@ -72,15 +72,15 @@ GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<con
 GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
                                     std::span<const fit_observation> observations, chosen_metric metric,
                                     const model_fit_options& options) {
-  if (kinds.empty()) throw error("a model needs at least one lobe");
+  if (kinds.empty()) refuse("a model needs at least one lobe");
   std::size_t parameters = 0;
   for (const lobe_kind* kind : kinds) parameters += 3 + kind->parameters().size();
   if (3 * observations.size() < parameters)
-    throw error(std::to_string(observations.size()) + " samples of three channels are too few for " +
-                std::to_string(parameters) + " parameters");
+    refuse(std::to_string(observations.size()) + " samples of three channels are too few for " +
+           std::to_string(parameters) + " parameters");
   if (std::ranges::all_of(
           observations, [](const fit_observation& seen) { return (seen.value * seen.weight.of_each() == 0.0).all(); }))
-    throw error("all measurements are zero, or count for nothing");
+    refuse("all measurements are zero, or count for nothing");
 
   const model_loss loss(kinds, observations, std::move(metric), options);
   auto [best, end] = fit_from(loss, loss.coded(typical_shapes(kinds)), options);

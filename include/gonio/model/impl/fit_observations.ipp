@@ -38,14 +38,12 @@ GONIO_INLINE std::vector<fit_observation> fit_observations(const brdf_table& tab
     return weighting == cell_weighting::cosine ? pairs * at.cosine_i * at.cosine_o : pairs;
   };
   std::vector<fit_observation> all(table.cells().size(), {lobe_geometry(normal, normal), rgb::Zero(), 1.0});
-  for_each_block(
+  for_each_index(
       all.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
-          const auto [wi, wo] = to_directions(table.cells().angles(cell));
-          const lobe_geometry at(wi, wo);
-          all[cell] = {at, table.at(cell), weight_of(cell, at)};
-        }
+      [&](std::size_t cell) {
+        const auto [wi, wo] = to_directions(table.cells().angles(cell));
+        const lobe_geometry at(wi, wo);
+        all[cell] = {at, table.at(cell), weight_of(cell, at)};
       },
       threads);
   if (weighting == cell_weighting::equal) return all;

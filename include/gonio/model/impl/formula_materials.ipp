@@ -42,7 +42,7 @@ GONIO_INLINE formula_brdf formula_material(std::string_view name) {
     if (candidate == name) return material;
     known += (known.empty() ? "" : ", ") + candidate;
   }
-  throw error("there is no formula material named '" + std::string(name) + "'; the names are " + known);
+  refuse("there is no formula material named '" + std::string(name) + "'; the names are " + known);
 }
 
 }  // namespace gonio::model

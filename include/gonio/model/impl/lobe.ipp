@@ -20,14 +20,13 @@ namespace gonio::model {
 
 GONIO_INLINE void require_within_bounds(std::string_view shape, const shape_parameter& parameter, double value) {
   if (value >= parameter.lowest && value <= parameter.highest) return;
-  throw error(std::string(shape) + ": " + std::string(parameter.name) + " must be from " +
-              std::to_string(parameter.lowest) + " to " + std::to_string(parameter.highest) + ", not " +
-              std::to_string(value));
+  refuse(std::string(shape) + ": " + std::string(parameter.name) + " must be from " + std::to_string(parameter.lowest) +
+         " to " + std::to_string(parameter.highest) + ", not " + std::to_string(value));
 }
 
 GONIO_INLINE void require_usable_colour(std::string_view shape, const rgb& colour) {
   if ((colour >= 0.0).all() && colour.isFinite().all()) return;
-  throw error(std::string(shape) + ": the colour must be finite and not negative");
+  refuse(std::string(shape) + ": the colour must be finite and not negative");
 }
 
 }  // namespace gonio::model

@@ -2,6 +2,7 @@
 /// Bodies of model/model_loss.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/model/model_loss.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/nnls.hpp>
@@ -50,9 +51,7 @@ GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::sp
     weighs_channels_apart_ = weighs_channels_apart_ || !seen.weight.is_uniform();
     for (Eigen::Index c = 0; c < 3; ++c) sizes.push_back(std::abs(mapped(seen, seen.value[c])));
   }
-  const auto middle = sizes.begin() + std::ssize(sizes) / 2;
-  std::ranges::nth_element(sizes, middle);
-  median_size_ = *middle;
+  median_size_ = upper_median(sizes);
   if (!(median_size_ > 0.0)) median_size_ = *std::ranges::max_element(sizes);
   for (const fit_observation& seen : observations_)
     for (Eigen::Index c = 0; c < 3; ++c)

@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/random.hpp>
 #include <gonio/render/environment_map.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
@@ -35,9 +36,9 @@ GONIO_INLINE environment_map::environment_map(image latitude_longitude) : pictur
 
 GONIO_INLINE void environment_map::check_shape() const {
   if (rows() == 0 || columns() != 2 * rows() || picture_.shape(2) != 3)
-    throw error("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
-                std::to_string(picture_.shape(2)) +
-                "): a latitude-longitude image is twice as wide as high and has 3 channels");
+    refuse("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
+           std::to_string(picture_.shape(2)) +
+           "): a latitude-longitude image is twice as wide as high and has 3 channels");
 }
 
 GONIO_INLINE void environment_map::check_values() const {
@@ -45,12 +46,11 @@ GONIO_INLINE void environment_map::check_values() const {
   const float* bad = std::find_if(picture_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
   if (bad != end) {
     const auto at = static_cast<std::size_t>(bad - picture_.data()) / 3;
-    throw error("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
-                ") of an environment map is " + std::to_string(*bad) +
-                ": radiance must be finite and must not be negative");
+    refuse("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
+           ") of an environment map is " + std::to_string(*bad) + ": radiance must be finite and must not be negative");
   }
   if (std::all_of(picture_.data(), end, [](float v) { return v == 0.0f; }))
-    throw error("an environment map is black everywhere: there must be some light");
+    refuse("an environment map is black everywhere: there must be some light");
 }
 
 GONIO_INLINE directional_lighting all_lights(const environment_map& map) {
@@ -71,8 +71,7 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
   std::mt19937_64 generator(seed);
   std::vector<double> draws;
   draws.reserve(count);
-  for (std::size_t i = 0; i < count; ++i)
-    draws.push_back(static_cast<double>(i) + static_cast<double>(generator() >> 11) * 0x1p-53);
+  for (std::size_t i = 0; i < count; ++i) draws.push_back(static_cast<double>(i) + uniform_number(generator));
   return draws;
 }
 
@@ -81,7 +80,7 @@ GONIO_INLINE std::vector<double> stratified_draws(std::size_t count, std::uint64
 namespace gonio::render {
 
 GONIO_INLINE directional_lighting important_lights(const environment_map& map, std::size_t count, std::uint64_t seed) {
-  if (count == 0) throw error("cannot stand for an environment map with 0 lights: at least one is needed");
+  if (count == 0) refuse("cannot stand for an environment map with 0 lights: at least one is needed");
   double total = 0.0;
   detail::for_each_along_hilbert_curve(map.rows(), map.columns(), [&](std::size_t row, std::size_t column) {
     total += luminance(map.irradiance(row, column));

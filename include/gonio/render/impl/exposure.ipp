@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/render/exposure.hpp>
 #include <gonio/render/sphere.hpp>
 #include <gonio/table/image.hpp>
@@ -16,13 +17,11 @@ namespace gonio::render {
 
 GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
   if (picture.shape(0) != picture.shape(1))
-    throw error{"an image of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"};
+    refuse({"an image of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"});
   std::vector<double> brightest;
   for (const sphere_point& point : sphere_points(static_cast<int>(picture.shape(0))))
     brightest.push_back(pixel(picture, point.row, point.column).maxCoeff());
-  const auto at = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(brightest.size() - 1)));
-  std::ranges::nth_element(brightest, brightest.begin() + at);
-  return brightest[static_cast<std::size_t>(at)];
+  return quantile(brightest, share);
 }
 
 GONIO_INLINE double exposure_of_spheres(std::span<const image> pictures) {

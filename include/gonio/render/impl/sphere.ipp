@@ -35,14 +35,13 @@ GONIO_INLINE std::vector<sphere_point> sphere_points(int size) {
 
 GONIO_INLINE sphere_colours sphere_operator::apply(const brdf_table& table, thread_count threads) const {
   if (!(table.cells() == cells_))
-    throw error("a sphere operator over " + std::to_string(cells_.size()) +
-                " cells was given a table over other cells (" + std::to_string(table.cells().size()) + " of them)");
+    refuse("a sphere operator over " + std::to_string(cells_.size()) + " cells was given a table over other cells (" +
+           std::to_string(table.cells().size()) + " of them)");
   sphere_colours colours(static_cast<Eigen::Index>(rows_.size()), 3);
-  for_each_block(
+  for_each_index(
       rows_.size(), detail::sphere_block,
-      [&](block range) {
-        for (std::size_t point = range.begin; point < range.end; ++point)
-          colours.row(static_cast<Eigen::Index>(point)) = radiance(rows_[point], table.values()).transpose();
+      [&](std::size_t point) {
+        colours.row(static_cast<Eigen::Index>(point)) = radiance(rows_[point], table.values()).transpose();
       },
       threads);
   return colours;

@@ -67,11 +67,11 @@ GONIO_INLINE centred_points::centred_points(const point_columns& points, const E
 /// The shares of all weights: 1/n each if there are none.
 [[nodiscard]] GONIO_INLINE Eigen::VectorXd weight_shares(const Eigen::VectorXd& weights, Eigen::Index points) {
   Eigen::VectorXd shares = weights.size() > 0 ? weights : Eigen::VectorXd::Ones(points);
-  if (shares.size() != points) throw error{"an alignment of ", points, " points is given ", shares.size(), " weights"};
+  if (shares.size() != points) refuse({"an alignment of ", points, " points is given ", shares.size(), " weights"});
   if (std::ranges::any_of(shares, [](double weight) { return !(weight >= 0.0 && std::isfinite(weight)); }))
-    throw error("the weights of an alignment must be finite and not negative");
+    refuse("the weights of an alignment must be finite and not negative");
   const auto positive = std::ranges::count_if(shares, [](double weight) { return weight > 0.0; });
-  if (positive < 3) throw error{"an alignment needs three points of positive weight, not ", positive};
+  if (positive < 3) refuse({"an alignment needs three points of positive weight, not ", positive});
   shares /= shares.maxCoeff();  // whose sum does not overflow
   shares /= shares.sum();
   return shares;
@@ -101,13 +101,13 @@ namespace gonio::shape {
 GONIO_INLINE similarity_transform align(const point_columns& from, const point_columns& onto, alignment_kind kind,
                                         const Eigen::VectorXd& weights) {
   if (from.cols() != onto.cols())
-    throw error{"an alignment needs corresponded points, not ", from.cols(), " and ", onto.cols()};
-  if (!from.allFinite() || !onto.allFinite()) throw error("the points of an alignment must be finite");
+    refuse({"an alignment needs corresponded points, not ", from.cols(), " and ", onto.cols()});
+  if (!from.allFinite() || !onto.allFinite()) refuse("the points of an alignment must be finite");
   const Eigen::VectorXd shares = detail::weight_shares(weights, from.cols());
   const detail::centred_points source(from, shares), target(onto, shares);
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(detail::sum_of_outer_products(target.scaled, source.scaled),
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
-  if (svd.info() != Eigen::Success) throw error("the points of an alignment are too far apart to be squared");
+  if (svd.info() != Eigen::Success) refuse("the points of an alignment are too far apart to be squared");
   Eigen::Vector3d singular = svd.singularValues();
   Eigen::Matrix3d left = svd.matrixU();
   if (left.determinant() * svd.matrixV().determinant() < 0.0) {  // never a mirror image
@@ -118,7 +118,7 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
   const double stiffness = singular[1] + singular[2];
   constexpr double undetermined = 1e-9;
   if (!(stiffness > undetermined * source.scaled.norm() * target.scaled.norm()))
-    throw error("the points of an alignment leave the rotation undetermined: do they lie on a line?");
+    refuse("the points of an alignment leave the rotation undetermined: do they lie on a line?");
 
   similarity_transform found;
   found.rotation = left * svd.matrixV().transpose();
@@ -132,12 +132,12 @@ GONIO_INLINE similarity_transform align(const point_columns& from, const point_c
 namespace gonio::shape::detail {
 
 GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes, const procrustes_options& options) {
-  if (shapes.empty()) throw error("a Procrustes mean needs at least one shape");
+  if (shapes.empty()) refuse("a Procrustes mean needs at least one shape");
   if (!(options.tolerance > 0.0) || options.most_iterations < 1)
-    throw error("a Procrustes mean needs a positive tolerance and at least one iteration");
+    refuse("a Procrustes mean needs a positive tolerance and at least one iteration");
   for (std::size_t i = 1; i < shapes.size(); ++i)
     if (shapes[i].cols() != shapes[0].cols())
-      throw error{"shape ", i, " has ", shapes[i].cols(), " points where the first has ", shapes[0].cols()};
+      refuse({"shape ", i, " has ", shapes[i].cols(), " points where the first has ", shapes[0].cols()});
 }
 
 [[nodiscard]] GONIO_INLINE point_columns mean_of_shapes(const std::vector<point_columns>& shapes) {
@@ -178,8 +178,8 @@ GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& sh
     result.mean = std::move(mean);
     if (change <= options.tolerance * size) return result;
   }
-  throw error{"a Procrustes mean of ", shapes.size(), " shapes still changes after ", options.most_iterations,
-              " iterations"};
+  refuse(
+      {"a Procrustes mean of ", shapes.size(), " shapes still changes after ", options.most_iterations, " iterations"});
 }
 
 }  // namespace gonio::shape

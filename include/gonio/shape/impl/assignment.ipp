@@ -39,7 +39,7 @@ namespace gonio::shape {
 GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd& costs) {
   for (Eigen::Index j = 0; j < costs.cols(); ++j)
     for (Eigen::Index i = 0; i < costs.rows(); ++i)
-      if (!std::isfinite(costs(i, j))) throw error{"the cost of assigning row ", i, " to column ", j, " is not finite"};
+      if (!std::isfinite(costs(i, j))) refuse({"the cost of assigning row ", i, " to column ", j, " is not finite"});
   std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.rows()), -1);
   if (costs.size() == 0) return columns;
   const std::vector<long> found = dlib::max_cost_assignment(detail::integer_gains(costs));

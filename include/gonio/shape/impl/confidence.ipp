@@ -13,7 +13,7 @@ namespace gonio::shape::detail {
 /// Where an increasing function of a positive number reaches a share, to 1e-12 of that number.
 template <class Distribution>
 [[nodiscard]] double quantile(double share, Distribution&& cumulative) {
-  if (!(share > 0.0 && share < 1.0)) throw error{"a share of a distribution must be above 0 and below 1, not ", share};
+  if (!(share > 0.0 && share < 1.0)) refuse({"a share of a distribution must be above 0 and below 1, not ", share});
   double low = 0.0, high = 1.0;
   while (cumulative(high) < share && high < 1e12) high *= 2.0;
   for (int halvings = 0; halvings < 100 && high - low > 1e-12 * high; ++halvings) {

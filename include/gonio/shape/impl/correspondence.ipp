@@ -61,18 +61,16 @@ GONIO_INLINE vertex_observations closest_places(const posed_scan& scan, const tr
   point_columns places(3, shape.vertices.cols());
   Eigen::VectorXd weights(shape.vertices.cols());
   std::vector<char> shown(count, 0);  // not bool: threads write neighbours
-  for_each_block(
+  for_each_index(
       count, 128,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto vertex = static_cast<Eigen::Index>(i);
-          const surface_point found = scan.closest(shape.vertices.col(vertex));
-          places.col(vertex) = found.position;
-          weights[vertex] = scan.weight_at(found);
-          // What is missing in the scan is nearest to where it ends.
-          shown[i] = !found.on_border && found.distance <= options.reach &&
-                     scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
-        }
+      [&](std::size_t i) {
+        const auto vertex = static_cast<Eigen::Index>(i);
+        const surface_point found = scan.closest(shape.vertices.col(vertex));
+        places.col(vertex) = found.position;
+        weights[vertex] = scan.weight_at(found);
+        // What is missing in the scan is nearest to where it ends.
+        shown[i] = !found.on_border && found.distance <= options.reach &&
+                   scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
       },
       threads);
   vertex_observations known = shown_vertices(places, normals, shown, options.tangential);

@@ -4,6 +4,8 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/recovery.hpp>
@@ -30,18 +32,16 @@ inline constexpr std::size_t least_trials = 10;
 GONIO_INLINE void require_trials(const shape_model& model, const cross_validation_options& options) {
   const std::size_t shapes = model.shapes();
   if (options.trials < least_trials || options.trials > shapes)
-    throw error{"from ", least_trials, " to ", shapes, " shapes can be left out, not ", options.trials};
+    refuse({"from ", least_trials, " to ", shapes, " shapes can be left out, not ", options.trials});
   if (options.parts < 2 || shapes < options.parts || shapes - (shapes + options.parts - 1) / options.parts < 2)
-    throw error{shapes, " shapes cannot be left out in ", options.parts,
-                " parts: expected at least 2, of which each leaves at least 2 shapes"};
+    refuse({shapes, " shapes cannot be left out in ", options.parts,
+            " parts: expected at least 2, of which each leaves at least 2 shapes"});
 }
 
 /// The noise of a scan, mm: where it is as noisy as in most places.
 [[nodiscard]] GONIO_INLINE double noise_of(const surface_index& scan) {
   Eigen::RowVectorXd variances = noise_variances(scan.mesh(), scan.topology());
-  double* const middle = variances.data() + variances.size() / 2;
-  std::nth_element(variances.data(), middle, variances.data() + variances.size());
-  return std::sqrt(*middle);
+  return std::sqrt(upper_median(std::span(variances.data(), static_cast<std::size_t>(variances.size()))));
 }
 
 /// The models of all shapes but those of one part.
@@ -71,7 +71,7 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
   std::mt19937_64 generator(seed);
   // Only its variance matters: a uniform number, as the standard's normal ones differ between libraries.
   for (Eigen::Index v = 0; v < normals.cols(); ++v) {
-    const double centred = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
+    const double centred = uniform_number(generator) - 0.5;
     noisy.vertices.col(v) += noise * std::sqrt(12.0) * centred * normals.col(v);
   }
   try {
@@ -123,13 +123,8 @@ GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shap
   const std::vector<point_columns> errors = detail::errors_of_trials(
       model, detail::noise_of(scan), marks_of(recovered.known, model.vertices()), options, threads);
   if (errors.size() < detail::least_trials)
-    throw error{"of ",
-                options.trials,
-                " shapes that were left out ",
-                errors.size(),
-                " were recovered, expected at least ",
-                detail::least_trials,
-                ": the scan shows too little"};
+    refuse({"of ", options.trials, " shapes that were left out ", errors.size(), " were recovered, expected at least ",
+            detail::least_trials, ": the scan shows too little"});
   trials_ = errors.size();
   covariances_.reserve(static_cast<std::size_t>(model.vertices()));
   for (Eigen::Index vertex = 0; vertex < model.vertices(); ++vertex) add_vertex(errors, vertex);
@@ -137,7 +132,7 @@ GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shap
 }
 
 GONIO_INLINE double cross_validated_uncertainty::squared_radius(double share) const {
-  if (!(share > 0.0 && share < 1.0)) throw error{"a share of vertices must be above 0 and below 1, not ", share};
+  if (!(share > 0.0 && share < 1.0)) refuse({"a share of vertices must be above 0 and below 1, not ", share});
   const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
   const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
   return squared_distances_[static_cast<std::size_t>(place) - 1];

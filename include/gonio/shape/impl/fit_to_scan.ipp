@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
@@ -43,9 +44,8 @@ GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return 
 GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
   constexpr std::size_t least = 10;
   if (places.vertices.size() < least)
-    throw error{"the scan shows ",     places.vertices.size(),          " of the model's ",
-                model.vertices(),      " vertices, expected at least ", least,
-                ": is its pose right?"};
+    refuse({"the scan shows ", places.vertices.size(), " of the model's ", model.vertices(),
+            " vertices, expected at least ", least, ": is its pose right?"});
 }
 
 }  // namespace gonio::shape
@@ -60,10 +60,7 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
     const Eigen::Vector3d off = places.positions.col(std::ssize(distances)) - shape.col(vertex);
     distances.push_back(off.norm());
   }
-  std::vector<double> sorted = distances;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::ranges::nth_element(sorted, middle);
-  const double usual = 3.0 * std::max(position_error, *middle);
+  const double usual = 3.0 * std::max(position_error, upper_median(std::vector(distances)));
   Eigen::VectorXd weights(places.positions.cols());
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;

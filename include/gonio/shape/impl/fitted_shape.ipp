@@ -61,24 +61,18 @@ GONIO_INLINE void locate_along(const Eigen::Matrix3d& axes, Eigen::Index vertex,
 
 GONIO_INLINE void require_known(const vertex_coordinates& coordinates, const vertex_observations& known) {
   const auto count = static_cast<Eigen::Index>(known.vertices.size());
-  if (count == 0) throw error("no vertex is known: there is nothing to predict a shape from");
+  if (count == 0) refuse("no vertex is known: there is nothing to predict a shape from");
   const auto none_or_all = [&](Eigen::Index size) { return size == 0 || size == count; };
   if (known.positions.cols() != count || !none_or_all(known.normals.cols()) || !none_or_all(known.weights.size()))
-    throw error{count,
-                " known vertices have ",
-                known.positions.cols(),
-                " positions, ",
-                known.normals.cols(),
-                " normals and ",
-                known.weights.size(),
-                " weights"};
+    refuse({count, " known vertices have ", known.positions.cols(), " positions, ", known.normals.cols(),
+            " normals and ", known.weights.size(), " weights"});
   for (Eigen::Index i = 0; i < count; ++i) {
     const Eigen::Index vertex = known.vertices[static_cast<std::size_t>(i)];
     if (vertex < 0 || vertex >= static_cast<Eigen::Index>(coordinates.vertices))
-      throw error{"vertex ", vertex, " is known of shapes of ", coordinates.vertices, " vertices"};
-    if (!known.positions.col(i).allFinite()) throw error{"the position of known vertex ", vertex, " is not finite"};
+      refuse({"vertex ", vertex, " is known of shapes of ", coordinates.vertices, " vertices"});
+    if (!known.positions.col(i).allFinite()) refuse({"the position of known vertex ", vertex, " is not finite"});
     if (known.normals.cols() != 0 && !(std::abs(known.normals.col(i).norm() - 1.0) < 1e-6))
-      throw error{"the normal at known vertex ", vertex, " does not have length 1"};
+      refuse({"the normal at known vertex ", vertex, " does not have length 1"});
   }
 }
 
@@ -111,7 +105,7 @@ GONIO_INLINE located_samples locate_vertices(const vertex_coordinates& coordinat
 GONIO_INLINE fitted_shape::fitted_shape(shape_basis basis, solution found)
     : basis_(std::move(basis)), report_(std::move(found.report)) {
   if (found.weights.rows() != static_cast<Eigen::Index>(basis_.size()) || found.weights.cols() != 1)
-    throw error{"a shape of ", basis_.size(), " functions needs as many weights"};
+    refuse({"a shape of ", basis_.size(), " functions needs as many weights"});
   weights_ = found.weights.col(0);
 }
 

@@ -72,7 +72,7 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
   std::vector<Eigen::Index> pending;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v)
     if (reached[static_cast<std::size_t>(v)]) pending.push_back(v);
-  if (pending.empty()) throw error("no vertex is known: there is nothing to fill holes from");
+  if (pending.empty()) refuse("no vertex is known: there is nothing to fill holes from");
   while (!pending.empty()) {
     const Eigen::Index vertex = pending.back();
     pending.pop_back();
@@ -84,7 +84,7 @@ GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<boo
   }
   const auto lost = std::ranges::find(reached, false);
   if (lost != reached.end())
-    throw error{"vertex ", lost - reached.begin(), " cannot be filled in: no known vertex is in its part of the mesh"};
+    refuse({"vertex ", lost - reached.begin(), " cannot be filled in: no known vertex is in its part of the mesh"});
 }
 
 /// The linear system of the missing vertices, numbered in their order: the lower triangle of a symmetric matrix, and
@@ -126,13 +126,13 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
                                          const std::vector<bool>& known, smoothness kind) {
   const Eigen::Index vertices = topology.vertices();
   if (points.cols() != vertices || static_cast<Eigen::Index>(known.size()) != vertices)
-    throw error{"a mesh of ",   vertices,     " vertices has ",      points.cols(),
-                " points and ", known.size(), " marks of known ones"};
+    refuse({"a mesh of ", vertices, " vertices has ", points.cols(), " points and ", known.size(),
+            " marks of known ones"});
   detail::require_reached(topology, known);
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < vertices; ++v) {
     const bool is_known = known[static_cast<std::size_t>(v)];
-    if (is_known && !points.col(v).allFinite()) throw error{"the position of known vertex ", v, " is not finite"};
+    if (is_known && !points.col(v).allFinite()) refuse({"the position of known vertex ", v, " is not finite"});
     if (!is_known) missing.push_back(v);
   }
   if (missing.empty()) return points;
@@ -143,7 +143,7 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
   const bool determined =
       factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 1e-12 * factors.vectorD().maxCoeff();
-  if (!determined) throw error("the known vertices do not determine where the missing ones are");
+  if (!determined) refuse("the known vertices do not determine where the missing ones are");
   const Eigen::MatrixXd filled = factors.solve(rhs);
   for (std::size_t i = 0; i < missing.size(); ++i)
     for (Eigen::Index axis = 0; axis < 3; ++axis) points(axis, missing[i]) = filled(static_cast<Eigen::Index>(i), axis);

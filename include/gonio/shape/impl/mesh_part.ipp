@@ -55,12 +55,12 @@ namespace gonio::shape {
 
 GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked) {
   if (marked.size() != static_cast<std::size_t>(mesh.vertices.cols()))
-    throw error{marked.size(), " marks for the ", mesh.vertices.cols(), " vertices of a mesh"};
+    refuse({marked.size(), " marks for the ", mesh.vertices.cols(), " vertices of a mesh"});
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[static_cast<std::size_t>(v)]}; }))
       kept.push_back(t);
-  if (kept.empty()) throw error("no triangle has three marked corners: nothing of the surface is left");
+  if (kept.empty()) refuse("no triangle has three marked corners: nothing of the surface is left");
   triangle_columns triangles(3, static_cast<Eigen::Index>(kept.size()));
   for (std::size_t i = 0; i < kept.size(); ++i)
     triangles.col(static_cast<Eigen::Index>(i)) = mesh.triangles.col(kept[i]);

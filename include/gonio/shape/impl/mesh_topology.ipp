@@ -29,19 +29,18 @@ GONIO_INLINE std::span<const int> mesh_topology::neighbours(Eigen::Index vertex)
 
 GONIO_INLINE void mesh_topology::require_finite(const triangle_mesh& mesh) {
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v)
-    if (!mesh.vertices.col(v).allFinite()) throw error{"vertex ", v, " of a mesh is not finite"};
+    if (!mesh.vertices.col(v).allFinite()) refuse({"vertex ", v, " of a mesh is not finite"});
 }
 
 GONIO_INLINE void mesh_topology::require_triangles(const triangle_columns& triangles, Eigen::Index vertices) {
-  if (triangles.cols() == 0) throw error{"a mesh of ", vertices, " vertices has no triangles"};
+  if (triangles.cols() == 0) refuse({"a mesh of ", vertices, " vertices has no triangles"});
   for (Eigen::Index t = 0; t < triangles.cols(); ++t) {
     const Eigen::Vector3i corners = triangles.col(t);
     if (corners.minCoeff() < 0 || corners.maxCoeff() >= vertices)
-      throw error{"triangle ",      t,
-                  " names vertex ", corners.minCoeff() < 0 ? corners.minCoeff() : corners.maxCoeff(),
-                  " of a mesh of ", vertices};
+      refuse({"triangle ", t, " names vertex ", corners.minCoeff() < 0 ? corners.minCoeff() : corners.maxCoeff(),
+              " of a mesh of ", vertices});
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0])
-      throw error{"triangle ", t, " of a mesh has one vertex twice"};
+      refuse({"triangle ", t, " of a mesh has one vertex twice"});
   }
 }
 
@@ -57,8 +56,8 @@ GONIO_INLINE std::vector<mesh_topology::half_edge> mesh_topology::half_edges_of(
 GONIO_INLINE void mesh_topology::require_two_sided(const std::vector<half_edge>& edges) {
   const auto twice = std::ranges::adjacent_find(edges);
   if (twice != edges.end())
-    throw error{"a mesh is not a surface: two triangles run from vertex ", twice->from, " to vertex ", twice->to,
-                " in the same direction, so more than two share this edge or one of them is turned over"};
+    refuse({"a mesh is not a surface: two triangles run from vertex ", twice->from, " to vertex ", twice->to,
+            " in the same direction, so more than two share this edge or one of them is turned over"});
 }
 
 GONIO_INLINE void mesh_topology::gather(const std::vector<half_edge>& edges, Eigen::Index vertices) {
@@ -89,7 +88,7 @@ GONIO_INLINE void mesh_topology::require_single_fans(const triangle_columns& tri
       opposite[static_cast<std::size_t>(corners[side])].push_back({corners[(side + 1) % 3], corners[(side + 2) % 3]});
   for (std::size_t v = 0; v < opposite.size(); ++v)
     if (!opposite[v].empty() && !is_one_chain(opposite[v]))
-      throw error{"a mesh is not a surface: at vertex ", v, " parts of it touch in one point"};
+      refuse({"a mesh is not a surface: at vertex ", v, " parts of it touch in one point"});
 }
 
 GONIO_INLINE bool mesh_topology::is_one_chain(const std::vector<half_edge>& edges) {

@@ -27,15 +27,9 @@ GONIO_INLINE void require_of_family(const fit_to_scan_result& fit, const shape_m
   const Eigen::Index weights = fit.weights().size();
   const double limit = chi_square_quantile(confidence, static_cast<double>(weights));
   if (fit.squared_distance() <= limit) return;
-  throw error{"the scan is not of the model's family: its Mahalanobis distance from the mean shape is ",
-              std::sqrt(fit.squared_distance()),
-              ", expected at most ",
-              std::sqrt(limit),
-              " with ",
-              weights,
-              " components of ",
-              model.shapes(),
-              " shapes"};
+  refuse({"the scan is not of the model's family: its Mahalanobis distance from the mean shape is ",
+          std::sqrt(fit.squared_distance()), ", expected at most ", std::sqrt(limit), " with ", weights,
+          " components of ", model.shapes(), " shapes"});
 }
 
 }  // namespace gonio::shape::detail
@@ -67,21 +61,19 @@ namespace gonio::shape::detail {
     place[static_cast<std::size_t>(known.vertices[i])] = static_cast<Eigen::Index>(i);
   const auto is_known = [&](Eigen::Index vertex) { return bool{marks[static_cast<std::size_t>(vertex)]}; };
   point_columns predicted(3, model.vertices());
-  for_each_block(
+  for_each_index(
       marks.size(), 32,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto vertex = static_cast<Eigen::Index>(i);
-          vertex_observations near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours),
-                                   {}};
-          std::vector<Eigen::Index> columns;
-          for (const Eigen::Index neighbour : near.vertices)
-            columns.push_back(place[static_cast<std::size_t>(neighbour)]);
-          near.positions = chosen_columns(known.positions, columns);
-          near.normals = chosen_columns(known.normals, columns);
-          near.tangential = known.tangential;
-          predicted.col(vertex) = fit_shape(model.basis(), solver, near, {1}).vertex(vertex);
-        }
+      [&](std::size_t i) {
+        const auto vertex = static_cast<Eigen::Index>(i);
+        vertex_observations near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours),
+                                 {}};
+        std::vector<Eigen::Index> columns;
+        for (const Eigen::Index neighbour : near.vertices)
+          columns.push_back(place[static_cast<std::size_t>(neighbour)]);
+        near.positions = chosen_columns(known.positions, columns);
+        near.normals = chosen_columns(known.normals, columns);
+        near.tangential = known.tangential;
+        predicted.col(vertex) = fit_shape(model.basis(), solver, near, {1}).vertex(vertex);
       },
       threads);
   return predicted;

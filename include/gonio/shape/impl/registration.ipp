@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
@@ -26,9 +27,7 @@ GONIO_INLINE double smallest_angle_percentile(const triangle_mesh& mesh, double 
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     smallest.push_back(degrees(std::min({mesh.angle(t, 0), mesh.angle(t, 1), mesh.angle(t, 2)})));
   }
-  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(smallest.size() - 1));
-  std::ranges::nth_element(smallest, smallest.begin() + place);
-  return smallest[static_cast<std::size_t>(place)];
+  return quantile(smallest, share);
 }
 
 }  // namespace gonio::shape
@@ -44,18 +43,16 @@ namespace gonio::shape::detail {
   const auto count = static_cast<std::size_t>(shape.vertices.cols());
   point_columns places(3, shape.vertices.cols());
   std::vector<char> shown(count, 0);
-  for_each_block(
+  for_each_index(
       count, 128,
-      [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto v = static_cast<Eigen::Index>(i);
-          if (!(normals.col(v).norm() > 0.0)) continue;
-          const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
-          if (!found || found->on_border) continue;
-          if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) continue;
-          places.col(v) = found->position;
-          shown[i] = 1;
-        }
+      [&](std::size_t i) {
+        const auto v = static_cast<Eigen::Index>(i);
+        if (!(normals.col(v).norm() > 0.0)) return;
+        const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
+        if (!found || found->on_border) return;
+        if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) return;
+        places.col(v) = found->position;
+        shown[i] = 1;
       },
       threads);
   return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);

@@ -20,17 +20,17 @@ namespace gonio::shape {
 
 GONIO_INLINE shape_set shape_set::of(const std::vector<point_columns>& shapes, std::vector<std::string> names) {
   if (shapes.empty() || shapes.size() != names.size() || shapes[0].cols() == 0)
-    throw error{"a set of shapes needs at least one, of at least one vertex, and a name for each: not ", shapes.size(),
-                " shapes and ", names.size(), " names"};
+    refuse({"a set of shapes needs at least one, of at least one vertex, and a name for each: not ", shapes.size(),
+            " shapes and ", names.size(), " names"});
   const Eigen::Index vertices = shapes[0].cols();
   shape_set set{{static_cast<std::size_t>(vertices)},
                 std::move(names),
                 cell_matrix(3 * vertices, static_cast<Eigen::Index>(shapes.size()))};
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (shapes[i].cols() != vertices)
-      throw error{"shape '", set.names[i], "' has ",     shapes[i].cols(), " vertices, expected ",
-                  vertices,  " as '",      set.names[0], "' has"};
-    if (!shapes[i].allFinite()) throw error{"shape '", set.names[i], "' has a vertex that is not finite"};
+      refuse({"shape '", set.names[i], "' has ", shapes[i].cols(), " vertices, expected ", vertices, " as '",
+              set.names[0], "' has"});
+    if (!shapes[i].allFinite()) refuse({"shape '", set.names[i], "' has a vertex that is not finite"});
     for (Eigen::Index row = 0; row < set.values.rows(); ++row)
       set.values(row, static_cast<Eigen::Index>(i)) = static_cast<float>(shapes[i].data()[row]);
   }
@@ -57,7 +57,7 @@ GONIO_INLINE double squared_mahalanobis(const shape_basis& basis, const Eigen::V
 }
 
 GONIO_INLINE shape_basis truncated_to_variance(const shape_basis& basis, double share) {
-  if (!(share > 0.0 && share <= 1.0)) throw error{"the explained variance must be above 0 and at most 1, not ", share};
+  if (!(share > 0.0 && share <= 1.0)) refuse({"the explained variance must be above 0 and at most 1, not ", share});
   const Eigen::VectorXd& sigma = basis.singular_values();
   const double enough = share * sigma.squaredNorm() * (1.0 - 1e-12);
   std::size_t kept = 0;
@@ -68,7 +68,7 @@ GONIO_INLINE shape_basis truncated_to_variance(const shape_basis& basis, double 
 
 GONIO_INLINE shape_basis with_motion(const shape_basis& basis, const point_columns& shape, double freedom) {
   if (shape.size() != basis.components().rows())
-    throw error{"a shape of ", shape.cols(), " vertices is to move with a basis of ", basis.components().rows() / 3};
+    refuse({"a shape of ", shape.cols(), " vertices is to move with a basis of ", basis.components().rows() / 3});
   const auto k = static_cast<Eigen::Index>(basis.size());
   const Eigen::Vector3d centroid = centroid_of(shape);
   cell_matrix functions(basis.components().rows(), k + motions);

@@ -29,22 +29,22 @@ namespace gonio::shape::detail {
 
 GONIO_INLINE void require_context(const shape_context_options& options) {
   if (options.radial_bins < 1 || options.polar_bins < 1 || options.azimuthal_bins < 1)
-    throw error("a shape context needs at least one bin for each of its three coordinates");
+    refuse("a shape context needs at least one bin for each of its three coordinates");
   if (!(options.radius > 0.0 && std::isfinite(options.radius)))
-    throw error{"the radius of a shape context must be positive and finite, not ", options.radius};
+    refuse({"the radius of a shape context must be positive and finite, not ", options.radius});
   if (!options.vertical.allFinite() || !(options.vertical.cwiseAbs().maxCoeff() > 0.0))
-    throw error("the vertical axis of a shape context must be finite and not zero");
+    refuse("the vertical axis of a shape context must be finite and not zero");
   if (!(options.least_inclination > 0.0 && options.least_inclination < std::numbers::pi / 2.0))
-    throw error{"the least inclination of a shape context's normals must be between 0 and pi/2, not ",
-                options.least_inclination};
+    refuse({"the least inclination of a shape context's normals must be between 0 and pi/2, not ",
+            options.least_inclination});
 }
 
 /// What sampling and describing need of a mesh, which may be less than a surface.
 GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
-  if (!mesh.vertices.allFinite()) throw error("the vertices of a mesh to describe must be finite");
-  if (mesh.triangles.cols() == 0) throw error("a mesh to describe has no triangles");
+  if (!mesh.vertices.allFinite()) refuse("the vertices of a mesh to describe must be finite");
+  if (mesh.triangles.cols() == 0) refuse("a mesh to describe has no triangles");
   if (mesh.triangles.minCoeff() < 0 || mesh.triangles.maxCoeff() >= mesh.vertices.cols())
-    throw error{"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()};
+    refuse({"a triangle of a mesh to describe names a vertex that is not among its ", mesh.vertices.cols()});
 }
 
 /// A third of the area of the triangles around each vertex.
@@ -130,7 +130,7 @@ GONIO_INLINE Eigen::Index context_bin(const Eigen::Vector3d& place, const shape_
 
 GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count) {
   detail::require_finite_mesh(mesh);
-  if (count < 0) throw error("the number of vertices to choose must not be negative");
+  if (count < 0) refuse("the number of vertices to choose must not be negative");
   // Squared distances from what was chosen; vertices of no triangle are as near as those chosen.
   const std::ptrdiff_t vertices = mesh.vertices.cols();
   std::vector<double> nearest(static_cast<std::size_t>(vertices), 0.0);
@@ -164,7 +164,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
     if (vertex < 0 || vertex >= mesh.vertices.cols())
-      throw error{"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"};
+      refuse({"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"});
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
@@ -180,12 +180,8 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
       if (place.squaredNorm() > 0.0) histograms(context_bin(place, options), point) += areas[neighbour];
     }
   };
-  for_each_block(
-      chosen.size(), 8,
-      [&](block points) {
-        for (std::size_t i = points.begin; i < points.end; ++i) fill(static_cast<Eigen::Index>(i));
-      },
-      threads);
+  for_each_index(
+      chosen.size(), 8, [&](std::size_t i) { fill(static_cast<Eigen::Index>(i)); }, threads);
 
   shape_descriptors found;
   std::vector<Eigen::Index> filled;
@@ -205,7 +201,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
 GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, const shape_descriptors& onto,
                                               thread_count threads) {
   if (from.histograms.rows() != onto.histograms.rows())
-    throw error{"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"};
+    refuse({"descriptors of ", from.histograms.rows(), " and ", onto.histograms.rows(), " bins cannot be compared"});
   Eigen::MatrixXd costs(from.histograms.cols(), onto.histograms.cols());
   // Empty in both: 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();

@@ -98,8 +98,8 @@ struct described_points {
 
 GONIO_INLINE void require_points(const shape_descriptors& descriptors, const char* what) {
   if (descriptors.vertex.size() < 3)
-    throw error{"a ", what, " to be aligned by shape contexts has ", descriptors.vertex.size(),
-                " points that can be described, not three: are all normals along the vertical axis?"};
+    refuse({"a ", what, " to be aligned by shape contexts has ", descriptors.vertex.size(),
+            " points that can be described, not three: are all normals along the vertical axis?"});
 }
 
 }  // namespace gonio::shape::detail
@@ -119,11 +119,10 @@ GONIO_INLINE shape_context_matcher::shape_context_matcher(const triangle_mesh& m
                                                           const shape_context_alignment_options& options,
                                                           thread_count threads)
     : options_(options) {
-  if (options.points < 3)
-    throw error{"an alignment by shape contexts needs at least three points, not ", options.points};
+  if (options.points < 3) refuse({"an alignment by shape contexts needs at least three points, not ", options.points});
   if (!(options.significant > 0.0 && options.significant <= 1.0))
-    throw error{"the share of significant matches must be above 0 and at most 1, not ", options.significant};
-  if (!(options.tolerance > 0.0)) throw error{"the tolerance of matches must be positive, not ", options.tolerance};
+    refuse({"the share of significant matches must be above 0 and at most 1, not ", options.significant});
+  if (!(options.tolerance > 0.0)) refuse({"the tolerance of matches must be positive, not ", options.tolerance});
   model_ = std::make_shared<const described_model>(model, detail::described(model, options_, threads));
   detail::require_points(model_->points.descriptors, "model");
 }

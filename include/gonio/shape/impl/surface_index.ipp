@@ -258,7 +258,7 @@ struct triangle_feature {
 }
 
 GONIO_INLINE void require_finite_vector(const Eigen::Vector3d& vector, const char* what) {
-  if (!vector.allFinite()) throw error{what, " is not finite"};
+  if (!vector.allFinite()) refuse({what, " is not finite"});
 }
 
 }  // namespace gonio::shape::detail
@@ -313,7 +313,7 @@ GONIO_INLINE surface_point surface_index::closest(const Eigen::Vector3d& point) 
     return least;
   });
   if (!(least < std::numeric_limits<double>::infinity()))
-    throw error("a point is so far from a surface that the square of the distance is no number");
+    refuse("a point is so far from a surface that the square of the distance is no number");
   best.on_border = surface_->is_on_border(best);
   best.distance = std::sqrt(least);
   return best;
@@ -323,9 +323,8 @@ GONIO_INLINE std::optional<surface_point> surface_index::along(const Eigen::Vect
                                                                const Eigen::Vector3d& line, double reach) const {
   detail::require_finite_vector(origin, "the origin of a line");
   detail::require_finite_vector(line, "the direction of a line");
-  if (!(line.cwiseAbs().maxCoeff() > 0.0)) throw error("the direction of a line that is to meet a surface is zero");
-  if (!(reach >= 0.0))
-    throw error{"the reach of a line that is to meet a surface must not be negative, and is ", reach};
+  if (!(line.cwiseAbs().maxCoeff() > 0.0)) refuse("the direction of a line that is to meet a surface is zero");
+  if (!(reach >= 0.0)) refuse({"the reach of a line that is to meet a surface must not be negative, and is ", reach});
   const Eigen::Vector3d unit = unit_vector(line);
   std::optional<surface_point> best;
   // Boxes that the line misses are infinitely far, so the limit is finite.
@@ -365,12 +364,8 @@ GONIO_INLINE double surface_index::signed_distance(const Eigen::Vector3d& point)
 GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,
                                                        thread_count threads) {
   std::vector<surface_point> found(static_cast<std::size_t>(points.cols()));
-  for_each_block(
-      found.size(), 256,
-      [&](block some) {
-        for (std::size_t i = some.begin; i < some.end; ++i)
-          found[i] = surface.closest(points.col(static_cast<Eigen::Index>(i)));
-      },
+  for_each_index(
+      found.size(), 256, [&](std::size_t i) { found[i] = surface.closest(points.col(static_cast<Eigen::Index>(i))); },
       threads);
   return found;
 }

@@ -24,14 +24,13 @@ class eta_scores {
  public:
   eta_scores(const least_squares_problem& problem, eta_criterion criterion) : problem_(problem), criterion_(criterion) {
     count_ = problem.observations();
-    if (count_ < 2)
-      throw error{"choosing eta by cross-validation needs at least 2 rows of positive weight, not ", count_};
+    if (count_ < 2) refuse({"choosing eta by cross-validation needs at least 2 rows of positive weight, not ", count_});
     dual_ = count_ <= problem.unknowns();
     if (dual_)
       decompose_dual();
     else
       decompose(problem.normal().gram(), problem.normal().rhs());
-    if (!(largest() > 0.0)) throw error("eta cannot be chosen: all rows of positive weight are zero");
+    if (!(largest() > 0.0)) refuse("eta cannot be chosen: all rows of positive weight are zero");
   }
 
   /// The largest eigenvalue of A'WA.
@@ -162,8 +161,8 @@ GONIO_INLINE Eigen::Index last_least(const Eigen::VectorXd& scores) {
 
 GONIO_INLINE void require_etas(const eta_range& range) {
   if (!(range.lowest >= 0.0 && range.lowest <= range.highest && range.highest > 0.0 && std::isfinite(range.lowest)))
-    throw error{"a range of eta goes from a number that is not negative to a larger one, not from ", range.lowest,
-                " to ", range.highest};
+    refuse({"a range of eta goes from a number that is not negative to a larger one, not from ", range.lowest, " to ",
+            range.highest});
 }
 
 }  // namespace gonio::detail
@@ -172,10 +171,10 @@ namespace gonio {
 
 GONIO_INLINE Eigen::VectorXd cross_validate(const least_squares_problem& problem, eta_criterion criterion,
                                             const Eigen::VectorXd& etas) {
-  if (etas.size() == 0) throw error("cross-validation needs at least one eta");
+  if (etas.size() == 0) refuse("cross-validation needs at least one eta");
   for (const double eta : etas)
     if (!(eta > 0.0 && std::isfinite(eta)))
-      throw error{"cross-validation needs values of eta that are positive and finite, not ", eta};
+      refuse({"cross-validation needs values of eta that are positive and finite, not ", eta});
   return detail::eta_scores(problem, criterion)(etas);
 }
 
@@ -187,7 +186,7 @@ GONIO_INLINE double choose_eta(const least_squares_problem& problem, eta_criteri
 GONIO_INLINE double choose_eta(std::span<const least_squares_problem> problems, eta_criterion criterion,
                                const eta_range& plausible) {
   detail::require_etas(plausible);
-  if (problems.empty()) throw error("choosing eta needs a problem");
+  if (problems.empty()) refuse("choosing eta needs a problem");
   const auto is_telling = [](const least_squares_problem& problem) { return problem.observations() >= 2; };
   const bool any_tells = std::ranges::any_of(problems, is_telling);
   if (!any_tells && std::isfinite(plausible.highest)) return plausible.highest;

@@ -254,8 +254,8 @@ GONIO_INLINE void dual_active_set::tolerate(Eigen::Index constraint, double boun
     size += std::abs(part);
   }
   if (bound - allowed > 1e3 * rounding * size)
-    throw error{"the constraints contradict one another: no weights satisfy ", describe(constraint),
-                " together with the others"};
+    refuse({"the constraints contradict one another: no weights satisfy ", describe(constraint),
+            " together with the others"});
   tolerated_[static_cast<std::size_t>(constraint)] = true;
 }
 

@@ -24,7 +24,7 @@ namespace gonio::detail {
 
 GONIO_INLINE void require_penalty(double lambda) {
   if (!(lambda >= 0.0 && std::isfinite(lambda)))
-    throw error{"the penalty lambda of a Lasso must be finite and not negative, not ", lambda};
+    refuse({"the penalty lambda of a Lasso must be finite and not negative, not ", lambda});
 }
 
 }  // namespace gonio::detail
@@ -33,9 +33,9 @@ namespace gonio {
 
 GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count,
                                                  double smallest_share, sign_rule signs) {
-  if (count < 2) throw error{"a regularisation path needs at least two penalties, not ", count};
+  if (count < 2) refuse({"a regularisation path needs at least two penalties, not ", count});
   if (!(smallest_share > 0.0 && smallest_share < 1.0))
-    throw error{"the smallest penalty of a path must be a share in (0, 1) of the largest, not ", smallest_share};
+    refuse({"the smallest penalty of a path must be a share in (0, 1) of the largest, not ", smallest_share});
   const double largest = largest_lambda(normal, signs);
   std::vector<double> lambdas(count);
   for (std::size_t i = 0; i < count; ++i)

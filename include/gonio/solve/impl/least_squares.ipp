@@ -90,8 +90,7 @@ struct normal_spectrum {
 
 GONIO_INLINE least_squares::least_squares(double rank_threshold) : threshold_(rank_threshold) {
   if (!(rank_threshold >= 0.0 && rank_threshold < 1.0))
-    throw error{"the rank threshold of a least-squares solver must be at least 0 and less than 1, not ",
-                rank_threshold};
+    refuse({"the rank threshold of a least-squares solver must be at least 0 and less than 1, not ", rank_threshold});
 }
 
 GONIO_INLINE Eigen::Index least_squares::rank(const least_squares_problem& problem) const {
@@ -127,7 +126,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   for (Eigen::Index column = 0; column < found.report.objective.size(); ++column) {
     const double residual = found.report.residual[column];
     if (!(found.report.objective[column] <= 1e-9 * (0.5 * residual * residual - found.report.objective[column])))
-      throw error(
+      refuse(
           "least squares explain less than weights of zero would: the columns are too ill-conditioned for double "
           "precision, and a larger rank threshold drops those that depend on each other");
   }

@@ -83,10 +83,10 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
   std::vector<Eigen::Index> chosen(columns.begin(), columns.end());
   for (Eigen::Index& column : chosen) {
     if (column < 0 || column >= unknowns())
-      throw error{"a least-squares problem of ", unknowns(), " unknowns has no column ", column};
+      gonio::refuse({"a least-squares problem of ", unknowns(), " unknowns has no column ", column});
     if (columns_) column = (*columns_)[static_cast<std::size_t>(column)];
   }
-  if (chosen.empty()) throw error("a least-squares problem needs at least one column");
+  if (chosen.empty()) gonio::refuse("a least-squares problem needs at least one column");
   // Columns count from the whole that has no whole itself, so that subsets of subsets do not nest.
   if (whole_) part.whole_ = whole_;
   part.columns_ = std::move(chosen);
@@ -116,19 +116,18 @@ GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::Mat
     : rows(std::move(source)), right_hand_side(std::move(b)), weights(std::move(w)) {
   if (weights.size() == 0) weights = Eigen::VectorXd::Ones(rows.rows);
   if (rows.rows == 0 || rows.columns == 0 || right_hand_side.cols() == 0)
-    throw error{
-        "a least-squares problem of ", rows.rows, " rows, ", rows.columns, " unknowns and ", right_hand_side.cols(),
-        " right-hand sides is empty"};
+    gonio::refuse({"a least-squares problem of ", rows.rows, " rows, ", rows.columns, " unknowns and ",
+                   right_hand_side.cols(), " right-hand sides is empty"});
   if (right_hand_side.rows() != rows.rows || weights.size() != rows.rows)
-    throw error{"a least-squares problem of ", rows.rows,      " rows has ", right_hand_side.rows(),
-                " right-hand values and ",     weights.size(), " weights"};
+    gonio::refuse({"a least-squares problem of ", rows.rows, " rows has ", right_hand_side.rows(),
+                   " right-hand values and ", weights.size(), " weights"});
   for (Eigen::Index row = 0; row < rows.rows; ++row) {
     for (Eigen::Index column = 0; column < right_hand_side.cols(); ++column)
       if (!std::isfinite(right_hand_side(row, column)))
-        throw error{"row ", row, " of a least-squares problem is not finite on its right-hand side"};
+        gonio::refuse({"row ", row, " of a least-squares problem is not finite on its right-hand side"});
     if (!(weights[row] >= 0.0 && std::isfinite(weights[row])))
-      throw error{"row ", row, " of a least-squares problem has weight ", weights[row],
-                  ": weights must be finite and not negative"};
+      gonio::refuse({"row ", row, " of a least-squares problem has weight ", weights[row],
+                     ": weights must be finite and not negative"});
   }
 }
 
@@ -150,8 +149,8 @@ GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, 
   for (Eigen::Index row = 0; row < part.rows(); ++row)
     for (Eigen::Index column = 0; column < part.cols(); ++column)
       if (!std::isfinite(part(row, column)))
-        throw error{"row ", first_row + static_cast<std::size_t>(row),
-                    " of a least-squares problem is not finite in column ", column};
+        gonio::refuse({"row ", first_row + static_cast<std::size_t>(row),
+                       " of a least-squares problem is not finite in column ", column});
 }
 
 GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
@@ -169,8 +168,8 @@ GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equat
   // What underflow takes from a sum of squares above this is less than its rounding.
   const double least = std::numeric_limits<double>::min() * static_cast<double>(equations());
   const auto refuse_tiny = [](const std::string& what) {
-    throw error{what, " of a least-squares problem is too small: its squares are not numbers of double precision. ",
-                "Scale it by a power of ten"};
+    gonio::refuse({what, " of a least-squares problem is too small: its squares are not numbers of double precision. ",
+                   "Scale it by a power of ten"});
   };
   for (Eigen::Index column = 0; column < right_hand_side().cols(); ++column)
     for (Eigen::Index row = 0; row < equations() && normal.rhs_squared_norm()[column] < least; ++row)

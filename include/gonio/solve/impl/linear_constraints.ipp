@@ -31,15 +31,15 @@ GONIO_INLINE linear_constraints linear_constraints::operator()(Eigen::Index unkn
 GONIO_INLINE void linear_constraints::require_consistent(const Eigen::MatrixXd& rows, const Eigen::VectorXd& right,
                                                          Eigen::Index unknowns, const std::string& kind) {
   if (rows.rows() != right.size())
-    throw error{rows.rows(), " rows of ", kind, " constraints have ", right.size(), " right-hand values"};
+    refuse({rows.rows(), " rows of ", kind, " constraints have ", right.size(), " right-hand values"});
   if (rows.rows() > 0 && rows.cols() != unknowns)
-    throw error{"row 0 of the ", kind, " constraints has ", rows.cols(), " coefficients for ", unknowns, " unknowns"};
+    refuse({"row 0 of the ", kind, " constraints has ", rows.cols(), " coefficients for ", unknowns, " unknowns"});
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     for (Eigen::Index column = 0; column < rows.cols(); ++column)
       if (!std::isfinite(rows(row, column)))
-        throw error{"row ", row, " of the ", kind, " constraints is not finite in column ", column};
+        refuse({"row ", row, " of the ", kind, " constraints is not finite in column ", column});
     if (!std::isfinite(right[row]))
-      throw error{"row ", row, " of the ", kind, " constraints is not finite on its right-hand side"};
+      refuse({"row ", row, " of the ", kind, " constraints is not finite on its right-hand side"});
   }
 }
 

@@ -41,9 +41,8 @@ GONIO_INLINE Eigen::VectorXd normal_equations::residual(const Eigen::MatrixXd& x
 
 GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_equations& b) {
   if (a.unknowns() != b.unknowns() || a.right_hand_sides() != b.right_hand_sides())
-    throw error{"normal equations of ",      a.unknowns(), " unknowns and ", a.right_hand_sides(),
-                " right-hand sides and of ", b.unknowns(), " and ",          b.right_hand_sides(),
-                " cannot be added"};
+    refuse({"normal equations of ", a.unknowns(), " unknowns and ", a.right_hand_sides(), " right-hand sides and of ",
+            b.unknowns(), " and ", b.right_hand_sides(), " cannot be added"});
   Eigen::MatrixXd gram = a.gram_, rhs = a.rhs_;
   Eigen::VectorXd rhs_squared_norm = a.rhs_squared_norm_;
   add_scaled(1.0, b.gram_.data(), gram.data(), gram.size());
@@ -72,30 +71,22 @@ GONIO_INLINE double normal_equations::quadratic_form(const Eigen::MatrixXd& x, E
 
 GONIO_INLINE void normal_equations::require_consistent() const {
   if (gram_.size() == 0 || rhs_.cols() == 0)
-    throw error{"normal equations of ", gram_.rows(), " unknowns and ", rhs_.cols(), " right-hand sides are empty"};
+    refuse({"normal equations of ", gram_.rows(), " unknowns and ", rhs_.cols(), " right-hand sides are empty"});
   if (gram_.rows() != gram_.cols() || rhs_.rows() != gram_.rows() || rhs_squared_norm_.size() != rhs_.cols())
-    throw error{"normal equations do not match in size: the Gram matrix is ",
-                gram_.rows(),
-                " x ",
-                gram_.cols(),
-                ", the moment ",
-                rhs_.rows(),
-                " x ",
-                rhs_.cols(),
-                ", and ",
-                rhs_squared_norm_.size(),
-                " right-hand sides have their energy"};
+    refuse({"normal equations do not match in size: the Gram matrix is ", gram_.rows(), " x ", gram_.cols(),
+            ", the moment ", rhs_.rows(), " x ", rhs_.cols(), ", and ", rhs_squared_norm_.size(),
+            " right-hand sides have their energy"});
   for (Eigen::Index column = 0; column < gram_.cols(); ++column) {
     bool finite = true;
     for (Eigen::Index row = 0; row < gram_.rows(); ++row) finite = finite && std::isfinite(gram_(row, column));
     for (Eigen::Index r = 0; r < rhs_.cols(); ++r) finite = finite && std::isfinite(rhs_(column, r));
-    if (!finite) throw error{"column ", column, " of normal equations is not finite"};
+    if (!finite) refuse({"column ", column, " of normal equations is not finite"});
     if (gram_(column, column) < 0.0)
-      throw error{"column ", column, " of normal equations has the squared norm ", gram_(column, column),
-                  ": it cannot be negative"};
+      refuse({"column ", column, " of normal equations has the squared norm ", gram_(column, column),
+              ": it cannot be negative"});
   }
   for (Eigen::Index r = 0; r < rhs_squared_norm_.size(); ++r)
-    if (!std::isfinite(rhs_squared_norm_[r])) throw error("the right-hand side of normal equations is not finite");
+    if (!std::isfinite(rhs_squared_norm_[r])) refuse("the right-hand side of normal equations is not finite");
 }
 
 GONIO_INLINE normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::Index target,

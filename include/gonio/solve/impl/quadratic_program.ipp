@@ -31,7 +31,7 @@ GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side,
     found.iterations = run.changes();
     const vector& y = run.scaled_weights();
     if (found.kkt_residual <= good && !is_suspicious(found, y, q)) return found;
-    if (found.kkt_residual <= good && falls_for_ever(y, q, right_hand_side)) throw error(falling(y));
+    if (found.kkt_residual <= good && falls_for_ever(y, q, right_hand_side)) refuse(falling(y));
   }
   return solve_by_proximal_points(right_hand_side, q, run.active(), run.changes());
 }
@@ -77,7 +77,7 @@ GONIO_INLINE program_optimum program_solver::solve_by_proximal_points(Eigen::Ind
     changes += run.changes();
     if (run.singular() || !run.converged()) break;
     const vector movement = run.scaled_weights() - y;
-    if (falls_for_ever(movement, q, right_hand_side)) throw error(falling(movement));
+    if (falls_for_ever(movement, q, right_hand_side)) refuse(falling(movement));
     y = run.scaled_weights();
     active = run.active();
     program_optimum found = best(run, q, right_hand_side);
@@ -86,9 +86,8 @@ GONIO_INLINE program_optimum program_solver::solve_by_proximal_points(Eigen::Ind
     const double enough = settled ? good : point >= patience ? sufficient : 0.0;
     if (found.kkt_residual <= enough && !is_suspicious(found, y, q)) return found;
   }
-  throw error{
-      "a quadratic program has not been solved after ", changes,
-      " changes of its active constraints: its Gram matrix is not positive semidefinite or too ill-conditioned"};
+  refuse({"a quadratic program has not been solved after ", changes,
+          " changes of its active constraints: its Gram matrix is not positive semidefinite or too ill-conditioned"});
 }
 
 GONIO_INLINE bool program_solver::is_suspicious(const program_optimum& found, const vector& y, const vector& q) const {
@@ -169,8 +168,8 @@ GONIO_INLINE solution certified_program(const least_squares_problem& problem, co
     const double rhs_squared_norm = normal.rhs_squared_norm()[column], residual = found.report.residual[column];
     if (std::abs(0.5 * (residual * residual - rhs_squared_norm) - found.report.objective[column]) >
         kkt_residual_limit * (residual * residual + rhs_squared_norm))
-      throw error{"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
-                  " by the rows and ", by_normal[column], " by them"};
+      refuse({"the quadratic program is too ill-conditioned for its normal equations: its residual is ", residual,
+              " by the rows and ", by_normal[column], " by them"});
   }
   return found;
 }

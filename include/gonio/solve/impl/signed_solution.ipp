@@ -71,8 +71,8 @@ inline constexpr double objective_tolerance = 1e-9, rounding_tolerance = 1e-5;
 }
 
 [[nodiscard]] GONIO_INLINE error no_optimum(const signed_task& task, const std::string& why) {
-  return error{task.method, " has found no optimum: ", why,
-               "; the columns are too ill-conditioned for double precision"};
+  return error(message_of(
+      {task.method, " has found no optimum: ", why, "; the columns are too ill-conditioned for double precision"}));
 }
 
 /// Objectives of normal equations lose what cancels.

@@ -53,8 +53,8 @@ GONIO_INLINE solution with_residual_of_rows(solution found, const least_squares_
 GONIO_INLINE solution detail::require_certified(solution found, std::string_view solver) {
   for (Eigen::Index column = 0; column < found.report.kkt_residual.size(); ++column)
     if (!(found.report.kkt_residual[column] <= kkt_residual_limit))
-      throw error{solver, " has found no optimum of right-hand side ", column,
-                  ": the problem is too ill-conditioned for double precision"};
+      refuse({solver, " has found no optimum of right-hand side ", column,
+              ": the problem is too ill-conditioned for double precision"});
   return found;
 }
 

@@ -88,7 +88,7 @@ struct ridge_rows {
 
 GONIO_INLINE tikhonov::tikhonov(double eta, form solved_as) : eta_(eta), form_(solved_as) {
   if (!(eta > 0.0 && std::isfinite(eta)))
-    throw error{"the penalty eta of a Tikhonov solver must be positive and finite, not ", eta};
+    refuse({"the penalty eta of a Tikhonov solver must be positive and finite, not ", eta});
 }
 
 GONIO_INLINE solution tikhonov::solve(const least_squares_problem& problem) const {

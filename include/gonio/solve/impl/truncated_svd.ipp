@@ -106,7 +106,7 @@ struct subspace_solution {
 
 GONIO_INLINE truncated_svd::truncated_svd(double explained_variance) : share_(explained_variance) {
   if (!(explained_variance > 0.0 && explained_variance <= 1.0))
-    throw error{"the explained variance of a truncated SVD must be above 0 and at most 1, not ", explained_variance};
+    refuse({"the explained variance of a truncated SVD must be above 0 and at most 1, not ", explained_variance});
 }
 
 GONIO_INLINE solution truncated_svd::solve(const least_squares_problem& problem) const {

@@ -16,19 +16,15 @@ namespace gonio {
 GONIO_INLINE brdf_table::brdf_table(valid_cells cells, std::vector<float> values)
     : cells_(std::move(cells)), values_(std::move(values)) {
   if (values_.size() != 3 * cells_.size())
-    throw error{"a table over ", cells_.size(), " cells needs 3 values a cell, got ", values_.size()};
+    refuse({"a table over ", cells_.size(), " cells needs 3 values a cell, got ", values_.size()});
 }
 
 GONIO_INLINE brdf_table resample(const brdf_table& table, const valid_cells& cells, thread_count threads) {
   if (cells == table.cells()) return table;
   brdf_table result(cells);
-  for_each_block(
+  for_each_index(
       cells.size(), 4096,
-      [&](block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell)
-          result.set(cell, table.at(locate(table.cells(), cells.angles(cell))));
-      },
-      threads);
+      [&](std::size_t cell) { result.set(cell, table.at(locate(table.cells(), cells.angles(cell)))); }, threads);
   return result;
 }
 

@@ -21,7 +21,7 @@ namespace gonio {
 
 GONIO_INLINE std::size_t material_set::find(const std::string& name) const {
   const auto found = std::ranges::find(names, name);
-  if (found == names.end()) throw error{"there is no material named '", name, "'"};
+  if (found == names.end()) refuse({"there is no material named '", name, "'"});
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -36,7 +36,7 @@ GONIO_INLINE material_set material_set::subset(const std::vector<std::size_t>& p
   material_set some{cells, {}, cell_matrix(values.rows(), 3 * std::ssize(positions))};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const std::size_t from = positions[i];
-    if (from >= names.size()) throw error{"there is no material ", from, " among ", names.size()};
+    if (from >= names.size()) refuse({"there is no material ", from, " among ", names.size()});
     some.names.push_back(names[from]);
     some.values.middleCols(static_cast<Eigen::Index>(3 * i), 3) =
         values.middleCols(static_cast<Eigen::Index>(3 * from), 3);

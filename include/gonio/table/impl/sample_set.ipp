@@ -12,7 +12,7 @@
 namespace gonio::detail {
 
 GONIO_INLINE void require_usable_sample(const sample& s, std::size_t number) {
-  const auto refuse = [&](const char* what) { throw error{"sample ", number, ": ", what}; };
+  const auto refuse = [&](const char* what) { gonio::refuse({"sample ", number, ": ", what}); };
   const auto& [theta_h, theta_d, phi_d] = s.angles();
   if (!std::isfinite(theta_h) || !std::isfinite(theta_d) || !std::isfinite(phi_d)) refuse("an angle is not finite");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
@@ -26,11 +26,10 @@ GONIO_INLINE void require_usable_sample(const sample& s, std::size_t number) {
   constexpr double right_angle = std::numbers::pi / 2.0;
   const bool in_range = theta_h >= 0.0 && theta_h < right_angle && theta_d >= 0.0 && theta_d < right_angle;
   if (!in_range || !(cosine.i > 0.0 && cosine.o > 0.0))
-    throw error{"sample ",        number,         ": a direction is at or below the horizon (theta_h ",
-                degrees(theta_h), ", theta_d ",   degrees(theta_d),
-                ", phi_d ",       degrees(phi_d), " degrees)"};
+    gonio::refuse({"sample ", number, ": a direction is at or below the horizon (theta_h ", degrees(theta_h),
+                   ", theta_d ", degrees(theta_d), ", phi_d ", degrees(phi_d), " degrees)"});
 }
 
-GONIO_INLINE void refuse_no_samples() { throw error("there are no samples: at least one is needed"); }
+GONIO_INLINE void refuse_no_samples() { gonio::refuse("there are no samples: at least one is needed"); }
 
 }  // namespace gonio::detail

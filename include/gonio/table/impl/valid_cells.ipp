@@ -37,7 +37,7 @@ GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshol
     }
   });
   row_begin.push_back(static_cast<std::uint32_t>(linear.size()));
-  if (linear.empty()) throw error("no cell of the grid has both directions above the horizon");
+  if (linear.empty()) refuse("no cell of the grid has both directions above the horizon");
 }
 
 }  // namespace gonio

@@ -21,6 +21,16 @@ static_assert(normal_solver<nnls_coordinate_descent>);
 
 }  // namespace gonio
 
-#if !defined(GONIO_COMPILED)
-#include <gonio/solve/impl/nnls_coordinate_descent.ipp>
-#endif
+namespace gonio {
+
+inline solution nnls_coordinate_descent::solve(const least_squares_problem& problem) const {
+  const auto start = [&](Eigen::Index column) { return iteration(problem.normal(), column); };
+  return solve_signed<sign_rule::non_negative>(problem, 0.0, "projected coordinate descent", start);
+}
+
+inline solution nnls_coordinate_descent::solve(const normal_equations& normal) const {
+  const auto start = [&](Eigen::Index column) { return iteration(normal, column); };
+  return solve_signed<sign_rule::non_negative>(normal, 0.0, "projected coordinate descent", start);
+}
+
+}  // namespace gonio

@@ -1,0 +1,25 @@
+#pragma once
+/// Random numbers that are the same everywhere: the standard fixes what std::mt19937_64 draws, not what the standard's
+/// distributions make of it.
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+namespace gonio {
+
+/// A number from 0 up to 1, of 53 random bits: all that a double holds.
+[[nodiscard]] inline double uniform_number(std::mt19937_64& generator) {
+  return static_cast<double>(generator() >> 11) * 0x1p-53;
+}
+
+/// `count` different ones of the numbers 0 ... all - 1, each set equally likely, in increasing order; all of them if
+/// there are not more. O(all).
+[[nodiscard]] std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/core/impl/random.ipp>
+#endif

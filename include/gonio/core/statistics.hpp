@@ -1,0 +1,36 @@
+#pragma once
+/// Order statistics. Each takes a vector or a span of numbers, one at least, none of which is a NaN, and reorders them:
+/// hand over a copy of what must stay in order. O(n).
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace gonio {
+
+/// The number at floor(share (n - 1)) when they are sorted: the least for a share of 0, the greatest for 1.
+template <class Numbers>
+[[nodiscard]] auto quantile(Numbers&& numbers, double share) {
+  const auto at =
+      std::begin(numbers) + static_cast<std::ptrdiff_t>(share * static_cast<double>(std::size(numbers) - 1));
+  std::nth_element(std::begin(numbers), at, std::end(numbers));
+  return *at;
+}
+
+/// The number in the middle, the upper one of an even number of them.
+template <class Numbers>
+[[nodiscard]] auto upper_median(Numbers&& numbers) {
+  const auto middle = std::begin(numbers) + std::ssize(numbers) / 2;
+  std::nth_element(std::begin(numbers), middle, std::end(numbers));
+  return *middle;
+}
+
+/// The number in the middle, or the mean of the two in the middle.
+template <class Numbers>
+[[nodiscard]] auto median(Numbers&& numbers) {
+  const auto upper = upper_median(numbers);
+  if (std::size(numbers) % 2 != 0) return upper;
+  return (*std::max_element(std::begin(numbers), std::begin(numbers) + std::ssize(numbers) / 2) + upper) / 2;
+}
+
+}  // namespace gonio

@@ -1,0 +1,32 @@
+#include <gonio/core/statistics.hpp>
+
+#include <doctest/doctest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <vector>
+
+TEST_CASE("quantiles and medians are those of the sorted numbers") {
+  CHECK(rc::check([] {
+    auto numbers = *rc::gen::nonEmpty(rc::gen::container<std::vector<double>>(
+        rc::gen::map(rc::gen::inRange(-50, 50), [](int number) { return 0.25 * number; })));
+    auto sorted = numbers;
+    std::ranges::sort(sorted);
+    const double share = 0.01 * *rc::gen::inRange(0, 101);
+    const auto at = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1));
+    RC_ASSERT(gonio::quantile(numbers, share) == sorted[at]);
+    const std::size_t middle = sorted.size() / 2;
+    RC_ASSERT(gonio::upper_median(numbers) == sorted[middle]);
+    const double lower = sorted.size() % 2 == 0 ? sorted[middle - 1] : sorted[middle];
+    RC_ASSERT(gonio::median(numbers) == 0.5 * (lower + sorted[middle]));
+    std::ranges::sort(numbers);
+    RC_ASSERT(numbers == sorted);  // reordered, no more
+  }));
+}
+
+TEST_CASE("the least and the greatest; a temporary is a vector, too") {
+  std::vector<int> numbers{4, 1, 3};
+  CHECK(gonio::quantile(numbers, 0.0) == 1);
+  CHECK(gonio::quantile(numbers, 1.0) == 4);
+  CHECK(gonio::median(std::vector<float>{2.0f, 1.0f}) == 1.5f);
+}
