@@ -63,7 +63,7 @@ void add_expand(command& app) {
   add_threads_option(command, options->threads);
   command.callback([options] {
     if (options->formula.empty() && options->name.empty())
-      gonio::refuse("expand needs a material: --name NAME of the prior or of --networks FILE, or --formula NAME");
+      gonio::refuse("expand needs a material: --name NAME (of --prior or --networks), or --formula NAME");
     write_table(options->output, table_of(*options, gonio::valid_cells()));
   });
 }

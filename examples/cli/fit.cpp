@@ -47,7 +47,7 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
 
 void fit(const fit_command_options& options) {
   if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
-    gonio::refuse("--cell-weights needs a table: samples have weights of their own");
+    gonio::refuse("--cell-weights needs a table: samples carry their own weights");
   auto kinds = lobes_named(options.model);
   if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
   std::optional<gonio::brdf_table> table;

@@ -46,7 +46,7 @@ timed_plan whole_hemisphere(const lab::robot& machine) {
 timed_plan plan_of(const plan_command& options) {
   lab::dark_room room(lab::white(), {}, {});
   if (options.whole) {
-    if (options.machine.name != "robot") gonio::refuse("--whole is the scan of --machine robot");
+    if (options.machine.name != "robot") gonio::refuse("--whole requires --machine robot");
     return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
   }
   const auto pairs = gonio::io::read_direction_pairs(options.directions);

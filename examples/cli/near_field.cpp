@@ -44,7 +44,7 @@ struct taken_image {
 std::vector<taken_image> read_images(const near_field_command& options) {
   std::vector<taken_image> taken;
   for (const auto& [picture, setup] : options.pictures) {
-    if (setup.empty()) gonio::refuse("images: " + picture + " is not followed by its set-up");
+    if (setup.empty()) gonio::refuse("images: " + picture + " needs its set-up as the next argument");
     gonio::capture::near_field_setup read = gonio::io::read_near_field_setup(setup);
     taken.push_back({picture, setup, gonio::io::read_hdr(picture), std::move(read)});
   }
@@ -144,7 +144,7 @@ gonio::capture::colour_clusters clusters_of(const taken_image& picture, const st
   const std::string& text = options.clusters;
   const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), count);
   if (failed != std::errc() || end != text.data() + text.size() || count < 1)
-    gonio::refuse("--clusters is auto or a positive number, not '" + text + "'");
+    gonio::refuse("--clusters needs a positive number, or auto, not '" + text + "'");
   return gonio::capture::cluster_colours(colours, count, options.seed, options.threads);
 }
 
@@ -200,8 +200,8 @@ void write_samples_of_each(std::vector<taken_image> pictures, const command& giv
 
 void run(const command& given, const near_field_command& options) {
   if (options.reference_in_place && options.angular_error == 0.0)
-    gonio::refuse("--reference-in-place needs --misplaced");
-  if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels is of --clusters alone");
+    gonio::refuse("--reference-in-place requires --misplaced");
+  if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels requires --clusters");
   std::vector<taken_image> pictures = read_images(options);
   if (options.clusters.empty())
     write_samples_of_one(pictures, options);

@@ -70,10 +70,10 @@ void require_taken(const command& given, const method& chosen) {
       std::string names;
       for (const method& m : methods())
         if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
-      gonio::refuse(std::string(option) + " means nothing to --method " + chosen.name + ": it needs --method " + names);
+      gonio::refuse(std::string(option) + " needs --method " + names + ", not --method " + chosen.name);
     }
   if (given.count("--truth") > 0 && given.count("--iteration-figure") == 0)
-    gonio::refuse("--truth is only for the image of --iteration-figure, which is not asked for");
+    gonio::refuse("--truth requires --iteration-figure");
 }
 
 /// A line for each round; docs/formats.md has the columns.

@@ -1,12 +1,14 @@
 #include "command.hpp"
 
 #include "declared_files.hpp"
+#include "spelling.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/io/file.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <iostream>
@@ -234,6 +236,49 @@ void clean_up_on_signals() {
   }
 }
 
+/// The long options of a subcommand, those of its groups, too.
+std::vector<std::string> long_options(const CLI::App& known) {
+  std::vector<std::string> names;
+  for (const CLI::Option* each : known.get_options())
+    for (const std::string& name : each->get_lnames()) names.push_back("--" + name);
+  for (const CLI::App* group : known.get_subcommands(nullptr))
+    if (group->get_name().empty())
+      for (std::string& name : long_options(*group)) names.push_back(std::move(name));
+  return names;
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& known) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : known.get_subcommands(nullptr))
+    if (!each->get_name().empty()) names.push_back(each->get_name());
+  return names;
+}
+
+/// The first word that is no subcommand or option where it stands, as a sentence with the nearest one that is; nothing
+/// if all words are known.
+std::string unknown_word(const CLI::App& all, int argc, char** argv) {
+  const CLI::App* at = &all;
+  std::string path = all.get_name();
+  const auto sentence = [&](const std::string& word, const char* kind, const std::vector<std::string>& known) {
+    const auto meant = nearest_word(word, known);
+    return "'" + word + "' is no " + kind + " of " + path +
+           (meant ? ": did you mean " + *meant + "?" : " (" + path + " --help lists them)");
+  };
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i], name = word.substr(0, word.find('='));
+    if (word == "--") return "";
+    if (name.starts_with("--")) {
+      const std::vector<std::string> known = long_options(*at);
+      if (std::ranges::find(known, name) == known.end()) return sentence(name, "option", known);
+    } else if (const auto known = subcommand_names(*at); !known.empty() && !word.starts_with('-')) {
+      if (std::ranges::find(known, word) == known.end()) return sentence(word, "subcommand", known);
+      at = at->get_subcommand(word);
+      path += " " + word;
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 program::program(const std::string& name, const std::string& description, const std::string& version)
@@ -259,6 +304,8 @@ int program::run(int argc, char** argv) {
   } catch (const CLI::Success& request) {  // --help and --version
     return all_->exit(request);
   } catch (const CLI::ParseError& error) {
+    const std::string unknown = unknown_word(*all_, argc, argv);
+    if (!unknown.empty()) return complain(unknown, bad_input);
     return complain(std::string(error.what()) + " (" + name_ + " --help shows the usage)", bad_input);
   } catch (const gonio::error& error) {
     return complain(error.what(), bad_input);

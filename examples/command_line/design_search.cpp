@@ -57,7 +57,7 @@ capture_plan sweep(const Objective& objective, const design_options& options, co
 template <class Objective>
 capture_plan slide(const Objective& objective, const design_options& options, const gonio::progress& listener) {
   if (!options.start.empty())
-    gonio::refuse("a start can be added to by the expected error and an exhaustive search only");
+    gonio::refuse("--start needs --criterion expected-error or perceived, and an exhaustive search");
   return gonio::design::grow_and_descend(objective.geometry(), objective, options.count, random_candidates,
                                          options.seed, listener);
 }
@@ -132,14 +132,14 @@ designed with_one_fixed(const prior_t& prior, const design_options& options,
 designed design(const gonio::log_relative_pca& prior, const design_options& options, const gonio::progress& listener) {
   const bool expects_errors = options.criterion == "expected-error" || options.criterion == "perceived";
   if (options.angular_error != 0.0 && !(options.geometry == "point" && expects_errors))
-    gonio::refuse("directions that are not quite met are expected of points alone, by the expected error");
+    gonio::refuse("--misplaced needs --geometry point and --criterion expected-error or perceived");
   if (!expects_errors && (options.common_shift != 0.0 || options.in_sample))
-    gonio::refuse("--common-shift and --in-sample are of --criterion expected-error or perceived, not of " +
+    gonio::refuse("--common-shift and --in-sample need --criterion expected-error or perceived, not " +
                   options.criterion);
   if (options.criterion == "condition" && options.noise != 0.0)
-    gonio::refuse("--noise means nothing to --criterion condition, which knows of no noise");
+    gonio::refuse("--noise needs --criterion expected-error or perceived: a condition number does not depend on noise");
   if (!(options.angular_error >= 0.0 && options.angular_error < gonio::radians(45.0)))
-    gonio::refuse("directions may be off by 0 to 45 degrees, not by " +
+    gonio::refuse("--misplaced needs an angle from 0 to 45 degrees, not " +
                   std::to_string(gonio::degrees(options.angular_error)));
   const auto& near_field = options.near_field;
   if (options.geometry == "point")

@@ -28,8 +28,8 @@ const gonio::model::lobe_kind& with_fresnel_factor(const gonio::model::lobe_kind
   const std::string name = std::string(kind.name()) + "-fresnel";
   for (const gonio::model::lobe_kind* other : gonio::model::lobe_kinds())
     if (other->name() == name) return *other;
-  gonio::refuse("there is no " + std::string(kind.name()) +
-                " with Fresnel's factor: it is for phong, blinn-phong and phong-blinn (microfacet models have it)");
+  gonio::refuse(std::string(kind.name()) +
+                " takes no --fresnel: expected phong, blinn-phong or phong-blinn (microfacet models have the factor)");
 }
 
 void add_fit_options(command& to, gonio::model::model_fit_options& options) {

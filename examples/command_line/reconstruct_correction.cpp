@@ -23,7 +23,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   double gamma = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), gamma);
   if (status != std::errc() || end != text.data() + text.size() || !(gamma >= 0.0 && std::isfinite(gamma)))
-    gonio::refuse("--gamma is a number that is not negative, or auto, not '" + text + "'");
+    gonio::refuse("--gamma needs a number of at least 0, or auto, not '" + text + "'");
   return gamma;
 }
 
@@ -31,7 +31,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) gonio::refuse(folder.string() + ": the folder cannot be made: " + failed.message());
+  if (failed) gonio::refuse(folder.string() + ": cannot make the folder: " + failed.message());
 }
 
 template <class Run>

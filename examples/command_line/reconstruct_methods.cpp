@@ -71,16 +71,16 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
 reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
   if (options.noise && !options.solver.eta.empty())
-    gonio::refuse("--noise and --eta both say what the penalty is: give one of them");
+    gonio::refuse("--noise and --eta both set the penalty: give one of them");
   if (options.noise && !penalised)
-    gonio::refuse("--noise chooses the penalty of tikhonov: it means nothing to --solver " + options.solver.name);
+    gonio::refuse("--noise sets the penalty of --solver tikhonov, not of --solver " + options.solver.name);
   const auto solver = make_solver(options.solver, {"tikhonov", "gcv"});
   if (solver.non_negative())
     gonio::refuse("--solver " + options.solver.name +
-                  " finds weights >= 0, which mean nothing for principal components, whose signs are arbitrary: "
-                  "use tikhonov, lasso, tsvd or ls, or --method linear");
+                  " finds weights of at least 0, but the signs of principal components are arbitrary: "
+                  "give --solver tikhonov, lasso, tsvd or ls, or --method linear");
   if (!options.metric.empty() && options.metric != "log-relative")
-    gonio::refuse("a prior is learned under the log-relative metric: --metric " + options.metric +
+    gonio::refuse("--prior was learned under the log-relative metric: --metric " + options.metric +
                   " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");

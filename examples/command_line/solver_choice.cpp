@@ -35,7 +35,7 @@ double number_of_eta(const std::string& text) {
   double value = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (status != std::errc() || end != text.data() + text.size())
-    gonio::refuse("--eta is a positive number, gcv or loo, not '" + text + "'");
+    gonio::refuse("--eta needs a positive number, gcv or loo, not '" + text + "'");
   return value;
 }
 
@@ -64,7 +64,7 @@ gonio::any_solver make_solver(solver_choice choice, const solver_choice& own) {
   if (choice.name == "tsvd") return gonio::truncated_svd(choice.variance);
   if (choice.name == "ls") return gonio::least_squares();
   if (!(choice.lambda >= 0.0 && choice.lambda <= 1.0))
-    gonio::refuse("--lambda is a share from 0 to 1, not " + std::to_string(choice.lambda));
+    gonio::refuse("--lambda needs a share from 0 to 1, not " + std::to_string(choice.lambda));
   return relative_lasso{choice.lambda};
 }
 

@@ -10,7 +10,7 @@ gonio::valid_cells thinning::of(const gonio::valid_cells& cells) const {
   const gonio::grid_extents extents = cells.grid().extents();
   const auto [theta_d, phi_d] = steps;
   if (extents.theta_d % theta_d != 0 || extents.phi_d % phi_d != 0)
-    gonio::refuse("--thin " + std::to_string(theta_d) + " " + std::to_string(phi_d) + " does not divide the table's " +
+    gonio::refuse("--thin " + std::to_string(theta_d) + " " + std::to_string(phi_d) + " must divide the table's " +
                   std::to_string(extents.theta_d) + " and " + std::to_string(extents.phi_d) + " cells");
   const gonio::grid kept({extents.theta_h, extents.theta_d / theta_d, extents.phi_d / phi_d}, cells.grid().anchor());
   return gonio::valid_cells(kept, cells.minimum_cosine());

@@ -33,7 +33,12 @@ TEST_CASE("help is no error") {
 
 TEST_CASE("wrong command lines") {
   refuses("", {"subcommand"});
-  refuses("reconstruckt x", {"gonio --help"});
+  refuses("reconstruckt x", {"'reconstruckt' is no subcommand of gonio: did you mean reconstruct?"});
+  refuses("frobnicate x", {"'frobnicate' is no subcommand of gonio (gonio --help lists them)"});
+  refuses("lab paln x", {"'paln' is no subcommand of gonio lab: did you mean plan?"});
+  refuses("design -n 2 --geomtry point", {"'--geomtry' is no option of gonio design: did you mean --geometry?"});
+  refuses("design -n 2 --frobnicate=3",
+          {"'--frobnicate' is no option of gonio design (gonio design --help lists them)"});
   refuses("sample", {"table"});
   refuses("expand -o x.binary", {"--networks", "--formula"});
   refuses("expand --name no-such-stone -o x.binary", {"no-such-stone", "materials.prior"});

@@ -132,7 +132,7 @@ TEST_CASE("samples that may be off their directions count less where that matter
        {std::pair{" --misplaced 1 --eta gcv", "--noise or a number as its --eta"},
         std::pair{" --misplaced 1 --solver lasso", "--solver tikhonov"},
         std::pair{" --misplaced -2", "0 to 45 degrees, not by -2"},
-        std::pair{" --misplaced 1 --method linear", "--misplaced means nothing to --method linear"}}) {
+        std::pair{" --misplaced 1 --method linear", "--misplaced needs --method pca"}}) {
     CAPTURE(arguments);
     const auto refused = run(arguments);
     CHECK(refused.exit_code == 2);

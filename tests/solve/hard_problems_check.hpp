@@ -101,8 +101,7 @@ inline void check(family what, unsigned seed, std::map<std::string, tally>& tall
       const verdict by_rows = judge(problem, found.weights.col(0), each.lambda, each.non_negative);
       sum.violation = std::max(sum.violation, by_rows.violation);
       if (!(by_rows.violation <= 1e-9)) wrong("violation " + std::to_string(by_rows.violation * 1e9) + "e-9");
-      if (!(by_rows.residual <= 1.0 + 1e-12))
-        wrong("residual " + std::to_string(by_rows.residual) + " |b|");
+      if (!(by_rows.residual <= 1.0 + 1e-12)) wrong("residual " + std::to_string(by_rows.residual) + " |b|");
       if (!reference) reference = by_rows.objective;
       const double apart = std::abs(by_rows.objective - *reference);
       sum.disagreement = std::max(sum.disagreement, apart);

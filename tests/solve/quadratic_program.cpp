@@ -179,8 +179,9 @@ TEST_CASE("larger problems are certified, whatever their rank, condition and sca
     const normal_equations normal = units.equations(problem);
     const auto constraints = random_constraints(k, any.number(0, 12), any.number(0, 6), any.coin(), any.seed + 50);
     RC_ASSERT(quadratic_program(units.constraints(constraints)).solve(normal).report.kkt_residual[0] <= 1e-9);
-    RC_ASSERT(quadratic_program<convex_weights>().solve(normal_equations(problem.Q, problem.m)).report.kkt_residual[0] <=
-              1e-9);
+    RC_ASSERT(
+        quadratic_program<convex_weights>().solve(normal_equations(problem.Q, problem.m)).report.kkt_residual[0] <=
+        1e-9);
     const auto found = quadratic_program<>().solve(normal);
     RC_ASSERT(found.report.kkt_residual[0] <= 1e-9);
     RC_ASSERT(kkt_violation(normal, found.weights, 0.0, sign_rule::non_negative)[0] <= 1e-9);

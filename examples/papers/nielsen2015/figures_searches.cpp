@@ -80,7 +80,7 @@ std::vector<record> race(const std::string& name, const Objective& objective, st
 std::vector<std::size_t> race_counts(const options& given) {
   std::vector<std::size_t> counts{2, 5, 10, 15, 20};
   std::erase_if(counts, [&](std::size_t n) { return n > given.up_to(20); });
-  if (counts.empty()) gonio::refuse("the searches are compared from two measurements on: expected --most 2");
+  if (counts.empty()) gonio::refuse("--most needs at least 2: searches are compared from two measurements on");
   return counts;
 }
 

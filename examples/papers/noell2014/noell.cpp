@@ -37,7 +37,7 @@ struct noell_options {
   if (choice == "test") return gonio::nielsen_test_materials();
   if (choice == "all") return names;
   if (std::ranges::find(names, choice) == names.end())
-    gonio::refuse("--materials is test, all or the name of one, not '" + choice + "'");
+    gonio::refuse("--materials needs test, all, or the name of a material, not '" + choice + "'");
   return {choice};
 }
 

@@ -268,9 +268,9 @@ void write_set(const directions_options& options, const json& row) {
 
 void run(const directions_options& options) {
   if (options.geometry == "sphere" && options.angular_error > 0.0)
-    gonio::refuse("--misplaced is of points and near-field images, not of a sphere's");
+    gonio::refuse("--misplaced needs --geometry point or near-field");
   if (options.expected > 0.0 && options.geometry == "sphere")
-    gonio::refuse("--expected-misplacement is of points and near-field images, not of a sphere's");
+    gonio::refuse("--expected-misplacement needs --geometry point or near-field");
   progress_bar bar;
   const auto listener = bar.listener();
   resumable_results results(options.state);

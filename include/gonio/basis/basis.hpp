@@ -15,9 +15,9 @@
 
 namespace gonio {
 
-/// What every basis has: `size()` functions over `cells()`; a BRDF is modelled at a place, mapped by `metric()`, as
-/// offset + row . weights, where the row holds the values of all functions there. What is modelled over another domain
-/// than the cells of a grid, as shapes are over coordinates, is so in the same way.
+/// What every basis has: `size()` functions over `cells()`. At a location it models a BRDF, mapped by `metric()`, as
+/// offset + row . weights; the row holds the values of all functions there. Other domains, such as vertex coordinates,
+/// work the same way.
 template <class Basis>
 concept function_set = requires(const Basis& functions, std::size_t cell) {
   { functions.size() } -> std::convertible_to<std::size_t>;

@@ -46,8 +46,7 @@ template <basis Basis>
   return rows;
 }
 
-/// The same measurements in fewer rows Z and noise u: of all with Z'Z = R'R and Z'u = R'O but for what is smaller than
-/// `negligible`, the shortest.
+/// The fewest rows (Z, u) that reproduce R'R and R'O, ignoring eigenvalues below `negligible`.
 ///
 /// With R'R = V L V' these are Z = L^1/2 V' and u = L^-1/2 V'R'O. A solution that is penalised by eta leaves eta / (eta
 /// + L) of a direction V unknown, which is hardly less than all where L is far below eta. O(n k min(n, k)).

@@ -1,10 +1,10 @@
 #pragma once
 /// Tikhonov's penalty eta (Nielsen et al. 2015, Eq. 12) as what it is, a noise parameter.
 ///
-/// The m observations' coefficients have orthonormal columns, so that a weight has the variance 1 / m, and |Q c - y|^2
-/// + eta |c|^2 is least at the posterior mean of rows whose errors have the variance eta / m: that of the noise, and of
-/// what the basis cannot say of a new material. The latter is what leaving out each material that it was learned from
-/// tells. docs/eta.md has what comes of it.
+/// Prior: c ~ N(0, I/m), since the coefficients of the m training observations have orthonormal columns. With row error
+/// variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2 |c|^2. sigma^2 is the variance of the noise
+/// plus that of the model error, which is estimated by leaving out each training material. Results:
+/// docs/results/eta.md.
 
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>

@@ -1,8 +1,9 @@
 #pragma once
-/// Measurements as a mixture of good ones, which scatter about an estimate, and of outliers, which are anything that
-/// was measured at all. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma, "depending on the
-/// dynamic range and the outlier ratio") is estimated here from the residuals by expectation and maximisation
-/// (Dempster, Laird and Rubin 1977); good residuals follow Student's t (Lange, Little and Taylor 1989).
+/// Measurements as a mixture of inliers, which scatter about an estimate, and of outliers. Outliers follow a smoothed
+/// density of all measured values. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma,
+/// "depending on the dynamic range and the outlier ratio") is estimated here from the residuals by expectation and
+/// maximisation (Dempster, Laird and Rubin 1977); inliers' residuals follow Student's t (Lange, Little and Taylor
+/// 1989).
 
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_weights.hpp>

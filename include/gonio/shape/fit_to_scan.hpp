@@ -24,8 +24,8 @@ struct fit_to_scan_options {
   /// cannot say, and because the closest place of a scan is not the corresponding one. Decides how much the scan is
   /// trusted against the family; where the scan is noisier than this, it is trusted less.
   double position_error = 0.3;
-  /// Are places that are far off for their number hardly trusted? Noise at the edges of holes is then left out, but a
-  /// scan of something else is not told by its weights.
+  /// Down-weight outlying correspondences (Geman-McClure). Noise at the edges of holes then counts little, but the
+  /// weights no longer tell a scan of something else.
   bool robust = false;
   double tolerance = 1e-3;  ///< the change of the shape that ends the iteration, root mean square in mm
   int most_iterations = 100;

@@ -84,9 +84,9 @@ void require_etas(const eta_range& range);
 /// the upper end that the rows do not predict each other. With few rows that happens by chance: whoever knows more
 /// says which etas are plausible, and the choice is among these (`plausible_etas` asks a prior).
 ///
-/// Only rows of positive weight are observations. Throws gonio::error if there are less than two, because what is
-/// predicted from no observation does not depend on eta, unless the range has an upper end, which it is then; if they
-/// are all zero; if one is not finite; and for an impossible range.
+/// Only rows of positive weight are observations. With fewer than two observations, returns `plausible.highest` if
+/// finite; otherwise throws. Throws gonio::error also if all observations are zero, if one is not finite, and for an
+/// impossible range.
 ///
 /// n x n dual: O(n^2 k + n^3). Tall: O(n k^2 + k^3), and leave-one-out reads the rows twice for O(n k (k + E r)) with
 /// the number of candidates E.

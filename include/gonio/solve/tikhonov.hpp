@@ -15,8 +15,9 @@ class tikhonov {
  public:
   enum class form { automatic, primal, dual };
 
-  /// Throws gonio::error unless eta is positive and finite. With columns scaled to unit variance (pca) eta
-  /// is the variance of the noise, in the metric's units, summed over what the basis cannot say.
+  /// Throws gonio::error unless eta is positive and finite. For principal components of m training observations, eta =
+  /// m sigma^2: sigma^2 is the error variance of one row, noise plus model error, in the metric's units
+  /// (`eta_of_noise`).
   explicit tikhonov(double eta, form solved_as = form::automatic);
 
   [[nodiscard]] double eta() const noexcept { return eta_; }

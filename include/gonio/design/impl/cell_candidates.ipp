@@ -94,8 +94,7 @@ GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<cons
 GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> sample_noise_penalties,
                                                      std::size_t cells) {
   if (sample_noise_penalties.size() != cells)
-    refuse(std::to_string(sample_noise_penalties.size()) + " etas of their own for " + std::to_string(cells) +
-           " cells");
+    refuse({"expected ", cells, " per-cell penalties, got ", sample_noise_penalties.size()});
   for (const double eta : sample_noise_penalties)
     if (!(eta >= 0.0 && std::isfinite(eta)))
       refuse("a cell's own eta must be finite and not negative, not " + std::to_string(eta));

@@ -1,0 +1,32 @@
+#include "spelling.hpp"
+
+#include <algorithm>
+
+namespace cli {
+
+std::size_t spelling_distance(std::string_view one, std::string_view other) {
+  // Row i of the table is that of the first i letters of `one`; three rows are kept.
+  std::vector<std::size_t> before_last, last(other.size() + 1), now(other.size() + 1);
+  for (std::size_t j = 0; j <= other.size(); ++j) last[j] = j;
+  for (std::size_t i = 1; i <= one.size(); ++i) {
+    now[0] = i;
+    for (std::size_t j = 1; j <= other.size(); ++j) {
+      const std::size_t replaced = last[j - 1] + (one[i - 1] == other[j - 1] ? 0 : 1);
+      now[j] = std::min({replaced, last[j] + 1, now[j - 1] + 1});
+      const bool exchanged = i > 1 && j > 1 && one[i - 1] == other[j - 2] && one[i - 2] == other[j - 1];
+      if (exchanged) now[j] = std::min(now[j], before_last[j - 2] + 1);
+    }
+    before_last = last;
+    last = now;
+  }
+  return last.back();
+}
+
+std::optional<std::string> nearest_word(std::string_view misspelt, const std::vector<std::string>& words) {
+  const auto distance = [&](const std::string& word) { return spelling_distance(misspelt, word); };
+  const auto nearest = std::ranges::min_element(words, {}, distance);
+  if (nearest == words.end() || 3 * distance(*nearest) > std::max(misspelt.size(), nearest->size())) return {};
+  return *nearest;
+}
+
+}  // namespace cli
