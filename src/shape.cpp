@@ -10,3 +10,4 @@
 #include <gonio/shape/impl/shape_basis.ipp>
 #include <gonio/shape/impl/shape_model.ipp>
 #include <gonio/shape/impl/shape_uncertainty.ipp>
+#include <gonio/shape/impl/shape_with_motion.ipp>

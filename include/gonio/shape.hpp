@@ -27,6 +27,7 @@
 #include <gonio/shape/shape_context_alignment.hpp>
 #include <gonio/shape/shape_model.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/shape/shape_with_motion.hpp>
 #include <gonio/shape/surface_distance.hpp>
 #include <gonio/shape/surface_index.hpp>
 #include <gonio/shape/surface_noise.hpp>

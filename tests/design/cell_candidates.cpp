@@ -65,7 +65,7 @@ TEST_CASE("the same bytes for any number of threads") {
 TEST_CASE("errors of their own are those of all cells, and sensible") {
   std::vector<double> etas = synthetic_sample_noise_penalties();
   etas.pop_back();
-  CHECK_THROWS_WITH_AS(synthetic_candidates({}, {}, etas), doctest::Contains("etas of their own for"), gonio::error);
+  CHECK_THROWS_WITH_AS(synthetic_candidates({}, {}, etas), doctest::Contains("per-cell penalties, got"), gonio::error);
   etas.push_back(-1.0);
   CHECK_THROWS_WITH_AS(synthetic_candidates({}, {}, etas), doctest::Contains("not negative"), gonio::error);
 }

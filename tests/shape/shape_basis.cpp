@@ -49,28 +49,6 @@ TEST_CASE("a share of the variance keeps the fewest components that have it") {
                        "the explained variance must be above 0 and at most 1, not 0.000000", gonio::error);
 }
 
-TEST_CASE("the last functions of a basis with motion turn and shift a shape") {
-  const gonio::shape::shape_basis basis = synthetic_basis(synthetic_shapes(8, 6, 3, 6));
-  const double freedom = 100.0;
-  Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.size()) + 6);
-  weights.head(basis.size()) = basis.weights_of(4).col(0).cast<double>();
-  const gonio::shape::point_columns shape = gonio::shape::shape_of(basis, weights.head(basis.size()));
-  const gonio::shape::shape_basis moving = gonio::shape::with_motion(basis, shape, freedom);
-  REQUIRE(moving.size() == basis.size() + 6);
-  const Eigen::Vector3d centroid = shape.rowwise().mean(), turn(0.01, -0.02, 0.03), shift(1.0, 2.0, -3.0);
-  weights.tail<6>() << turn / freedom, shift / freedom;
-  gonio::shape::point_columns expected = shape.colwise() + shift;
-  for (Eigen::Index v = 0; v < shape.cols(); ++v) expected.col(v) += turn.cross(shape.col(v) - centroid);
-  CHECK((gonio::shape::shape_of(moving, weights) - expected).cwiseAbs().maxCoeff() < 1e-4);
-  CHECK_THROWS_WITH_AS((void)gonio::shape::with_motion(basis, shape.leftCols(3)),
-                       "a shape of 3 vertices is to move with a basis of 8", gonio::error);
-  // They are no shapes that were learned from.
-  CHECK((gonio::shape::shape_of(moving, moving.weights_of(2).col(0)) -
-         gonio::shape::shape_of(basis, basis.weights_of(2).col(0)))
-            .cwiseAbs()
-            .maxCoeff() < 1e-6);
-}
-
 TEST_CASE("shapes that do not belong together are refused") {
   auto shapes = synthetic_shapes(4, 3, 2, 5);
   CHECK_THROWS_WITH_AS(gonio::shape::shape_set::of(shapes, synthetic_names(2)),

@@ -33,10 +33,11 @@ struct fit_to_scan_options {
 
 /// A model on a scan.
 struct fit_to_scan_result {
-  similarity_transform pose;   ///< from the scan to the model
-  fitted_shape fit;            ///< in the model's space, by the components that took part, with their motion last
-  vertex_observations places;  ///< where the scan shows the vertices
-  tikhonov solver;             ///< what found the weights
+  similarity_transform pose;    ///< from the scan to the model
+  shape_with_motion functions;  ///< in the model's space: the components that took part, and motion
+  Eigen::VectorXd all_weights;  ///< of these functions
+  vertex_observations places;   ///< where the scan shows the vertices
+  tikhonov solver;              ///< what found the weights
   int iterations = 0;
 
   /// The vertices in the model's space, where the pose has taken their motion.

@@ -66,18 +66,6 @@ static_assert(tabulated_basis<shape_basis>);
 /// and at most 1.
 [[nodiscard]] shape_basis truncated_to_variance(const shape_basis& basis, double share);
 
-/// How many functions `with_motion` adds.
-inline constexpr Eigen::Index motions = 6;
-
-/// The same basis and, as its last six functions, what a small turn about each axis through the centroid of `shape` and
-/// a shift along each does to that shape. Their weights are the turn in radians and the shift in the unit of the mesh,
-/// each divided by `freedom`: the larger it is, the less a solver's penalty holds the shape in place.
-///
-/// What is moved is a shape of the family, not its mean: a turn of the mean differs from one of the shape by a change
-/// of shape, and a fit that may turn the mean only ends where the shape would still turn. Throws gonio::error for a
-/// shape of another number of vertices.
-[[nodiscard]] shape_basis with_motion(const shape_basis& basis, const point_columns& shape, double freedom = 1e3);
-
 }  // namespace gonio::shape
 
 #if !defined(GONIO_COMPILED)

@@ -4,6 +4,7 @@
 
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/shape_basis.hpp>
+#include <gonio/shape/shape_with_motion.hpp>
 #include <gonio/solve/any_solver.hpp>
 
 #include <Eigen/Core>
@@ -25,6 +26,9 @@ class shape_uncertainty {
   /// Of a fit by `solver` of these known vertices: O(3 known x k^2) for a basis of k components. Throws gonio::error
   /// for known vertices that `fit_shape` refuses.
   shape_uncertainty(const fitted_shape& fit, const vertex_observations& known, const any_solver& solver);
+  /// The same of a shape that may move, with the weights of all its functions.
+  shape_uncertainty(const shape_with_motion& functions, const Eigen::VectorXd& weights,
+                    const vertex_observations& known, const any_solver& solver);
 
   /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) about where it is predicted with this
   /// probability: 3 F of 3 and m - 3 - k degrees of freedom, which for many shapes is chi-square of 3.
@@ -38,7 +42,10 @@ class shape_uncertainty {
  private:
   [[nodiscard]] Eigen::Matrix3d unscaled(Eigen::Index vertex) const;
 
-  shape_basis basis_;
+  void find(const least_squares_problem& problem, const Eigen::VectorXd& weights, double shapes,
+            const any_solver& solver);
+
+  cell_matrix functions_;
   Eigen::MatrixXd unseen_;  // I - R
   double scale_ = 0.0, published_scale_ = 0.0, degrees_of_freedom_ = 0.0;
 };

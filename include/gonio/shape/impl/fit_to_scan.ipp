@@ -4,11 +4,13 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/estimate/basis_equations.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/shape_model.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
+#include <gonio/shape/shape_with_motion.hpp>
 #include <gonio/shape/surface_noise.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
@@ -24,22 +26,17 @@
 
 namespace gonio::shape {
 
-GONIO_INLINE point_columns fit_to_scan_result::shape() const {
-  Eigen::VectorXd still = fit.weights();
-  for (Eigen::Index i = still.size() - motions; i < still.size(); ++i) still[i] = 0.0;
-  return shape_of(fit.functions(), still);
-}
+GONIO_INLINE point_columns fit_to_scan_result::shape() const { return shape_of(functions.shape(), weights()); }
 
-GONIO_INLINE Eigen::VectorXd fit_to_scan_result::weights() const {
-  const Eigen::VectorXd all = fit.weights();
-  return all.head(all.size() - motions);
-}
+GONIO_INLINE Eigen::VectorXd fit_to_scan_result::weights() const { return functions.split(all_weights).shape; }
 
 GONIO_INLINE double fit_to_scan_result::squared_distance() const {
-  return squared_mahalanobis(fit.functions(), weights());
+  return squared_mahalanobis(functions.shape(), weights());
 }
 
-GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const { return {fit, places, solver}; }
+GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const {
+  return {functions, all_weights, places, solver};
+}
 
 GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
   constexpr std::size_t least = 10;
@@ -76,23 +73,6 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return weights;
 }
 
-/// The rigid motion that the last weights of a basis `with_motion` of a shape stand for.
-[[nodiscard]] GONIO_INLINE similarity_transform motion_of(const Eigen::VectorXd& weights, const point_columns& shape,
-                                                          double freedom) {
-  const Eigen::Index first = weights.size() - motions;
-  Eigen::Vector3d turn, shift;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    turn[axis] = freedom * weights[first + axis];
-    shift[axis] = freedom * weights[first + 3 + axis];
-  }
-  const double angle = turn.norm();
-  similarity_transform motion;
-  if (angle > 0.0) motion.rotation = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  const Eigen::Vector3d centroid = centroid_of(shape);
-  motion.translation = centroid + shift - motion.rotation * centroid;
-  return motion;
-}
-
 /// The places of a posed scan that a shape has, and how far to trust them.
 [[nodiscard]] GONIO_INLINE vertex_observations trusted_places(const posed_scan& scan, const triangle_mesh& shape,
                                                               const fit_to_scan_options& options,
@@ -111,25 +91,26 @@ namespace gonio::shape {
 GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surface_index& scan,
                                             const similarity_transform& pose, const fit_to_scan_options& options,
                                             thread_count threads) {
-  constexpr double freedom = 1e3;
   const shape_model part = model.truncated_to_variance(options.explained_variance);
   const tikhonov solver{static_cast<double>(part.shapes()) * options.position_error * options.position_error};
-  const auto k = static_cast<Eigen::Index>(part.basis().size());
   triangle_mesh shape = part.mean();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
   posed_scan posed{scan, pose, detail::surface_weights(scan, options.position_error)};
   for (int iteration = 1;; ++iteration) {
     vertex_observations places = detail::trusted_places(posed, shape, options, threads);
     require_shown(places, part);
-    fitted_shape fit = fit_shape(with_motion(part.basis(), shape.vertices, freedom), solver, places, threads);
+    shape_with_motion functions(part.basis(), shape.vertices);
+    const basis_equations equations(functions, locate_vertices(functions.cells(), places), threads);
+    Eigen::VectorXd weights = equations.solve(solver).weights.col(0);
+    const auto [shape_weights, motion] = functions.split(weights);
     // The scan moves, not the shape.
-    posed.pose = detail::motion_of(fit.weights(), shape.vertices, freedom).inverse() * posed.pose;
-    point_columns vertices = shape_of(part.basis(), fit.weights().head(k));
+    posed.pose = motion.inverse() * posed.pose;
+    point_columns vertices = shape_of(part.basis(), shape_weights);
     const double change = (vertices - shape.vertices).norm();
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
     places = detail::trusted_places(posed, shape, options, threads);
-    return {posed.pose, std::move(fit), std::move(places), solver, iteration};
+    return {posed.pose, std::move(functions), std::move(weights), std::move(places), solver, iteration};
   }
 }
 

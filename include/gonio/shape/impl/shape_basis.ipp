@@ -66,40 +66,4 @@ GONIO_INLINE shape_basis truncated_to_variance(const shape_basis& basis, double 
   return basis.truncated(kept);
 }
 
-GONIO_INLINE shape_basis with_motion(const shape_basis& basis, const point_columns& shape, double freedom) {
-  if (shape.size() != basis.components().rows())
-    refuse({"a shape of ", shape.cols(), " vertices is to move with a basis of ", basis.components().rows() / 3});
-  const auto k = static_cast<Eigen::Index>(basis.size());
-  const Eigen::Vector3d centroid = centroid_of(shape);
-  cell_matrix functions(basis.components().rows(), k + motions);
-  functions.leftCols(k) = basis.components();
-  const auto scale = static_cast<float>(freedom);
-  for (Eigen::Index vertex = 0; vertex < shape.cols(); ++vertex) {
-    std::array<float, 3> arm{};
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      arm[static_cast<std::size_t>(axis)] = static_cast<float>(shape(axis, vertex) - centroid[axis]);
-    // turn x arm, and the shift
-    const std::array<std::array<float, motions>, 3> moved{
-        {{0, arm[2], -arm[1], 1, 0, 0}, {-arm[2], 0, arm[0], 0, 1, 0}, {arm[1], -arm[0], 0, 0, 0, 1}}};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t motion = 0; motion < motions; ++motion)
-        functions(3 * vertex + static_cast<Eigen::Index>(axis), k + static_cast<Eigen::Index>(motion)) =
-            scale * moved[axis][motion];
-  }
-  Eigen::VectorXd singular_values = Eigen::VectorXd::Zero(k + motions);
-  singular_values.head(k) = basis.singular_values();
-  for (Eigen::Index motion = k; motion < k + motions; ++motion) {
-    double sum = 0.0;
-    for (Eigen::Index row = 0; row < functions.rows(); ++row) {
-      const double value = functions(row, motion);
-      sum += value * value;
-    }
-    singular_values[motion] = std::sqrt(sum);
-  }
-  Eigen::MatrixXf coefficients = Eigen::MatrixXf::Zero(basis.coefficients().rows(), k + motions);
-  coefficients.leftCols(k) = basis.coefficients();
-  return shape_basis({basis.cells(), basis.metric(), basis.names(), std::move(singular_values), std::move(functions),
-                      basis.mean(), std::move(coefficients), basis.explained_variance(), basis.source()});
-}
-
 }  // namespace gonio::shape
