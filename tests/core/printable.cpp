@@ -35,6 +35,6 @@ TEST_CASE("bytes that are no UTF-8 are written as their codes") {
 
 TEST_CASE("what a message in parts quotes cannot steer a terminal") {
   const std::string name = "evil\x1b]0;title\x07.npy";
-  const gonio::error refusal{name, ": holds elements of type '", "\x1b[31m", "'"};
+  const gonio::error refusal(gonio::message_of({name, ": holds elements of type '", "\x1b[31m", "'"}));
   CHECK(refusal.what() == std::string("evil\\x1b]0;title\\x07.npy: holds elements of type '\\x1b[31m'"));
 }
