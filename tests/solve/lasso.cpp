@@ -107,9 +107,9 @@ TEST_CASE("a column that could shorten the weights takes the place of the two it
   CHECK_FALSE(warm.converged());
   gonio::run_to_convergence(cold, 100, "cold");
   gonio::run_to_convergence(warm, 100, "warm");
-  CHECK(warm.weights().isApprox(cold.weights(), 1e-12));
-  CHECK(warm.weights()[0] == 0.0);
-  CHECK(warm.weights()[2] == doctest::Approx((2.0 - 0.01) / 2.0));
+  CHECK(warm.result().isApprox(cold.result(), 1e-12));
+  CHECK(warm.result()[0] == 0.0);
+  CHECK(warm.result()[2] == doctest::Approx((2.0 - 0.01) / 2.0));
 }
 
 TEST_CASE("penalties and paths that mean nothing are refused") {

@@ -177,7 +177,7 @@ TEST_CASE("the iteration steps by hand, and the objective never rises") {
   double last = 0.0;
   int steps = 0;
   for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step(), ++steps) {
-    const double objective = normal.objective(run.weights())[0];
+    const double objective = normal.objective(run.result())[0];
     CHECK(objective <= last);
     last = objective;
   }
@@ -191,7 +191,7 @@ TEST_CASE("a warm start from the optimum has nothing to do") {
   gonio::nnls::iteration run(normal, 0);
   run.start_from(found.weights.col(0));
   CHECK(run.converged());
-  CHECK(run.weights().isApprox(found.weights.col(0), 1e-12));
+  CHECK(run.result().isApprox(found.weights.col(0), 1e-12));
 }
 
 TEST_CASE("block pivoting steps by hand to the weights of the active set, where nothing is free too") {
@@ -203,7 +203,7 @@ TEST_CASE("block pivoting steps by hand to the weights of the active set, where 
                                             {against, Eigen::MatrixXd::Zero(normal.unknowns(), 1).eval()}}) {
     gonio::nnls_block_pivoting::iteration run(equations, 0);
     gonio::run_to_convergence(run, gonio::step_limit(equations.unknowns()), "block principal pivoting");
-    CHECK(run.weights().isApprox(expected.col(0), 1e-10));
+    CHECK(run.result().isApprox(expected.col(0), 1e-10));
   }
 }
 
@@ -212,7 +212,7 @@ TEST_CASE("an iteration that does not end is an error") {
     Eigen::VectorXd x;
     void step() {}
     bool converged() const { return false; }
-    const Eigen::VectorXd& weights() const { return x; }
+    const Eigen::VectorXd& result() const { return x; }
   };
   endless run;
   CHECK_THROWS_WITH_AS(gonio::run_to_convergence(run, 50, "this method"),

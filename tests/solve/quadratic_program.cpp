@@ -291,11 +291,11 @@ TEST_CASE("every start ends at the same optimum, and at once from the optimum's 
     dual_active_set warm(program, q, cold.active());
     gonio::run_to_convergence(warm, 1000, "the warm start");
     RC_ASSERT(warm.changes() == 0);
-    const double size = 1e-10 * (1.0 + cold.weights().cwiseAbs().maxCoeff());
-    RC_ASSERT((cold.weights() - arbitrary.weights()).cwiseAbs().maxCoeff() <= size);
-    RC_ASSERT((cold.weights() - warm.weights()).cwiseAbs().maxCoeff() <= size);
+    const double size = 1e-10 * (1.0 + cold.result().cwiseAbs().maxCoeff());
+    RC_ASSERT((cold.result() - arbitrary.result()).cwiseAbs().maxCoeff() <= size);
+    RC_ASSERT((cold.result() - warm.result()).cwiseAbs().maxCoeff() <= size);
     const auto optimum = gonio::program_solver(normal, constraints).solve(0);
-    RC_ASSERT((cold.weights() - optimum.weights).cwiseAbs().maxCoeff() <= size);
+    RC_ASSERT((cold.result() - optimum.weights).cwiseAbs().maxCoeff() <= size);
     RC_ASSERT(kkt_violation(normal, 0, optimum.weights, constraints, optimum.multipliers) <= 1e-10);
   }));
 }
@@ -306,9 +306,9 @@ TEST_CASE("the objective of the dual method rises, up to the optimum") {
   const gonio::scaled_program program(normal, {.non_negative = true});
   dual_active_set run(program, program.rhs(normal, 0));
   int steps = 0;
-  for (double last = normal.objective(run.weights())[0]; !run.converged(); ++steps) {
+  for (double last = normal.objective(run.result())[0]; !run.converged(); ++steps) {
     run.step();
-    const double next = normal.objective(run.weights())[0];
+    const double next = normal.objective(run.result())[0];
     CHECK(next > last);
     last = next;
   }

@@ -182,7 +182,7 @@ TEST_CASE("the rows alone: both signs, a penalty, columns that depend on each ot
     const double lambda = seed % 3 == 0 ? 0.0 : 0.01 * gonio::largest_lambda(normal, signs);
     gonio::row_active_set run(problem.matrix, problem.right, lambda, signs);
     gonio::run_to_convergence(run, gonio::step_limit(normal.unknowns()), "the rows");
-    const auto found = hard_problems::judge(problem, run.weights(), lambda, signs == sign_rule::non_negative);
+    const auto found = hard_problems::judge(problem, run.result(), lambda, signs == sign_rule::non_negative);
     CHECK(found.violation <= 1e-12);
     CHECK(found.residual <= 1.0);
   }

@@ -80,7 +80,7 @@ class active_set {
   }
 
   [[nodiscard]] bool converged() const noexcept { return entering_ < 0; }
-  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+  [[nodiscard]] const Eigen::VectorXd& result() const noexcept { return x_; }
 
  private:
   /// Returns false if the column cannot enter because of rounding alone.
@@ -280,7 +280,7 @@ template <sign_rule Signs>
   active_set<Signs> exact(normal, right_hand_side, lambda);
   exact.start_from(near_optimum);
   run_to_convergence(exact, step_limit(normal.unknowns()), method);
-  return exact.weights();
+  return exact.result();
 }
 
 /// Minimises 1/2 x'Q x - m'x + lambda |x|_1 under a sign rule, every right-hand side by the iteration that
@@ -295,7 +295,7 @@ template <sign_rule Signs, quadratic_problem Problem, class Start>
     try {
       auto run = start(column);
       iterations += run_to_convergence(run, step_limit(normal.unknowns()), method);
-      weights.col(column) = run.weights();
+      weights.col(column) = run.result();
     } catch (const error&) {  // it goes in circles: what certifies finds the optimum in another way
       weights.col(column).setConstant(std::numeric_limits<double>::quiet_NaN());
     }

@@ -37,7 +37,7 @@ class coordinate_descent {
   }
 
   [[nodiscard]] bool converged() const noexcept { return finished_; }
-  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+  [[nodiscard]] const Eigen::VectorXd& result() const noexcept { return x_; }
 
  private:
   static constexpr int sweeps_over_support = 4;

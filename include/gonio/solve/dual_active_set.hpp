@@ -46,7 +46,7 @@ class dual_active_set {
   [[nodiscard]] int changes() const noexcept { return changes_; }
 
   /// x = S^-1 y.
-  [[nodiscard]] vector weights() const { return program_.weights(y_); }
+  [[nodiscard]] vector result() const { return program_.weights(y_); }
   [[nodiscard]] const vector& scaled_weights() const noexcept { return y_; }
   [[nodiscard]] constraint_multipliers multipliers() const { return program_.multipliers(row_multiplier_); }
 

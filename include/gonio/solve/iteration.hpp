@@ -10,7 +10,7 @@ namespace gonio {
 
 /// One right-hand side on its way to the optimum. Whoever wants convergence plots owns the loop:
 /// ```cpp
-/// for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step()) plot(normal.objective(run.weights()));
+/// for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step()) plot(normal.objective(run.result()));
 /// ```
 /// What the compiler cannot check: a step does not raise the objective (a primal method) or does not lower it (a dual
 /// method) beyond rounding, and `converged` is cheap.
@@ -18,7 +18,7 @@ template <class Iteration>
 concept solver_iteration = requires(Iteration& run, const Iteration& seen) {
   run.step();
   { seen.converged() } -> std::convertible_to<bool>;
-  { seen.weights() } -> std::convertible_to<Eigen::VectorXd>;
+  { seen.result() } -> std::convertible_to<Eigen::VectorXd>;
 };
 
 /// Steps until convergence and returns the number of steps. Throws gonio::error naming the `method` after `limit`

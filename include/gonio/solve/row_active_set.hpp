@@ -27,7 +27,7 @@ class row_active_set {
   void step();
 
   [[nodiscard]] bool converged() const noexcept { return entering_ < 0; }
-  [[nodiscard]] Eigen::VectorXd weights() const { return state_.x.cwiseProduct(unit_); }
+  [[nodiscard]] Eigen::VectorXd result() const { return state_.x.cwiseProduct(unit_); }
 
  private:
   struct state {

@@ -25,7 +25,7 @@ class block_pivoting {
   void step();
 
   [[nodiscard]] bool converged() const noexcept { return finished_; }
-  [[nodiscard]] const Eigen::VectorXd& weights() const noexcept { return x_; }
+  [[nodiscard]] const Eigen::VectorXd& result() const noexcept { return x_; }
 
  private:
   void exchange();

@@ -46,7 +46,7 @@ GONIO_INLINE program_optimum program_solver::judge(const iteration& run, const v
                                                    Eigen::Index right_hand_side) const {
   program_optimum found;
   found.active = run.active();
-  found.weights = run.weights();
+  found.weights = run.result();
   if (program_.non_negative) found.weights = found.weights.cwiseMax(0.0);
   found.multipliers = run.multipliers();
   found.multipliers.inequality = found.multipliers.inequality.cwiseMax(0.0);

@@ -167,7 +167,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
     row_active_set run(triangle.leftCols(normal.unknowns()), triangle.col(normal.unknowns() + column), task.lambda,
                        task.signs);
     run_to_convergence(run, step_limit(normal.unknowns()), task.method + " on the rows");
-    found.weights.col(column) = run.weights();
+    found.weights.col(column) = run.result();
     mended.push_back(column);
   }
   if (mended.empty()) return found;
