@@ -33,7 +33,7 @@ class shape_with_motion {
   [[nodiscard]] std::span<const float> row(std::size_t coordinate) const {
     return {&functions_(static_cast<Eigen::Index>(coordinate), 0), size()};
   }
-  [[nodiscard]] float offset(std::size_t coordinate) const { return shape_.offset(coordinate); }
+  [[nodiscard]] double offset(std::size_t coordinate) const { return shape_.offset(coordinate); }
   [[nodiscard]] const lin& metric() const noexcept { return shape_.metric(); }
 
   /// The basis of shapes alone.
