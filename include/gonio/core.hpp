@@ -6,6 +6,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/directional_light.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
 #include <gonio/core/parallel.hpp>

@@ -10,9 +10,9 @@
 #include <set>
 
 using gonio::direction;
+using gonio::directional_light;
 using gonio::image;
 using gonio::rgb;
-using gonio::render::directional_light;
 using gonio::render::directional_lighting;
 using gonio::render::environment_map;
 

@@ -6,6 +6,7 @@
 /// where E is the irradiance of a surface that faces the light. If the values are in units of their own, so is E: of a
 /// white reference of albedo rho, seen under the same light, E = pi L / (rho cos theta_i).
 
+#include <gonio/core/directional_light.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -18,12 +19,6 @@
 #include <vector>
 
 namespace gonio::capture {
-
-/// A light so far away that it comes from the same direction everywhere on the sample.
-struct distant_light {
-  direction towards;             ///< from the sample, of length 1
-  rgb irradiance = rgb::Ones();  ///< of a surface that faces it
-};
 
 /// A disc in the plane of the sample, in the camera's unit of length.
 struct sample_disc {
@@ -41,7 +36,7 @@ struct pixel_window {
 /// How an image was taken, and what of it counts.
 struct near_field_setup {
   pinhole_camera camera;
-  distant_light light;
+  directional_light light;
   /// The region of interest: the pixels that see the disc, those in the window, or if both are given, in both.
   std::optional<sample_disc> disc = {};
   std::optional<pixel_window> window = {};
@@ -88,7 +83,7 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 /// the block. Throws gonio::error as `require_usable` does, if the image's size is not the camera's, naming a pixel
 /// of the region that is not finite, or if nothing of the sample is seen.
 /// ```cpp
-/// const gonio::capture::distant_light lamp{gonio::spherical_direction(theta_i, 0.0)};
+/// const gonio::directional_light lamp{gonio::spherical_direction(theta_i, 0.0)};
 /// const auto samples =
 ///     gonio::capture::near_field_samples(image, {.camera = camera, .light = lamp, .disc =
 ///     gonio::capture::sample_disc{0.2}});

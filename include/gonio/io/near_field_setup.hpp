@@ -105,7 +105,7 @@ class setup_text {
 
 [[nodiscard]] pinhole_camera setup_camera(const setup_text& text);
 
-[[nodiscard]] capture::distant_light setup_light(const setup_text& text);
+[[nodiscard]] directional_light setup_light(const setup_text& text);
 
 [[nodiscard]] capture::near_field_setup make_setup(const setup_text& text);
 

@@ -68,6 +68,17 @@ class environment_map {
     return towards(row, column, rows());
   }
 
+  /// The cosine and sine of an angle from +y, up.
+  struct height {
+    double along = 0.0, across = 0.0;
+  };
+  /// Towards a height, and a place along the rows counted in columns: 0 is the left edge of the first one. A unit
+  /// vector.
+  [[nodiscard]] static direction towards(const height& up, double column, std::size_t rows) noexcept {
+    const double longitude = column * std::numbers::pi / static_cast<double>(rows) - std::numbers::pi;
+    return {up.across * std::sin(longitude), up.along, -up.across * std::cos(longitude)};
+  }
+
   /// The exact solid angle of each pixel of a row, in sr.
   [[nodiscard]] double solid_angle(std::size_t row) const noexcept { return row_solid_angles_[row]; }
 
@@ -80,8 +91,7 @@ class environment_map {
   [[nodiscard]] static direction towards(std::size_t row, std::size_t column, std::size_t rows) noexcept {
     const double step = std::numbers::pi / static_cast<double>(rows);
     const double polar = (static_cast<double>(row) + 0.5) * step;
-    const double longitude = (static_cast<double>(column) + 0.5) * step - std::numbers::pi;
-    return {std::sin(polar) * std::sin(longitude), std::cos(polar), -std::sin(polar) * std::cos(longitude)};
+    return towards({std::cos(polar), std::sin(polar)}, static_cast<double>(column) + 0.5, rows);
   }
 
   void check_shape() const;

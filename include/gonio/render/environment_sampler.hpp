@@ -44,10 +44,8 @@ class environment_sampler {
                  bottom = std::cos(static_cast<double>(row + 1) * step);
     const double height = top + share * (bottom - top);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
-    const double longitude = (static_cast<double>(column) + u2) * step - std::numbers::pi;
     const rgb radiance = pixel(map_.picture(), row, column);
-    return {{across * std::sin(longitude), height, -across * std::cos(longitude)},
-            radiance,
+    return {environment_map::towards({height, across}, static_cast<double>(column) + u2, map_.rows()), radiance,
             luminance(radiance) / reached_.back()};
   }
 

@@ -8,6 +8,7 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/direction.hpp>
+#include <gonio/core/directional_light.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/grid.hpp>
 
@@ -68,15 +69,7 @@ concept sphere_lighting = requires(const Lighting& lighting, const direction& no
   lighting.for_each_incident(normal, visit);
 };
 
-/// A light so far away that its direction is the same everywhere.
-struct directional_light {
-  /// Towards the light, in world axes; need not be of unit length.
-  direction towards;
-  /// Radiance times solid angle: the irradiance of a surface that faces the light.
-  rgb irradiance = rgb::Ones();
-};
-
-/// Any number of directional lights.
+/// Any number of directional lights, in world axes; their directions need not be of unit length.
 class directional_lighting {
  public:
   explicit directional_lighting(std::vector<directional_light> lights) : lights_(std::move(lights)) {

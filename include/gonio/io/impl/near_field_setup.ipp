@@ -92,8 +92,8 @@ GONIO_INLINE pinhole_camera setup_camera(const setup_text& text) {
   return text.naming_file([&] { return pinhole_camera::look_at(intrinsics, position, target, up); });
 }
 
-GONIO_INLINE capture::distant_light setup_light(const setup_text& text) {
-  capture::distant_light light;
+GONIO_INLINE directional_light setup_light(const setup_text& text) {
+  directional_light light;
   text.require({"light", "light_angles"});
   text.require_one_of("light", "light_angles", "where the light is");
   if (text.has("light")) {
