@@ -78,7 +78,8 @@ void whole_robust_reconstruction(benchmark::State& state) {
   const auto measured = samples(state.range(0));
   gonio::sample_set set;
   for (std::size_t i = 0; i < measured.size(); ++i)
-    set.push_back({measured.at[i].angles, measured.values.row(static_cast<Eigen::Index>(i)).transpose().array(), 1.0});
+    set.push_back(
+        {measured.locations[i].angles, measured.values.row(static_cast<Eigen::Index>(i)).transpose().array(), 1.0});
   const gonio::robust_reconstruction estimator{others(), corrections()};
   for (auto _ : state) benchmark::DoNotOptimize(estimator.fit(set).tabulate(materials().cells));
 }

@@ -123,7 +123,8 @@ TEST_CASE("bad requests of the correction method") {
   refuses(correction + "--truth " + path.string(), {"--truth", "--iteration-figure"});
   refuses(correction + "--truth " + path.string() + " --iteration-figure " + story.string(), {"one.csv", "MERL"});
   refuses(correction + "--exclude no-such-stone --iteration-figure " + story.string(), {"no-such-stone"});
-  refuses(correction + "--iteration-figure " + (path / "below-a-file").string(), {"below-a-file", "cannot be made"});
+  refuses(correction + "--iteration-figure " + (path / "below-a-file").string(),
+          {"below-a-file", "cannot make the folder"});
   CHECK(folder.entries() == 1);  // neither a table nor a folder for the story
 }
 

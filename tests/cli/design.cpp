@@ -142,9 +142,10 @@ TEST_CASE("designs that cannot be made") {
   board.refuses("-n 2 --common-shift 0.1 --criterion d-optimal", {"--common-shift", "expected-error", "d-optimal"});
   board.refuses("-n 2 --in-sample --criterion condition", {"--in-sample", "condition"});
   board.refuses("-n 2 --noise 0.1 --criterion condition", {"--noise", "condition"});
-  board.refuses("-n 2 --misplaced -1", {"45 degrees", "not by -1"});
-  board.refuses("-n 2 --misplaced 1 --geometry sphere", {"points alone"});
-  board.refuses("-n 2 --misplaced 1 --criterion condition", {"expected error"});
+  board.refuses("-n 2 --misplaced -1", {"--misplaced needs an angle from 0 to 45 degrees, not -1"});
+  board.refuses("-n 2 --misplaced 1 --geometry sphere",
+                {"--misplaced needs --geometry point and --criterion expected-error or perceived"});
+  board.refuses("-n 2 --misplaced 1 --criterion condition", {"--criterion expected-error or perceived"});
   board.refuses("-n 2 --geometry near-field --fov 0", {"field of view"});
   board.refuses("-n 2 --geometry near-field --fov 95", {"field of view", "95"});
   board.refuses("-n 2 --geometry cube", {"cube"});

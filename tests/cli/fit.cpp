@@ -107,7 +107,7 @@ TEST_CASE("what cannot be fitted is refused in one line, and nothing is written"
   };
   refuses(samples + " --model plastic", "no lobe named 'plastic'");
   refuses(samples + " --model sum:lambert+", "no lobe named ''");
-  refuses(samples + " --model ward --fresnel", "no ward with Fresnel's factor");
+  refuses(samples + " --model ward --fresnel", "ward takes no --fresnel");
   refuses(samples + " --loss l3", "--loss");
   refuses(samples + " --model phong --pbrt " + (folder / "x.pbrt").string(), "not phong");
   CHECK(!std::filesystem::exists(folder / "x.pbrt"));

@@ -111,7 +111,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   CHECK_FALSE(same_values("found.csv"));
   const auto useless = gonio_tool("near-field " + pictures + "--reference-in-place -o " + shots.at("no.csv"));
   CHECK(useless.exit_code == 2);
-  CHECK(useless.output.find("--reference-in-place needs --misplaced") != std::string::npos);
+  CHECK(useless.output.find("--reference-in-place requires --misplaced") != std::string::npos);
 
   const auto refused = gonio_tool("near-field " + pictures + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
@@ -220,7 +220,7 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   };
   refused("", {"images"});
   refused(shots.at("first.hdr"), {"images"});
-  refused(shots.shot("first") + shots.at("second.hdr"), {"images", "second.hdr is not followed by its set-up"});
+  refused(shots.shot("first") + shots.at("second.hdr"), {"images", "second.hdr needs its set-up"});
   refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
   refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
   refused(shots.at("first.txt") + " " + shots.at("first.txt"), {"first.txt", "Radiance HDR"});

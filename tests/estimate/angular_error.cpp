@@ -10,7 +10,7 @@ const gonio::log_relative_pca& moved_prior() {
   return basis;
 }
 
-/// A mapped value of one of the materials that the basis was learned from, at a place.
+/// A mapped value of one of the materials that the basis was learned from, at a location.
 double mapped(std::size_t observation, const gonio::location& at) {
   const auto c = moved_prior().coefficients().row(static_cast<Eigen::Index>(observation)).cast<double>();
   return gonio::offset_at(moved_prior(), at) + gonio::row_at(moved_prior(), at).dot(c);

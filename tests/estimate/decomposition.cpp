@@ -153,7 +153,7 @@ TEST_CASE("archetypes: the least-squares fit of a constant is the weighted mean"
   CHECK(fit.functions().mean == 0.5);
 }
 
-TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at the exact places") {
+TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at the exact locations") {
   const archetype::theta_d_polynomial functions{cells(), 0.5};
   const sample_set samples{{{0.1, 0.2, 0.3}, rgb(1, 2, 3)}, {{0.4, 0.6, 0.5}, rgb(5, 6, 3)}};
   const decomposition estimator{functions, archetype::ordinary_least_squares{}};

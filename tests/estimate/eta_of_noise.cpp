@@ -53,7 +53,7 @@ gonio::leave_one_material_out_error error_of(const gonio::log_relative_pca& prio
                                              double noise) {
   const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
   const auto located = gonio::locate_samples(prior.cells(), samples);
-  return {prior, located.at, located.weights, noise};
+  return {prior, located.locations, located.weights, noise};
 }
 
 double at_one_eta(const gonio::leave_one_material_out_error& error, double eta) {
@@ -70,7 +70,7 @@ const gonio::log_relative_pca& twelve_materials() {
 TEST_CASE("leaving a material out is learning again without it") {
   const auto materials = synthetic_materials(small_cells(), 6);
   const auto prior = learn(materials, 1000);
-  for (const std::size_t count : {1u, 4u, 60u}) {  // fewer and more places than components
+  for (const std::size_t count : {1u, 4u, 60u}) {  // fewer and more locations than components
     const auto cells = gonio::random_cells(small_cells(), count, count);
     const auto error = error_of(prior, cells, 0.0);
     for (const double eta : {0.01, 1.0, 30.0}) {
@@ -86,7 +86,7 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   const auto cells = gonio::random_cells(small_cells(), 5, 1);
   const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
   const auto located = gonio::locate_samples(prior.cells(), samples);
-  const auto noise = gonio::map_noise(prior, located.at, 0.1);
+  const auto noise = gonio::map_noise(prior, located.locations, 0.1);
   for (Eigen::Index i = 0; i < 5; ++i) {
     // Far above epsilon the map is a logarithm: E ln(1 + b z) = -b^2 / 2 and the variance b^2, but for b^4.
     CHECK(noise.shift[i] == doctest::Approx(-0.005).epsilon(0.1));
@@ -97,12 +97,13 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   const double without = at_one_eta(error_of(prior, cells, 0.0), 1e12);
   CHECK(at_one_eta(error_of(prior, cells, 0.3), 1e12) == doctest::Approx(without).epsilon(1e-6));
 
-  // Much noise and no penalty: hardly anything but noise is left, whose energy is the sum over the places of what one
-  // of deviation 1 adds, times the variance.
+  // Much noise and no penalty: hardly anything but noise is left, whose energy is the sum over the locations of what
+  // one of deviation 1 adds, times the variance.
   const double eta = 1e-4;
   Eigen::MatrixXd rows(5, static_cast<Eigen::Index>(prior.size()));
-  for (Eigen::Index i = 0; i < 5; ++i) rows.row(i) = gonio::row_at(prior, located.at[static_cast<std::size_t>(i)]);
-  const auto spread = gonio::map_noise(prior, located.at, 0.3);
+  for (Eigen::Index i = 0; i < 5; ++i)
+    rows.row(i) = gonio::row_at(prior, located.locations[static_cast<std::size_t>(i)]);
+  const auto spread = gonio::map_noise(prior, located.locations, 0.3);
   double energy = 0.0;
   for (Eigen::Index i = 0; i < 5; ++i) {
     const Eigen::MatrixXd one = Eigen::VectorXd::Unit(5, i) * std::sqrt(spread.variance[i]);
@@ -115,18 +116,18 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   CHECK(loud == doctest::Approx(std::sqrt(energy)).epsilon(0.1));
 }
 
-TEST_CASE("the order of the places does not matter, and weights have the units of eta") {
+TEST_CASE("the order of the locations does not matter, and weights have the units of eta") {
   CHECK(rc::check([] {
     const auto& prior = twelve_materials();
     const auto count = *rc::gen::inRange<std::size_t>(1, 60);
     auto cells = gonio::random_cells(small_cells(), count, *rc::gen::arbitrary<std::uint64_t>());
     const double noise = *rc::gen::inRange(0, 50) * 0.01, eta = std::pow(10.0, *rc::gen::inRange(-10, 30) * 0.1);
     auto located = gonio::locate_samples(prior.cells(), gonio::sample_table(gonio::brdf_table(prior.cells()), cells));
-    const double error = at_one_eta({prior, located.at, located.weights, noise}, eta);
+    const double error = at_one_eta({prior, located.locations, located.weights, noise}, eta);
     const Eigen::VectorXd tenfold = 10.0 * located.weights;
-    RC_ASSERT(std::abs(at_one_eta({prior, located.at, tenfold, noise}, 10.0 * eta) - error) < 1e-6 * error);
-    std::ranges::reverse(located.at);
-    RC_ASSERT(std::abs(at_one_eta({prior, located.at, located.weights, noise}, eta) - error) < 1e-6 * error);
+    RC_ASSERT(std::abs(at_one_eta({prior, located.locations, tenfold, noise}, 10.0 * eta) - error) < 1e-6 * error);
+    std::ranges::reverse(located.locations);
+    RC_ASSERT(std::abs(at_one_eta({prior, located.locations, located.weights, noise}, eta) - error) < 1e-6 * error);
   }));
 }
 
@@ -192,7 +193,8 @@ TEST_CASE("an eta is not chosen from nothing") {
   CHECK_THROWS_AS(gonio::eta_of_noise(prior, samples, std::nan("")), gonio::error);
   CHECK_THROWS_AS(gonio::eta_of_noise(prior, gonio::sample_set{}, 0.1), gonio::error);
   const auto located = gonio::locate_samples(prior.cells(), samples);
-  CHECK_THROWS_AS(gonio::leave_one_material_out_error(prior, located.at, Eigen::VectorXd::Ones(3), 0.1), gonio::error);
+  CHECK_THROWS_AS(gonio::leave_one_material_out_error(prior, located.locations, Eigen::VectorXd::Ones(3), 0.1),
+                  gonio::error);
   const auto single = learn(synthetic_materials(small_cells(), 1), 2);
   CHECK_THROWS_AS(gonio::eta_of_noise(single, samples, 0.1), gonio::error);
 }

@@ -50,8 +50,8 @@ TEST_CASE("samples are placed where they are, with their values and weights") {
       if (!s.weight.counts()) continue;
       RC_ASSERT(next < found.size());
       const auto expected = gonio::locate(small_cells(), s.angles());
-      RC_ASSERT(found.at[next].cell == expected.cell);
-      RC_ASSERT(found.at[next].weight == expected.weight);
+      RC_ASSERT(found.locations[next].cell == expected.cell);
+      RC_ASSERT(found.locations[next].weight == expected.weight);
       RC_ASSERT((found.values.row(static_cast<Eigen::Index>(next)).transpose().array() == s.value).all());
       for (Eigen::Index c = 0; c < 3; ++c) {
         RC_ASSERT(found.weights_of(c)[static_cast<Eigen::Index>(next)] == s.weight[c]);
@@ -71,7 +71,7 @@ TEST_CASE("a view of a laboratory's own struct is taken in place") {
   const std::vector<reading> readings{{0.1, 1.0}, {0.2, 2.0}};
   const auto found = locate_samples(small_cells(), readings | std::views::transform(to_sample));
   REQUIRE(found.size() == 2);
-  CHECK(found.at[1].angles.theta_h == 0.2);
+  CHECK(found.locations[1].angles.theta_h == 0.2);
   CHECK(found.values(1, 2) == 2.0);
   CHECK(found.weights(0, 0) == 0.5);
 }
@@ -81,8 +81,8 @@ TEST_CASE("a subset has the chosen samples in the order given") {
       locate_samples(small_cells(), gonio::sample_table(some_table(), gonio::random_cells(small_cells(), 9, 1)));
   const auto some = all.subset({7, 0, 7});
   REQUIRE(some.size() == 3);
-  CHECK(some.at[0].cell == all.at[7].cell);
-  CHECK(some.at[1].angles.theta_d == all.at[0].angles.theta_d);
+  CHECK(some.locations[0].cell == all.locations[7].cell);
+  CHECK(some.locations[1].angles.theta_d == all.locations[0].angles.theta_d);
   CHECK(some.values.row(2) == all.values.row(7));
   CHECK(some.weights.size() == 3);
   CHECK(all.subset({}).size() == 0);
@@ -93,8 +93,8 @@ TEST_CASE("a table is a measurement of weight 1 at each cell") {
   REQUIRE(found.size() == small_cells().size());
   CHECK((found.weights.array() == 1.0).all());
   for (std::size_t cell = 0; cell < found.size(); ++cell) {
-    REQUIRE(found.at[cell].count == 1);
-    REQUIRE(found.at[cell].cell[0] == cell);
+    REQUIRE(found.locations[cell].count == 1);
+    REQUIRE(found.locations[cell].cell[0] == cell);
     REQUIRE(found.values(static_cast<Eigen::Index>(cell), 1) == some_table().at(cell).y());
   }
   const gonio::valid_cells others(gonio::grid({5, 6, 8}));
@@ -102,31 +102,31 @@ TEST_CASE("a table is a measurement of weight 1 at each cell") {
   REQUIRE(elsewhere.size() == small_cells().size());
   for (std::size_t cell = 0; cell < elsewhere.size(); ++cell) {
     const auto expected = gonio::locate(others, small_cells().angles(cell));
-    REQUIRE(elsewhere.at[cell].cell == expected.cell);
-    REQUIRE(elsewhere.at[cell].weight == expected.weight);
+    REQUIRE(elsewhere.locations[cell].cell == expected.cell);
+    REQUIRE(elsewhere.locations[cell].weight == expected.weight);
   }
 }
 
-TEST_CASE("values of an estimate at places: few are evaluated, many are read from its table") {
+TEST_CASE("values of an estimate at locations: few are evaluated, many are read from its table") {
   const gonio::completed_table fit(some_table());
   const gonio::valid_cells fine(gonio::grid({24, 18, 24}));
-  std::vector<gonio::location> places;
+  std::vector<gonio::location> locations;
   for (std::size_t cell = 0; cell < fine.size(); ++cell) {
-    places.push_back(gonio::locate_cell(fine, cell));
+    locations.push_back(gonio::locate_cell(fine, cell));
     if (cell % 5 == 0) {  // and one between cells
       auto angles = fine.angles(cell);
       angles.theta_h *= 0.97;
-      places.push_back(gonio::locate(fine, angles));
+      locations.push_back(gonio::locate(fine, angles));
     }
   }
-  REQUIRE(places.size() > 6000);
-  const auto all = gonio::values_at(fit, fine, places, {1});
-  CHECK((all == gonio::values_at(fit, fine, places, {3})).all());
-  const std::vector<gonio::location> first(places.begin(), places.begin() + 100);
+  REQUIRE(locations.size() > 6000);
+  const auto all = gonio::values_at(fit, fine, locations, {1});
+  CHECK((all == gonio::values_at(fit, fine, locations, {3})).all());
+  const std::vector<gonio::location> first(locations.begin(), locations.begin() + 100);
   const auto few = gonio::values_at(fit, fine, first);
   REQUIRE(few.cols() == 100);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto [wi, wo] = to_directions(places[i].angles);
+  for (std::size_t i = 0; i < locations.size(); ++i) {
+    const auto [wi, wo] = to_directions(locations[i].angles);
     const gonio::rgb direct = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
       // Angles go through directions and back.

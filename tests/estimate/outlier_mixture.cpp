@@ -30,7 +30,7 @@ double integral(const Density& density, double low, double high, int steps = 40'
 }
 
 /// Reflectances of a synthetic material and an estimate of it: most are diffuse, a few per cent are a highlight;
-/// `share` of the measurements, and no highlights, are those of another place.
+/// `share` of the measurements, and no highlights, are those of another location.
 struct synthetic_measurement {
   channel_values measured, estimated;
   std::vector<bool> outlier;
@@ -246,9 +246,9 @@ struct missed_highlight {
   std::shared_ptr<const gonio::sample_regions> regions;
 
   explicit missed_highlight(float factor) {
-    std::vector<gonio::location> places(4000);
-    for (std::size_t i = 0; i < 4000; ++i) places[i].angles.theta_h = 1e-4 * static_cast<double>(i);
-    regions = std::make_shared<const gonio::sample_regions>(places);
+    std::vector<gonio::location> locations(4000);
+    for (std::size_t i = 0; i < 4000; ++i) locations[i].angles.theta_h = 1e-4 * static_cast<double>(i);
+    regions = std::make_shared<const gonio::sample_regions>(locations);
     for (Eigen::Index i = 0; i < 500; ++i) {
       made.estimated.col(i) *= 30.0f * factor;
       if (!made.outlier[static_cast<std::size_t>(i)]) made.measured.col(i) *= 30.0f;

@@ -13,10 +13,10 @@ using gonio::planned_decomposition;
 
 namespace {
 
-/// Measurements at cells and between them of a material, the same places for any.
+/// Measurements at cells and between them of a material, the same locations for any.
 struct planned_world {
   gonio::material_set set = synthetic_materials(small_cells(), 12, 5);
-  gonio::sample_set places = [] {
+  gonio::sample_set locations = [] {
     gonio::sample_set found;
     for (std::size_t cell = 0; cell < small_cells().size(); cell += 3) {
       auto angles = small_cells().angles(cell);
@@ -28,7 +28,7 @@ struct planned_world {
 
   [[nodiscard]] gonio::sample_set measurements(std::size_t material) const {
     const auto table = set.table(material);
-    auto samples = places;
+    auto samples = locations;
     for (gonio::sample& sample : samples) sample.value = table.at(gonio::locate(small_cells(), sample.angles()));
     return samples;
   }
@@ -46,7 +46,7 @@ gonio::channel_values values_of(const gonio::sample_set& samples) {
 template <class Metric>
 void check_against_decomposition(const Metric& metric) {
   const gonio::measured materials{planned().set, metric};
-  const auto plan = gonio::locate_samples(small_cells(), planned().places).at;
+  const auto plan = gonio::locate_samples(small_cells(), planned().locations).locations;
   const planned_decomposition combination{materials, plan};
   for (const std::size_t material : {0u, 5u, 11u}) {
     const std::vector<std::string> itself{planned().set.names[material]};
@@ -77,7 +77,7 @@ TEST_CASE("a planned combination is the one that is not planned") {
 
 TEST_CASE("planned: any solver of normal equations, the same bytes for any number of threads") {
   const gonio::measured materials{planned().set, gonio::log{}};
-  const auto plan = gonio::locate_samples(small_cells(), planned().places).at;
+  const auto plan = gonio::locate_samples(small_cells(), planned().locations).locations;
   const auto values = values_of(planned().measurements(2));
   const auto fit_with = [&](unsigned threads) {
     return planned_decomposition{materials, plan, gonio::tikhonov{1e-3}, {threads}}.reconstruct(values).weights();
@@ -88,7 +88,8 @@ TEST_CASE("planned: any solver of normal equations, the same bytes for any numbe
 
 TEST_CASE("planned: a wrong number of measurements, one that is not finite, or no materials are refused") {
   const gonio::measured materials{planned().set, gonio::log{}};
-  const planned_decomposition combination{materials, gonio::locate_samples(small_cells(), planned().places).at};
+  const planned_decomposition combination{materials,
+                                          gonio::locate_samples(small_cells(), planned().locations).locations};
   auto values = values_of(planned().measurements(1));
   CHECK_THROWS_WITH_AS((void)combination.reconstruct(values.leftCols(7)), doctest::Contains("there are 7 measurements"),
                        gonio::error);

@@ -83,7 +83,7 @@ TEST_CASE("where light and camera are is found with the material") {
     pose_refinement refinement(image_prior(), pictures, {.eta = slight_eta, .deviation = radians(2.0)});
     const double before = mapped_error(refinement.result(), truth), objective = refinement.objective();
     refinement.solve();
-    // Measured: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error, 0.92 to 1.16 of that of known places.
+    // Measured: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error, 0.92 to 1.16 of that of known locations.
     CHECK(refinement.objective() < 0.01 * objective);
     CHECK(mapped_error(refinement.result(), truth) < 0.3 * before);
     CHECK(mapped_error(refinement.result(), truth) < 1.25 * mapped_error(known_places(truth), truth));

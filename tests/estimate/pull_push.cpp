@@ -27,7 +27,7 @@ valid_cells any_cells() {
   return valid_cells(gonio::grid({theta_h, theta_d, extent()}));
 }
 
-/// Up to 20 samples at places above the horizon.
+/// Up to 20 samples at locations above the horizon.
 sample_set any_samples() {
   sample_set samples;
   const int count = *rc::gen::inRange(1, 21);

@@ -13,10 +13,10 @@ TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
   CHECK(rc::check([] {
     const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 600));
     std::mt19937 generator(static_cast<unsigned>(n));
-    std::vector<gonio::location> places;
+    std::vector<gonio::location> locations;
     for (std::size_t i = 0; i < n; ++i)
-      places.push_back(gonio::locate_cell(small_cells(), generator() % small_cells().size()));
-    const sample_regions regions(places);
+      locations.push_back(gonio::locate_cell(small_cells(), generator() % small_cells().size()));
+    const sample_regions regions(locations);
     const std::size_t strips = std::clamp<std::size_t>(n / 8, 1, 6),
                       parts = std::clamp<std::size_t>(n / strips / 8, 1, 4);
     RC_ASSERT(regions.count() == strips * parts);
@@ -32,10 +32,10 @@ TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
         for (const std::size_t sample : region) {
           RC_ASSERT(!seen[sample]);
           seen[sample] = true;
-          RC_ASSERT(places[sample].angles.theta_h >= largest_h);
-          RC_ASSERT(places[sample].angles.theta_d >= largest_d);
-          here = std::max(here, places[sample].angles.theta_h);
-          largest_d = places[sample].angles.theta_d;
+          RC_ASSERT(locations[sample].angles.theta_h >= largest_h);
+          RC_ASSERT(locations[sample].angles.theta_d >= largest_d);
+          here = std::max(here, locations[sample].angles.theta_h);
+          largest_d = locations[sample].angles.theta_d;
         }
       }
       largest_h = here;

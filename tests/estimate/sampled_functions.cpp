@@ -17,19 +17,19 @@ const gonio::measured<gonio::log>& seven_materials() {
   return basis;
 }
 
-/// Cells, and places between them, of which there are more than a block of rows has.
+/// Cells, and locations between them, of which there are more than a block of rows has.
 std::vector<gonio::location> mixed_places(std::size_t count, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_int_distribution<std::size_t> any(0, small_cells().size() - 1);
-  std::vector<gonio::location> places;
-  while (places.size() < count) {
+  std::vector<gonio::location> locations;
+  while (locations.size() < count) {
     const std::size_t cell = any(generator);
     auto angles = small_cells().angles(cell);
     angles.theta_h *= 0.9;
-    places.push_back(generator() % 3 == 0 ? gonio::locate(small_cells(), angles)
-                                          : gonio::locate_cell(small_cells(), cell));
+    locations.push_back(generator() % 3 == 0 ? gonio::locate(small_cells(), angles)
+                                             : gonio::locate_cell(small_cells(), cell));
   }
-  return places;
+  return locations;
 }
 
 struct random_equations {
@@ -51,9 +51,9 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
   CHECK(rc::check([] {
     const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 400));
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
-    const auto places = mixed_places(count, seed);
+    const auto locations = mixed_places(count, seed);
     const random_equations system(count, seed + 1);
-    const sampled_functions functions(seven_materials(), places);
+    const sampled_functions functions(seven_materials(), locations);
     RC_ASSERT(functions.size() == count);
     RC_ASSERT(functions.unknowns() == 7);
     const gonio::channel_values all_weights = system.weights.transpose().replicate<3, 1>(),
@@ -65,7 +65,7 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
       const auto column = static_cast<Eigen::Index>(c);
       Eigen::MatrixXd rows(static_cast<Eigen::Index>(count), 7);
       for (std::size_t i = 0; i < count; ++i)
-        rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), places[i]);
+        rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), locations[i]);
       const Eigen::VectorXd w = system.weights.matrix().cast<double>(), b = system.values.matrix().cast<double>();
       const Eigen::MatrixXd gram = rows.transpose() * w.asDiagonal() * rows;
       const Eigen::VectorXd rhs = rows.transpose() * w.asDiagonal() * b;
@@ -87,9 +87,9 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
   CHECK(rc::check([] {
     const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 7));
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
-    const auto places = mixed_places(count, seed);
+    const auto locations = mixed_places(count, seed);
     const random_equations system(count, seed + 1);
-    const sampled_functions functions(seven_materials(), places);
+    const sampled_functions functions(seven_materials(), locations);
     const auto normal = functions.normal(0, system.weights, system.values);
     Eigen::MatrixXd all(8, 8);
     all << normal.gram(), normal.rhs(), normal.rhs().transpose(), normal.rhs_squared_norm();
@@ -97,7 +97,7 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
     all = scale.asDiagonal() * all * scale.asDiagonal();
     const Eigen::VectorXd eigenvalues = gonio::decompose_symmetric(all, "samples").values;
     RC_ASSERT(eigenvalues[0] >= -1e-14);
-    RC_ASSERT(eigenvalues[7 - std::ssize(places)] <= 1e-14);
+    RC_ASSERT(eigenvalues[7 - std::ssize(locations)] <= 1e-14);
     const Eigen::MatrixXd rhs =
         functions.rhs(system.weights.transpose().replicate<3, 1>(), system.values.transpose().replicate<3, 1>());
     RC_ASSERT((rhs.col(0) - normal.rhs()).norm() <= 1e-14 * normal.rhs().norm());
@@ -105,9 +105,9 @@ TEST_CASE("fewer samples than functions: no weights explain more than the sample
 }
 
 TEST_CASE("rows of weight zero are skipped, whatever is there") {
-  const auto places = mixed_places(300, 5);
+  const auto locations = mixed_places(300, 5);
   random_equations system(300, 6);
-  const sampled_functions functions(seven_materials(), places);
+  const sampled_functions functions(seven_materials(), locations);
   const auto before = functions.normal(0, system.weights, system.values);
   std::vector<gonio::location> kept;
   std::vector<float> weights, values;
@@ -115,7 +115,7 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
     if (system.weights[i] == 0.0f)
       system.values[i] = std::nanf("");
     else {
-      kept.push_back(places[static_cast<std::size_t>(i)]);
+      kept.push_back(locations[static_cast<std::size_t>(i)]);
       weights.push_back(system.weights[i]);
       values.push_back(system.values[i]);
     }
@@ -139,8 +139,8 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
 }
 
 TEST_CASE("rows of negligible weight count as rows of weight zero, unless their values are large") {
-  const auto places = mixed_places(2, 5);
-  const sampled_functions functions(seven_materials(), places);
+  const auto locations = mixed_places(2, 5);
+  const sampled_functions functions(seven_materials(), locations);
   const Eigen::Array2f weights(2.0f, 1e-6f);
   const auto both = functions.normal(1, weights, Eigen::Array2f(1.0f, 1.0f));
   const auto first = functions.normal(1, Eigen::Array2f(2.0f, 0.0f), Eigen::Array2f(1.0f, 1.0f));
@@ -153,16 +153,16 @@ TEST_CASE("rows of negligible weight count as rows of weight zero, unless their 
 TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated one") {
   auto angles = small_cells().angles(100);
   angles.theta_d += 0.03;
-  const std::vector<gonio::location> places{gonio::locate_cell(small_cells(), 100),
-                                            gonio::locate(small_cells(), angles)};
-  REQUIRE(places[1].count > 1);
-  const sampled_functions functions(seven_materials(), places);
+  const std::vector<gonio::location> locations{gonio::locate_cell(small_cells(), 100),
+                                               gonio::locate(small_cells(), angles)};
+  REQUIRE(locations[1].count > 1);
+  const sampled_functions functions(seven_materials(), locations);
   for (Eigen::Index f = 0; f < 7; ++f) {
     const auto values = functions.apply(Eigen::VectorXd::Unit(7, f).replicate<1, 3>());
     for (Eigen::Index c = 0; c < 3; ++c) {
       const auto channel = seven_materials().channel(static_cast<std::size_t>(c));
       CHECK(values(c, 0) == channel.row(100)[static_cast<std::size_t>(f)]);
-      CHECK(values(c, 1) == static_cast<float>(gonio::row_at(channel, places[1])[f]));
+      CHECK(values(c, 1) == static_cast<float>(gonio::row_at(channel, locations[1])[f]));
       CHECK(values(c, 0) != values(c, 1));
     }
   }
@@ -170,9 +170,9 @@ TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated
 
 TEST_CASE("functions left out are in the equations, but not among the columns") {
   const auto fewer = seven_materials().without({"material-2"});
-  const auto places = mixed_places(50, 3);
+  const auto locations = mixed_places(50, 3);
   const random_equations system(50, 4);
-  const sampled_functions functions(fewer, places), all(seven_materials(), places);
+  const sampled_functions functions(fewer, locations), all(seven_materials(), locations);
   CHECK(functions.columns() == std::vector<Eigen::Index>{0, 1, 3, 4, 5, 6});
   CHECK(functions.unknowns() == 7);
   CHECK(functions.normal(2, system.weights, system.values).gram() ==
@@ -180,11 +180,11 @@ TEST_CASE("functions left out are in the equations, but not among the columns") 
 }
 
 TEST_CASE("sampled functions outlive their basis, and are the same for any number of threads") {
-  const auto places = mixed_places(5000, 11);
+  const auto locations = mixed_places(5000, 11);
   const random_equations system(5000, 12);
   const auto make = [&](unsigned threads) {
     const gonio::measured basis{synthetic_materials(small_cells(), 7), gonio::log{}};
-    return sampled_functions(basis, places, {threads});
+    return sampled_functions(basis, locations, {threads});
   };
   const auto one = make(1), three = make(3);
   for (std::size_t c = 0; c < 3; ++c)
@@ -197,14 +197,14 @@ TEST_CASE("sampled functions outlive their basis, and are the same for any numbe
 }
 
 TEST_CASE("copies do not read the rows of what they were copied from") {
-  const auto places = mixed_places(50, 8);
+  const auto locations = mixed_places(50, 8);
   const Eigen::MatrixXd x = Eigen::MatrixXd::Ones(7, 3);
-  auto original = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(seven_materials(), places);
+  auto original = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(seven_materials(), locations);
   const gonio::channel_values before = original->apply(x);
   const auto copy = *original;
   original.reset();
   const auto overwritten = std::make_unique<sampled_functions<gonio::measured<gonio::log>>>(
-      seven_materials(), std::vector<gonio::location>(50, places[0]));
+      seven_materials(), std::vector<gonio::location>(50, locations[0]));
   CHECK((copy.apply(x) == before).all());
 }
 
@@ -219,7 +219,7 @@ TEST_CASE("archetype: one function for all channels") {
   CHECK((functions.apply(Eigen::RowVector3d::Constant(3.0)) == 3.0f).all());
 }
 
-TEST_CASE("no places: nothing is known") {
+TEST_CASE("no locations: nothing is known") {
   const sampled_functions functions(seven_materials(), {});
   const Eigen::ArrayXf none;
   CHECK(functions.size() == 0);

@@ -1,5 +1,5 @@
 #pragma once
-/// What every metric that is the same at all places must do.
+/// What every metric that is the same at all locations must do.
 
 #include <gonio/metric/place_free.hpp>
 

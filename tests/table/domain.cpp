@@ -14,7 +14,7 @@ struct wavelengths {
   [[nodiscard]] bool operator==(const wavelengths&) const = default;
 };
 
-[[nodiscard]] gonio::location locate_cell(const wavelengths& /*places*/, std::size_t i) {
+[[nodiscard]] gonio::location locate_cell(const wavelengths& /*locations*/, std::size_t i) {
   return gonio::location_of(i);
 }
 

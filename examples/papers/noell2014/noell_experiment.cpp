@@ -96,7 +96,7 @@ struct noell_experiment::parts {
     const auto located = gonio::locate_samples(truths.cells, samples, threads);
     auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
     const auto plan =
-        plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.at, gonio::nnls{}, threads);
+        plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.locations, gonio::nnls{}, threads);
     return plan.first->second.without({which.material}).reconstruct(located.channels());
   }
 

@@ -52,8 +52,9 @@ concept tabulated_basis = function_set<Basis> && requires(const Basis& functions
 /// Where a computed basis writes the values of its functions.
 using function_row = Eigen::Ref<Eigen::RowVectorXd>;
 
-/// A basis that computes its rows, in double precision, at any place: `read_row(at, out)` writes the row at the exact
-/// angles of a location. For functions given by a formula, whose rows at a million cells would not fit into memory.
+/// A basis that computes its rows, in double precision, at any location: `read_row(at, out)` writes the row at the
+/// exact angles of a location. For functions given by a formula, whose rows at a million cells would not fit into
+/// memory.
 ///
 /// What the compiler cannot check, and a model must keep: `out`, of `size()` numbers, is written in full; `read_row`
 /// neither allocates nor throws; copies are cheap; all members are const and thread safe.

@@ -25,7 +25,7 @@
 
 namespace gonio {
 
-/// The place of a direction pair in the domain of radial basis functions: sqrt(theta_h / 90 degrees), which is finer
+/// The location of a direction pair in the domain of radial basis functions: sqrt(theta_h / 90 degrees), which is finer
 /// towards the highlight, and theta_d / 90 degrees as the radius of a disc with the angle 2 phi_d. The disc closes
 /// where phi_d wraps (reciprocity), and its centre is theta_d = 0, where phi_d means nothing.
 [[nodiscard]] inline Eigen::Vector3d radial_coordinates(const half_difference& angles) noexcept {
@@ -35,7 +35,7 @@ namespace gonio {
           radius * std::sin(2.0 * angles.phi_d)};
 }
 
-/// Squared distances of a place to centres, to be replaced by what a kernel makes of them.
+/// Squared distances of a location to centres, to be replaced by what a kernel makes of them.
 using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
 
 /// A function of the distance to a centre: `apply(row)` takes a row of squared distances and leaves the kernel's
@@ -68,7 +68,7 @@ inline constexpr std::size_t published_centre_count = 758;
 
 /// `count` cells such that each is the farthest, in radial coordinates, from those before it; the first is random. At
 /// most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error unless there
-/// are as many different places.
+/// are as many different locations.
 [[nodiscard]] std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
                                                                   std::size_t count = published_centre_count,
                                                                   std::uint64_t seed = 0);

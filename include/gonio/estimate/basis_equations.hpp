@@ -33,12 +33,12 @@ class basis_equations {
   [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const {
     const auto functions = channel_of(basis_, system);
     const std::shared_ptr<const located_samples> measured = measured_;
-    const row_source rows{static_cast<Eigen::Index>(measured->at.size()), static_cast<Eigen::Index>(functions.size()),
-                          [functions, measured](block range, row_block out) {
-                            for (std::size_t i = range.begin; i < range.end; ++i)
-                              read_row_at(functions, measured->at[i],
-                                          out.row(static_cast<Eigen::Index>(i - range.begin)));
-                          }};
+    const row_source rows{
+        static_cast<Eigen::Index>(measured->locations.size()), static_cast<Eigen::Index>(functions.size()),
+        [functions, measured](block range, row_block out) {
+          for (std::size_t i = range.begin; i < range.end; ++i)
+            read_row_at(functions, measured->locations[i], out.row(static_cast<Eigen::Index>(i - range.begin)));
+        }};
     const auto first = static_cast<Eigen::Index>(system);
     return {rows, mapped(functions, first), measured->weights_of(first), threads_};
   }
@@ -77,9 +77,9 @@ class basis_equations {
     const Eigen::Index together = systems() == 1 ? channels() : 1;
     Eigen::MatrixXd right(measured_->values.rows(), together);
     for_each_index(
-        measured_->at.size(), 4096,
+        measured_->locations.size(), 4096,
         [&](std::size_t i) {
-          const location& at = measured_->at[i];
+          const location& at = measured_->locations[i];
           const double offset = offset_at(functions, at);
           const auto row = static_cast<Eigen::Index>(i);
           for (Eigen::Index c = 0; c < together; ++c)

@@ -58,11 +58,11 @@ class correction_run {
         solver_(std::move(solver)),
         limits_(limits),
         threads_(threads),
-        places_(samples.at),
-        functions_(corrections_, samples.at, threads),
+        locations_(samples.locations),
+        functions_(corrections_, samples.locations, threads),
         measured_(samples.channels()),
         confidence_(samples.channel_weights()),
-        started_(values_at(initial_, corrections_.cells(), samples.at, threads)),
+        started_(values_at(initial_, corrections_.cells(), samples.locations, threads)),
         total_(channel_values::Ones(3, measured_.cols())) {}
 
   /// The measurements, and the present estimates of them.
@@ -103,7 +103,7 @@ class correction_run {
 
   /// The estimate of another run, after its rounds so far, at the samples of this one.
   [[nodiscard]] channel_values estimated_by(const correction_run& other) const {
-    const channel_values started = values_at(other.initial_, corrections_.cells(), places_, threads_);
+    const channel_values started = values_at(other.initial_, corrections_.cells(), locations_, threads_);
     channel_values total = channel_values::Ones(3, started.cols());
     for (const Eigen::MatrixXd& beta : other.weights_)
       total = (total * functions_.apply(beta)).min(correction_factor::largest_factor);
@@ -146,7 +146,7 @@ class correction_run {
   Solver solver_;
   correction_limits limits_;
   thread_count threads_;
-  std::vector<location> places_;
+  std::vector<location> locations_;
   sampled_functions<correction> functions_;
   channel_values measured_;
   channel_values confidence_;

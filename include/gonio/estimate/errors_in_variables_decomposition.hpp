@@ -20,8 +20,8 @@ namespace gonio {
 /// `angle` radians around their directions.
 ///
 /// What a sample then shows is, on average, the mean of the prior's rows over the circles, and a value deviates from it
-/// by d = (q(x) - mean q) . c + o(x) - mean o at a place x, where o is the mean material's value there, mapped as if it
-/// were in place. That is an error of its own of variance v, the mean of d^2: with m observations the penalty m v
+/// by d = (q(x) - mean q) . c + o(x) - mean o at a location x, where o is the mean material's value there, mapped as if
+/// it were in place. That is an error of its own of variance v, the mean of d^2: with m observations the penalty m v
 /// beyond eta, or the weight eta / (eta + m v). v depends on the material: it is nothing for a matte one, and much on
 /// the flank of a highlight. It is taken over the prior's observations first (C'C = I: |q(x) - mean q|^2 + m o^2), then
 /// over the colour channels of what was found with it, once more.
@@ -61,7 +61,7 @@ class errors_in_variables_decomposition {
     Eigen::VectorXd sample_noise_penalty;  ///< m v over the prior's observations, n
   };
 
-  /// What a sample at one place of its circles would show.
+  /// What a sample at one location of its circles would show.
   struct displaced {
     std::array<Eigen::RowVectorXd, sides * sides> rows;
     std::array<double, sides * sides> offsets;
@@ -85,11 +85,12 @@ class errors_in_variables_decomposition {
   void for_each_sample(const located_samples& measured, Use&& use) const {
     for_each_index(
         measured.size(), 16,
-        [&](std::size_t i) { use(static_cast<Eigen::Index>(i), measured.at[i], around(measured.at[i])); }, threads_);
+        [&](std::size_t i) { use(static_cast<Eigen::Index>(i), measured.locations[i], around(measured.locations[i])); },
+        threads_);
   }
 
   [[nodiscard]] system average(const located_samples& measured) const {
-    const auto n = std::ssize(measured.at), k = static_cast<std::ptrdiff_t>(prior_.size());
+    const auto n = std::ssize(measured.locations), k = static_cast<std::ptrdiff_t>(prior_.size());
     const double m = observations();
     system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 3), Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {

@@ -17,8 +17,8 @@
 
 namespace gonio {
 
-/// The eta that is expected to reconstruct best from samples at these places: their values do not matter. `noise`: the
-/// deviation of a measured value relative to it, independent in each sample and channel; 0.02 is 2 %. Throws
+/// The eta that is expected to reconstruct best from samples at these locations: their values do not matter. `noise`:
+/// the deviation of a measured value relative to it, independent in each sample and channel; 0.02 is 2 %. Throws
 /// gonio::error for unusable samples, noise that is negative or not finite, and a prior of fewer than two materials.
 ///
 /// ```cpp
@@ -33,7 +33,7 @@ template <error_metric Metric, class Samples>
   for (Eigen::Index column = 0; column < located.weights.cols(); ++column) {
     const Eigen::VectorXd weights = located.weights.col(column);
     if (weights.isZero(0.0)) continue;
-    errors.parts.emplace_back(prior, located.at, weights, noise, threads);
+    errors.parts.emplace_back(prior, located.locations, weights, noise, threads);
   }
   // Less than 1e-7 of the largest eigenvalue is no penalty; a hundred times that eigenvalue leaves the mean material.
   const double largest = errors.largest();

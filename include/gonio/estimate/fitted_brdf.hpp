@@ -61,10 +61,10 @@ class fitted_brdf {
     return at(locate(basis_.cells(), to_half_difference(wi, wo)));
   }
 
-  /// The cells that places for `at` are on.
+  /// The cells that locations for `at` are on.
   [[nodiscard]] const valid_cells& cells() const noexcept { return basis_.cells(); }
 
-  /// Reflectance in sr^-1 at a place on the basis' cells, at least zero.
+  /// Reflectance in sr^-1 at a location on the basis' cells, at least zero.
   [[nodiscard]] rgb at(const location& place) const noexcept { return reflectance(mapped_at(place), place); }
 
   /// The value at a cell of the basis in the metric's domain.
@@ -138,7 +138,7 @@ class fitted_brdf {
            static_cast<float>(channels_[channel].offset(cell));
   }
 
-  /// The value at any place in the metric's domain.
+  /// The value at any location in the metric's domain.
   [[nodiscard]] rgb mapped_at(const location& at) const noexcept {
     if constexpr (computed)
       return computed_value(at);
@@ -156,7 +156,7 @@ class fitted_brdf {
     return sum;
   }
 
-  /// The three channels at a place, from one row if they share their basis.
+  /// The three channels at a location, from one row if they share their basis.
   [[nodiscard]] rgb computed_value(const location& at) const noexcept {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;

@@ -1,8 +1,8 @@
 #pragma once
-/// What a reconstruction from given places and noise is expected to miss of a material that the basis has not seen: the
-/// expected error of Xu et al. 2016, Eq. 12-15 (`expected_error`), but each material is left out of the basis before it
-/// is reconstructed. That makes it a function of Tikhonov's penalty worth minimising: a material that the basis
-/// contains is reconstructed best without any.
+/// What a reconstruction from given locations and noise is expected to miss of a material that the basis has not seen:
+/// the expected error of Xu et al. 2016, Eq. 12-15 (`expected_error`), but each material is left out of the basis
+/// before it is reconstructed. That makes it a function of Tikhonov's penalty worth minimising: a material that the
+/// basis contains is reconstructed best without any.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -25,7 +25,7 @@ namespace gonio {
 /// squares S = C'C - C_3'C_3 - (m - 3) c c' = I - N N' with N = C_3'R, R R' = I + 1 1' / (m - 3). The reconstruction by
 /// the others' components is that by all, with S for the weights' prior covariance instead of I:
 ///
-///   x = c + S A'(A S A' + eta I)^-1 (y - A c), A the rows of the basis at the places, y the mapped measurement.
+///   x = c + S A'(A S A' + eta I)^-1 (y - A c), A the rows of the basis at the locations, y the mapped measurement.
 ///
 /// With A'A = V diag(l) V', D = diag(1 / (l + eta)) and F = diag(l) D that is, by Woodbury's identity,
 /// x = c + S V (D q + F n (I - n'F n)^-1 n'D q), q = V'A'(y - A c), n = V'N.
@@ -34,16 +34,16 @@ namespace gonio {
 /// same share of the variance everywhere. What noise adds is taken from the basis of all materials.
 class leave_one_material_out_error {
  public:
-  /// n places with a weight each, as a least-squares problem has them, and the relative deviation of what is measured
-  /// there. O(n k^2 + k^3 + materials k^2). Throws gonio::error for noise that is negative or not finite, as many
-  /// weights as there are not places, and a basis of fewer than two materials.
+  /// n locations with a weight each, as a least-squares problem has them, and the relative deviation of what is
+  /// measured there. O(n k^2 + k^3 + materials k^2). Throws gonio::error for noise that is negative or not finite, as
+  /// many weights as there are not locations, and a basis of fewer than two materials.
   template <error_metric Metric>
-  leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> places,
+  leave_one_material_out_error(const pca<Metric>& basis, std::span<const location> locations,
                                const Eigen::VectorXd& weights, double noise, thread_count threads = {})
       : threads_(threads) {
-    require_sensible(places.size(), weights, basis.names().size());
-    const mapped_noise mapped = map_noise(basis, places, noise, threads);
-    initialise(add_rows(basis, places, weights, mapped, threads), basis.singular_values(), basis.coefficients());
+    require_sensible(locations.size(), weights, basis.names().size());
+    const mapped_noise mapped = map_noise(basis, locations, noise, threads);
+    initialise(add_rows(basis, locations, weights, mapped, threads), basis.singular_values(), basis.coefficients());
   }
 
   /// The largest eigenvalue of A'WA.
@@ -60,7 +60,7 @@ class leave_one_material_out_error {
 
     explicit sums(Eigen::Index k);
     sums& operator+=(const sums& other);
-    /// Adds places with the row of the basis at each as a column.
+    /// Adds locations with the row of the basis at each as a column.
     void add(Eigen::MatrixXd columns, const Eigen::VectorXd& weights, const Eigen::VectorXd& shifts,
              const Eigen::VectorXd& variances);
   };
@@ -73,19 +73,19 @@ class leave_one_material_out_error {
   };
 
   template <error_metric Metric>
-  [[nodiscard]] static sums add_rows(const pca<Metric>& basis, std::span<const location> places,
+  [[nodiscard]] static sums add_rows(const pca<Metric>& basis, std::span<const location> locations,
                                      const Eigen::VectorXd& weights, const mapped_noise& mapped, thread_count threads) {
     const auto k = static_cast<Eigen::Index>(basis.size());
     const auto observations = static_cast<double>(basis.coefficients().rows());
     const double beyond = (1.0 / basis.explained_variance() - 1.0) / observations;
     return sum_over_blocks(
-        places.size(), 256, sums(k),
+        locations.size(), 256, sums(k),
         [&](sums& sum, block range) {
           const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
           Eigen::MatrixXd columns(k, count);
           Eigen::VectorXd variances = mapped.variance.segment(begin, count);
           for (Eigen::Index i = 0; i < count; ++i) {
-            const location& place = places[range.begin + static_cast<std::size_t>(i)];
+            const location& place = locations[range.begin + static_cast<std::size_t>(i)];
             read_row_at(basis, place, Eigen::Map<Eigen::RowVectorXd>(columns.col(i).data(), k));
             variances[i] += beyond * columns.col(i).squaredNorm();
           }
@@ -94,8 +94,8 @@ class leave_one_material_out_error {
         threads);
   }
 
-  /// Throws gonio::error unless there are as many weights as places, at least one, and two materials.
-  static void require_sensible(std::size_t places, const Eigen::VectorXd& weights, std::size_t materials);
+  /// Throws gonio::error unless there are as many weights as locations, at least one, and two materials.
+  static void require_sensible(std::size_t locations, const Eigen::VectorXd& weights, std::size_t materials);
 
   void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients);
 

@@ -18,12 +18,12 @@ using channel_values = Eigen::Array<float, 3, Eigen::Dynamic>;
 
 /// Where was measured, what, and how much it counts, which is more than nothing: n of each.
 struct located_samples {
-  std::vector<location> at;
+  std::vector<location> locations;
   Eigen::MatrixXd values;  ///< n x channels: red, green and blue in sr^-1, or whatever is observed over the domain
   /// n x channels, or n x 1 if each measurement counts the same in all channels.
   Eigen::MatrixXd weights;
 
-  [[nodiscard]] std::size_t size() const noexcept { return at.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return locations.size(); }
 
   /// Is there a measurement that counts more in one channel than in another?
   [[nodiscard]] bool weighs_channels_apart() const noexcept { return weights.cols() > 1; }
@@ -81,17 +81,17 @@ template <sample_range Samples>
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
                                              thread_count threads = {});
 
-/// Reflectances at given places under a metric: 3 x n.
+/// Reflectances at given locations under a metric: 3 x n.
 template <error_metric Metric>
 [[nodiscard]] channel_values map_values(const Metric& metric, const channel_values& values,
-                                        const std::vector<location>& places, thread_count threads = {}) {
+                                        const std::vector<location>& locations, thread_count threads = {}) {
   channel_values mapped(3, values.cols());
   for_each_index(
-      places.size(), 1024,
+      locations.size(), 1024,
       [&](std::size_t i) {
         for (Eigen::Index c = 0; c < 3; ++c) {
           const auto place = static_cast<Eigen::Index>(i);
-          mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, places[i]));
+          mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, locations[i]));
         }
       },
       threads);

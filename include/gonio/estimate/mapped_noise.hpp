@@ -29,26 +29,26 @@ namespace detail {
 
 /// Gaussian noise of a deviation relative to the value (0.02 is 2 %), where the value is that of the basis' mean
 /// material. From 64 quantiles: what happens to one measurement in a hundred is an outlier rather than noise. Throws
-/// gonio::error for noise that is negative or not finite. O(places).
+/// gonio::error for noise that is negative or not finite. O(locations).
 template <basis Basis>
-[[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> places, double noise,
+[[nodiscard]] mapped_noise map_noise(const Basis& functions, std::span<const location> locations, double noise,
                                      thread_count threads = {}) {
   if (!(noise >= 0.0 && std::isfinite(noise)))
     refuse("the noise must be finite and not negative, not " + std::to_string(noise));
-  const auto n = static_cast<Eigen::Index>(places.size());
+  const auto n = static_cast<Eigen::Index>(locations.size());
   mapped_noise mapped{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   if (noise == 0.0) return mapped;
   const std::vector<double> quantiles = detail::normal_quantiles(64);
   const auto count = static_cast<double>(quantiles.size());
   for_each_index(
-      places.size(), 1024,
+      locations.size(), 1024,
       [&](std::size_t i) {
         const auto& metric = functions.metric();
-        const double value = std::max(metric.inverse(offset_at(functions, places[i]), places[i]), 0.0);
-        const double exact = metric.forward(value, places[i]);
+        const double value = std::max(metric.inverse(offset_at(functions, locations[i]), locations[i]), 0.0);
+        const double exact = metric.forward(value, locations[i]);
         double sum = 0.0, squares = 0.0;
         for (const double z : quantiles) {
-          const double deviation = metric.forward(value * (1.0 + noise * z), places[i]) - exact;
+          const double deviation = metric.forward(value * (1.0 + noise * z), locations[i]) - exact;
           sum += deviation;
           squares += deviation * deviation;
         }

@@ -72,29 +72,29 @@ class nearest_material {
   [[nodiscard]] completed_table fit(const Samples& samples) const {
     const auto chosen = choose(locate_samples(materials_.cells(), samples, threads_));
     const valid_cells& cells = materials_.cells();
-    std::vector<location> places(cells.size());
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) places[cell] = locate_cell(cells, cell);
-    const channel_values found = values(chosen, places);
+    std::vector<location> locations(cells.size());
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) locations[cell] = locate_cell(cells, cell);
+    const channel_values found = values(chosen, locations);
     return completed_table(brdf_table(cells, std::vector<float>(found.data(), found.data() + found.size())));
   }
 
-  /// What is chosen, at given places on the materials' cells.
+  /// What is chosen, at given locations on the materials' cells.
   [[nodiscard]] channel_values values(const std::array<scaled_material, 3>& chosen,
-                                      const std::vector<location>& places) const {
+                                      const std::vector<location>& locations) const {
     // A factor found from a few bright samples may lead out of the range of float.
     constexpr double largest = std::numeric_limits<float>::max();
-    channel_values found(3, std::ssize(places));
+    channel_values found(3, std::ssize(locations));
     for (std::size_t c = 0; c < 3; ++c) {
       const auto functions = materials_.channel(c);
-      for (std::size_t i = 0; i < places.size(); ++i)
+      for (std::size_t i = 0; i < locations.size(); ++i)
         found(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) = static_cast<float>(
-            std::min(chosen[c].factor * reflectance(functions, chosen[c].material, places[i]), largest));
+            std::min(chosen[c].factor * reflectance(functions, chosen[c].material, locations[i]), largest));
     }
     return found;
   }
 
  private:
-  /// The reflectance of a material at a place, at least zero.
+  /// The reflectance of a material at a location, at least zero.
   [[nodiscard]] double reflectance(const material_channel<Metric>& functions, std::size_t material,
                                    const location& at) const {
     const double mapped = interpolate(
@@ -105,13 +105,13 @@ class nearest_material {
   /// Samples of one channel as a mixture sees them.
   struct evidence {
     evidence(const located_samples& samples, std::size_t channel, double offset_of_logarithm)
-        : at(&samples.at), offset(offset_of_logarithm) {
+        : locations(&samples.locations), offset(offset_of_logarithm) {
       logarithms = (samples.values.col(static_cast<Eigen::Index>(channel)).array().max(0.0) + offset).log();
       const outlier_density density({logarithms.begin(), logarithms.end()});
       outliers = logarithms.unaryExpr([&](double value) { return density(value); });
     }
 
-    const std::vector<location>* at;  // the three channels have the same places
+    const std::vector<location>* locations;  // the three channels have the same locations
     double offset;
     Eigen::ArrayXd logarithms, outliers;
   };
@@ -125,8 +125,9 @@ class nearest_material {
   [[nodiscard]] Eigen::ArrayXd differences(const evidence& seen, const material_channel<Metric>& functions,
                                            std::size_t material) const {
     Eigen::ArrayXd values(seen.logarithms.size());
-    for (std::size_t i = 0; i < seen.at->size(); ++i)
-      values[static_cast<Eigen::Index>(i)] = std::log(reflectance(functions, material, (*seen.at)[i]) + seen.offset);
+    for (std::size_t i = 0; i < seen.locations->size(); ++i)
+      values[static_cast<Eigen::Index>(i)] =
+          std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
     return seen.logarithms - values;
   }
 

@@ -141,7 +141,7 @@ template <class Measurements>
 /// that of the mean of its three logarithmic residuals, whose sign is kept: that is one number, which the densities of
 /// the mixture are of. How far it is out on the tail is said by their root mean square, which sees colours, too.
 struct automatic_weights {
-  /// Weigh good samples by their place on the tail, too?
+  /// Weigh good samples by their location on the tail, too?
   bool down_weight_tail = true;
   /// If given, good residuals have another scale in each region of the samples (of which there must be as many as are
   /// weighed): a fit that is good elsewhere must not make outliers of a highlight that it misses.

@@ -14,9 +14,9 @@
 
 namespace gonio {
 
-/// Fits measurements at places that are given beforehand, each of weight 1. What `decomposition` does for the same
+/// Fits measurements at locations that are given beforehand, each of weight 1. What `decomposition` does for the same
 /// samples, up to float products in the matrix (docs/solvers.md); a reconstruction then reads the materials at the
-/// places once.
+/// locations once.
 ///
 /// ```cpp
 /// const auto plan = gonio::locate_samples(materials.cells(), first_surface).at;
@@ -26,13 +26,13 @@ namespace gonio {
 template <error_metric Metric, normal_solver Solver = nnls>
 class planned_decomposition {
  public:
-  /// `places` must be on the materials' cells. O(places materials^2).
-  planned_decomposition(measured<Metric> materials, std::vector<location> places, Solver solver = {},
+  /// `locations` must be on the materials' cells. O(locations materials^2).
+  planned_decomposition(measured<Metric> materials, std::vector<location> locations, Solver solver = {},
                         thread_count threads = {})
       : materials_(std::move(materials)),
         solver_(std::move(solver)),
         threads_(threads),
-        plan_(std::make_shared<const plan>(materials_, std::move(places), threads)) {}
+        plan_(std::make_shared<const plan>(materials_, std::move(locations), threads)) {}
 
   /// The same plan for combinations without these materials. Nothing is copied. Throws gonio::error for a name that
   /// there is not, or if none is left.
@@ -42,13 +42,13 @@ class planned_decomposition {
     return fewer;
   }
 
-  /// From reflectance in sr^-1 at the places, 3 x n. Throws gonio::error if there are not as many, or one is not
-  /// finite, or if the solver gives up. O(places materials).
+  /// From reflectance in sr^-1 at the locations, 3 x n. Throws gonio::error if there are not as many, or one is not
+  /// finite, or if the solver gives up. O(locations materials).
   [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(const channel_values& values) const {
-    const auto count = std::ssize(plan_->places);
-    if (values.cols() != count) refuse({"there are ", values.cols(), " measurements at ", count, " planned places"});
+    const auto count = std::ssize(plan_->locations);
+    if (values.cols() != count) refuse({"there are ", values.cols(), " measurements at ", count, " planned locations"});
     if (!values.isFinite().all()) refuse("a measurement at a planned place is not finite");
-    const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->places, threads_);
+    const channel_values right_hand_sides = map_values(materials_.metric(), values, plan_->locations, threads_);
     const Eigen::MatrixXd rhs = plan_->functions.rhs(channel_values::Ones(3, count), right_hand_sides);
     const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();
     const std::vector<Eigen::Index> columns = columns_of(materials_);
@@ -64,13 +64,13 @@ class planned_decomposition {
 
  private:
   struct plan {
-    plan(const measured<Metric>& materials, std::vector<location> where, thread_count threads)
-        : places(std::move(where)), functions(materials, places, threads) {
-      const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(std::ssize(places));
+    plan(const measured<Metric>& materials, std::vector<location> at, thread_count threads)
+        : locations(std::move(at)), functions(materials, locations, threads) {
+      const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(std::ssize(locations));
       for (std::size_t c = 0; c < 3; ++c) grams[c] = functions.normal(c, ones, ones).gram();
     }
 
-    std::vector<location> places;
+    std::vector<location> locations;
     sampled_functions<measured<Metric>> functions;
     std::array<Eigen::MatrixXd, 3> grams;
   };

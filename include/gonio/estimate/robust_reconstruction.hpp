@@ -22,10 +22,10 @@ class reweighted_combination {
  public:
   reweighted_combination(measured<Metric> materials, const located_samples& samples, thread_count threads)
       : materials_(std::move(materials)),
-        functions_(materials_, samples.at, threads),
-        places_(samples.at),
+        functions_(materials_, samples.locations, threads),
+        locations_(samples.locations),
         confidence_(samples.channel_weights()),
-        mapped_(map_values(materials_.metric(), samples.channels(), places_, threads)) {}
+        mapped_(map_values(materials_.metric(), samples.channels(), locations_, threads)) {}
 
   /// Weights of the materials, k x 3, with x >= 0.
   [[nodiscard]] solution solve(const channel_values& inlier_weights) const {
@@ -33,7 +33,7 @@ class reweighted_combination {
   }
   /// Weights that follow other samples as well, all of which are trusted.
   [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const {
-    const channel_values all = channel_values::Ones(3, std::ssize(others.places_));
+    const channel_values all = channel_values::Ones(3, std::ssize(others.locations_));
     return combine([&](std::size_t c) { return equations(c, inlier_weights) + others.equations(c, all); });
   }
 
@@ -42,8 +42,9 @@ class reweighted_combination {
     channel_values values = functions_.apply(found.weights);
     for (Eigen::Index i = 0; i < values.cols(); ++i)
       for (float& value : values.col(i))
-        value = static_cast<float>(std::clamp(materials_.metric().inverse(value, places_[static_cast<std::size_t>(i)]),
-                                              0.0, double{correction_factor::largest_estimate}));
+        value =
+            static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[static_cast<std::size_t>(i)]),
+                                          0.0, double{correction_factor::largest_estimate}));
     return values;
   }
 
@@ -54,7 +55,7 @@ class reweighted_combination {
     channel_values factors(3, estimates.cols());
     for (Eigen::Index i = 0; i < estimates.cols(); ++i)
       for (Eigen::Index c = 0; c < 3; ++c) {
-        const location& at = places_[static_cast<std::size_t>(i)];
+        const location& at = locations_[static_cast<std::size_t>(i)];
         const double rho = estimates(c, i), next = rho + step * (rho + offsets[c]);
         const double slope = materials_.metric().forward(next, at) - materials_.metric().forward(rho, at);
         factors(c, i) = static_cast<float>(std::pow(step / slope, 2));
@@ -79,7 +80,7 @@ class reweighted_combination {
 
   measured<Metric> materials_;
   sampled_functions<measured<Metric>> functions_;
-  std::vector<location> places_;
+  std::vector<location> locations_;
   channel_values confidence_;
   channel_values mapped_;
 };
@@ -206,7 +207,7 @@ class robust_reconstruction {
   };
 
   [[nodiscard]] static automatic_weights weights_of(const located_samples& samples) {
-    return {.regions = std::make_shared<const sample_regions>(samples.at)};
+    return {.regions = std::make_shared<const sample_regions>(samples.locations)};
   }
 
   [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
@@ -222,7 +223,7 @@ class robust_reconstruction {
 
     const nearest_material<Metric> nearest(materials_, options_.seed, threads_);
     const std::array<scaled_material, 3> chosen = nearest.choose(some);
-    channel_values estimates = nearest.values(chosen, some.at);
+    channel_values estimates = nearest.values(chosen, some.locations);
     solution found;
     for (int i = 0; i < options_.combinations; ++i) {
       found = combination.solve(weighting.weigh(measured, estimates) * combination.relative(estimates, offsets));
@@ -243,10 +244,10 @@ class robust_reconstruction {
     const valid_cells& cells = materials_.cells();
     const std::size_t count = std::min<std::size_t>(cells.size(), 1'000);
     located_samples expected;
-    for (std::size_t i = 0; i < count; ++i) expected.at.push_back(locate_cell(cells, i * cells.size() / count));
-    expected.values = nearest.values(chosen, expected.at).template cast<double>().matrix().transpose();
+    for (std::size_t i = 0; i < count; ++i) expected.locations.push_back(locate_cell(cells, i * cells.size() / count));
+    expected.values = nearest.values(chosen, expected.locations).template cast<double>().matrix().transpose();
     expected.weights =
-        Eigen::MatrixXd::Constant(std::ssize(expected.at), 1, options_.expectation / static_cast<double>(count));
+        Eigen::MatrixXd::Constant(std::ssize(expected.locations), 1, options_.expectation / static_cast<double>(count));
     return expected;
   }
 

@@ -18,7 +18,7 @@ class sample_regions {
   static constexpr std::size_t fewest_samples = 8;
 
   /// O(n log n).
-  explicit sample_regions(const std::vector<location>& places);
+  explicit sample_regions(const std::vector<location>& locations);
 
   [[nodiscard]] std::size_t count() const noexcept { return strips_ * parts_; }
 

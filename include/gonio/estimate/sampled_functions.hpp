@@ -1,6 +1,6 @@
 #pragma once
-/// The functions of a basis at given places, for iterations that solve for their weights again and again with the same
-/// rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
+/// The functions of a basis at given locations, for iterations that solve for their weights again and again with the
+/// same rows and other weights of the samples: Noell, Koehler and Stricker 2014, Eq. 7-10.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/located_samples.hpp>
@@ -23,19 +23,19 @@ template <colour_basis Basis>
 requires tabulated_basis<decltype(channel_of(std::declval<const Basis&>(), 0))>
 class sampled_functions {
  public:
-  sampled_functions(const Basis& functions, const std::vector<location>& places, thread_count threads = {})
+  sampled_functions(const Basis& functions, const std::vector<location>& locations, thread_count threads = {})
       : columns_(columns_of(functions)),
         unknowns_(static_cast<Eigen::Index>(functions.size())),
         channels_{channel_of(functions, 0), channel_of(functions, 1), channel_of(functions, 2)},
         threads_(threads) {
-    rows_.fill(std::vector<const float*>(places.size()));
-    interpolate_between_cells(places);
+    rows_.fill(std::vector<const float*>(locations.size()));
+    interpolate_between_cells(locations);
     for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < places.size(); ++i)
-        if (places[i].count == 1) rows_[c][i] = channels_[c].row(places[i].cell[0]).data();
+      for (std::size_t i = 0; i < locations.size(); ++i)
+        if (locations[i].count == 1) rows_[c][i] = channels_[c].row(locations[i].cell[0]).data();
   }
 
-  /// Number of places.
+  /// Number of locations.
   [[nodiscard]] std::size_t size() const noexcept { return rows_[0].size(); }
   /// All functions of the basis, those that are left out included.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return unknowns_; }
@@ -88,7 +88,7 @@ class sampled_functions {
         threads_);
   }
 
-  /// A x at all places, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
+  /// A x at all locations, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
   [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
     const Eigen::MatrixXf weights = x.cast<float>();
     channel_values values(3, static_cast<Eigen::Index>(size()));
@@ -118,10 +118,10 @@ class sampled_functions {
     return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
   }
 
-  void interpolate_between_cells(const std::vector<location>& places) {
+  void interpolate_between_cells(const std::vector<location>& locations) {
     std::vector<std::size_t> between;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      if (places[i].count != 1) between.push_back(i);
+    for (std::size_t i = 0; i < locations.size(); ++i)
+      if (locations[i].count != 1) between.push_back(i);
     interpolated_ = std::make_shared<cell_matrix>(3 * std::ssize(between), unknowns_);
     for_each_block(
         between.size(), 256,
@@ -130,7 +130,7 @@ class sampled_functions {
           for (std::size_t slot = range.begin; slot < range.end; ++slot)
             for (std::size_t c = 0; c < 3; ++c) {
               auto own = interpolated_->row(static_cast<Eigen::Index>(3 * slot + c));
-              read_row_at(channels_[c], places[between[slot]], row);
+              read_row_at(channels_[c], locations[between[slot]], row);
               own = row.template cast<float>();
               rows_[c][between[slot]] = own.data();
             }

@@ -11,25 +11,27 @@
 
 namespace gonio {
 
-/// An estimate at given places on `cells`: by its own `at` if it has these cells, else read from its table where places
-/// are cells and there are many, otherwise evaluated.
+/// An estimate at given locations on `cells`: by its own `at` if it has these cells, else read from its table where
+/// locations are cells and there are many, otherwise evaluated.
 template <tabulated_brdf Fit>
-[[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& places,
+[[nodiscard]] channel_values values_at(const Fit& fit, const valid_cells& cells, const std::vector<location>& locations,
                                        thread_count threads = {}) {
   const auto collect = [&](auto&& value_at) {
-    channel_values values(3, std::ssize(places));
+    channel_values values(3, std::ssize(locations));
     for_each_index(
-        places.size(), 256,
-        [&](std::size_t i) { values.col(static_cast<Eigen::Index>(i)) = value_at(places[i]).template cast<float>(); },
+        locations.size(), 256,
+        [&](std::size_t i) {
+          values.col(static_cast<Eigen::Index>(i)) = value_at(locations[i]).template cast<float>();
+        },
         threads);
     return values;
   };
-  if constexpr (requires { fit.at(places[0]); })
+  if constexpr (requires { fit.at(locations[0]); })
     if (fit.cells() == cells) return collect([&](const location& at) { return fit.at(at); });
   // A table takes as long as some thousand evaluations.
   constexpr std::ptrdiff_t worth_a_table = 4096;
   std::optional<brdf_table> table;
-  if (std::ranges::count_if(places, [](const location& at) { return at.count == 1; }) > worth_a_table)
+  if (std::ranges::count_if(locations, [](const location& at) { return at.count == 1; }) > worth_a_table)
     table = fit.tabulate(cells, threads);
   return collect([&](const location& at) {
     if (table && at.count == 1) return rgb(table->at(std::size_t{at.cell[0]}));

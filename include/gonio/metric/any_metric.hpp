@@ -33,11 +33,11 @@ class any_metric {
   requires(std::constructible_from<choice, Metric> && !std::same_as<Metric, any_metric>) any_metric(Metric held)
       : held_(std::move(held)) {}  // NOLINT: conversion is the point
 
-  [[nodiscard]] double forward(double rho, const auto& where) const noexcept {
-    return std::visit([&](const auto& metric) -> double { return metric.forward(rho, where); }, held_);
+  [[nodiscard]] double forward(double rho, const auto& at) const noexcept {
+    return std::visit([&](const auto& metric) -> double { return metric.forward(rho, at); }, held_);
   }
-  [[nodiscard]] double inverse(double y, const auto& where) const noexcept {
-    return std::visit([&](const auto& metric) -> double { return metric.inverse(y, where); }, held_);
+  [[nodiscard]] double inverse(double y, const auto& at) const noexcept {
+    return std::visit([&](const auto& metric) -> double { return metric.inverse(y, at); }, held_);
   }
 
   /// For what is done to many values at once.

@@ -19,7 +19,7 @@ namespace gonio {
 /// - a cell number and the location of that cell give the same result;
 /// - all members are const, thread safe and do not allocate.
 ///
-/// A metric that does not depend on the place takes it and ignores it:
+/// A metric that does not depend on the location takes it and ignores it:
 /// ```cpp
 /// struct identity_metric {
 ///   double forward(double rho, const auto&) const noexcept { return rho; }

@@ -22,7 +22,7 @@ enum class cosine_weighting {
 };
 
 /// forward(rho) = ln((rho c + epsilon) / (rho_ref c + epsilon)) with the cosine weight
-/// c = max(cos theta_i cos theta_o, epsilon) of the place (Eq. 1-2), or max(cos theta_i, cos theta_o, epsilon).
+/// c = max(cos theta_i cos theta_o, epsilon) of the location (Eq. 1-2), or max(cos theta_i, cos theta_o, epsilon).
 ///
 /// Negative reflectance counts as zero in `forward`, whose smallest value is ln(epsilon / (rho_ref c +
 /// epsilon)); `inverse` of anything smaller is negative, down to -epsilon / c. Whoever needs a BRDF clamps

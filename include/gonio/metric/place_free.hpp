@@ -1,5 +1,5 @@
 #pragma once
-/// What error metrics that are the same at every place have in common.
+/// What error metrics that are the same at every location have in common.
 
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/upsample.hpp>
@@ -14,8 +14,8 @@ namespace gonio {
 template <class Metric>
 class place_free_metric {
  public:
-  [[nodiscard]] double forward(double rho, const auto& /*where*/) const noexcept { return metric().map(rho); }
-  [[nodiscard]] double inverse(double y, const auto& /*where*/) const noexcept { return metric().unmap(y); }
+  [[nodiscard]] double forward(double rho, const auto& /*at*/) const noexcept { return metric().map(rho); }
+  [[nodiscard]] double inverse(double y, const auto& /*at*/) const noexcept { return metric().unmap(y); }
 
   /// The same metric over other cells.
   [[nodiscard]] const Metric& on(const valid_cells& /*cells*/) const noexcept { return metric(); }

@@ -42,13 +42,12 @@ class brdf_table {
   }
 
   /// Trilinear interpolation of the stored values at a location on this table's cells.
-  [[nodiscard]] rgb at(const location& where) const noexcept {
+  [[nodiscard]] rgb at(const location& at) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
-    for (int corner = 0; corner < where.count; ++corner) {
+    for (int corner = 0; corner < at.count; ++corner) {
       const auto slot = static_cast<std::size_t>(corner);
-      const float* value = values_.data() + 3 * std::size_t{where.cell[slot]};
-      for (Eigen::Index channel = 0; channel < 3; ++channel)
-        sum[channel] += where.weight[slot] * double{value[channel]};
+      const float* value = values_.data() + 3 * std::size_t{at.cell[slot]};
+      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[slot] * double{value[channel]};
     }
     return sum;
   }

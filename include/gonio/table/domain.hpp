@@ -12,10 +12,10 @@ namespace gonio {
 
 /// Places numbered from 0 to `size()`: the valid cells of a grid for BRDFs, the coordinates of vertices for shapes.
 ///
-/// What the compiler cannot check, and a model must keep: copies are cheap; two that are equal number the same places
-/// alike; `locate_cell(places, i)`, found beside the type, is the location that reads place i alone. A thing is
-/// observed over a domain in three channels of colour, unless the domain says otherwise: `static constexpr int channels
-/// = 1;`.
+/// What the compiler cannot check, and a model must keep: copies are cheap; two that are equal number the same
+/// locations alike; `locate_cell(locations, i)`, found beside the type, is the location that reads location i alone. A
+/// thing is observed over a domain in three channels of colour, unless the domain says otherwise: `static constexpr int
+/// channels = 1;`.
 ///
 /// ```cpp
 /// struct wavelengths {
@@ -29,9 +29,9 @@ namespace gonio {
 /// ```
 template <class Places>
 concept domain = std::copyable<Places> && std::equality_comparable<Places> &&
-    requires(const Places& places, std::size_t place) {
-  { places.size() } -> std::convertible_to<std::size_t>;
-  { locate_cell(places, place) } -> std::same_as<location>;
+    requires(const Places& locations, std::size_t place) {
+  { locations.size() } -> std::convertible_to<std::size_t>;
+  { locate_cell(locations, place) } -> std::same_as<location>;
 };
 
 static_assert(domain<valid_cells>);

@@ -1,5 +1,5 @@
 #pragma once
-/// A place on a grid at which a field over its valid cells is read: a cell itself, or the corners of the
+/// A location on a grid at which a field over its valid cells is read: a cell itself, or the corners of the
 /// box around a direction pair with their trilinear weights.
 
 #include <gonio/table/valid_cells.hpp>
@@ -13,7 +13,7 @@
 namespace gonio {
 
 /// Where a field is read: at most eight valid cells with weights that sum to 1, and the exact angles and
-/// cosines of the place, which metrics need and interpolation would blur.
+/// cosines of the location, which metrics need and interpolation would blur.
 struct location {
   std::array<std::uint32_t, 8> cell{};
   std::array<double, 8> weight{};
@@ -21,11 +21,11 @@ struct location {
   half_difference angles;
   cosine_pair cosine;
 
-  /// Is the place above the horizon for both directions?
+  /// Is the location above the horizon for both directions?
   [[nodiscard]] bool above_horizon() const noexcept { return cosine.i > 0.0 && cosine.o > 0.0; }
 };
 
-/// The location that reads one place alone. Without angles: the place may not have any.
+/// The location that reads one location alone. Without angles: the location may not have any.
 [[nodiscard]] inline location location_of(std::size_t place) noexcept {
   location at;
   at.cell[0] = static_cast<std::uint32_t>(place);

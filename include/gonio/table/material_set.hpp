@@ -35,8 +35,8 @@ struct material_set {
   [[nodiscard]] material_set subset(const std::vector<std::size_t>& positions) const;
 };
 
-/// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each place of
-/// it and a column for each channel of each thing. Materials are, and shapes.
+/// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each location
+/// of it and a column for each channel of each thing. Materials are, and shapes.
 template <class Set>
 concept observation_set = requires(Set& things) {
   requires domain<std::remove_cvref_t<decltype(things.cells)>>;
@@ -50,7 +50,7 @@ static_assert(observation_set<material_set>);
 template <observation_set Set>
 using domain_of_set = std::remove_cvref_t<decltype(std::declval<Set&>().cells)>;
 
-/// Throws gonio::error unless there is a thing, with all of its columns and a row for each place.
+/// Throws gonio::error unless there is a thing, with all of its columns and a row for each location.
 template <observation_set Set>
 void require_complete(const Set& things) {
   constexpr std::size_t channels = channels_over<domain_of_set<Set>>;

@@ -120,10 +120,10 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
   noise += product_with_transpose(columns);
 }
 
-GONIO_INLINE void leave_one_material_out_error::require_sensible(std::size_t places, const Eigen::VectorXd& weights,
+GONIO_INLINE void leave_one_material_out_error::require_sensible(std::size_t locations, const Eigen::VectorXd& weights,
                                                                  std::size_t materials) {
-  if (static_cast<std::size_t>(weights.size()) != places || places == 0)
-    refuse(std::to_string(places) + " places need as many weights, not " + std::to_string(weights.size()) +
+  if (static_cast<std::size_t>(weights.size()) != locations || locations == 0)
+    refuse(std::to_string(locations) + " locations need as many weights, not " + std::to_string(weights.size()) +
            ", and at least one");
   if (materials < 2) refuse("one material alone cannot be left out of what was learned from it: eta must be stated");
 }

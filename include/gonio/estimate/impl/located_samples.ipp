@@ -27,14 +27,15 @@ GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sam
       refuse({"sample ", number, ": a reflectance is beyond the range of float"});
     samples.values(i, channel) = s.value[channel];
   }
-  samples.at[static_cast<std::size_t>(i)].angles = s.angles();
+  samples.locations[static_cast<std::size_t>(i)].angles = s.angles();
   for (Eigen::Index channel = 0; channel < samples.weights.cols(); ++channel)
     samples.weights(i, channel) = s.weight[channel];
 }
 
 GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
   for_each_index(
-      samples.size(), 1024, [&](std::size_t i) { samples.at[i] = locate(cells, samples.at[i].angles); }, threads);
+      samples.size(), 1024, [&](std::size_t i) { samples.locations[i] = locate(cells, samples.locations[i].angles); },
+      threads);
 }
 
 }  // namespace gonio::detail
@@ -63,7 +64,7 @@ GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size
                        Eigen::MatrixXd(count, weights.cols())};
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
-    some.at[i] = at[positions[i]];
+    some.locations[i] = locations[positions[i]];
     for (Eigen::Index channel = 0; channel < 3; ++channel) some.values(to, channel) = values(from, channel);
     for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
   }
@@ -84,7 +85,7 @@ GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf
           if (!std::isfinite(value)) refuse({"cell ", cell, " of a table is not finite"});
           found.values(row, static_cast<Eigen::Index>(channel)) = value;
         }
-        found.at[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
+        found.locations[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
       },
       threads);
   return found;

@@ -12,12 +12,12 @@
 
 namespace gonio {
 
-GONIO_INLINE sample_regions::sample_regions(const std::vector<location>& places)
-    : order_(places.size()), strips_(at_most(6, places.size())), parts_(at_most(4, places.size() / strips_)) {
+GONIO_INLINE sample_regions::sample_regions(const std::vector<location>& locations)
+    : order_(locations.size()), strips_(at_most(6, locations.size())), parts_(at_most(4, locations.size() / strips_)) {
   std::iota(order_.begin(), order_.end(), std::size_t{0});
   const auto sort_by = [&](double half_difference::*angle, std::span<std::size_t> some) {
     std::ranges::sort(some, [&](std::size_t one, std::size_t other) {
-      const double first = places[one].angles.*angle, second = places[other].angles.*angle;
+      const double first = locations[one].angles.*angle, second = locations[other].angles.*angle;
       return first != second ? first < second : one < other;
     });
   };

@@ -83,7 +83,7 @@ namespace gonio::shape {
 GONIO_INLINE located_samples locate_vertices(const vertex_coordinates& coordinates, const vertex_observations& known) {
   detail::require_known(coordinates, known);
   located_samples found;
-  found.at.reserve(3 * known.vertices.size());
+  found.locations.reserve(3 * known.vertices.size());
   found.values.resize(static_cast<Eigen::Index>(3 * known.vertices.size()), 1);
   found.weights = Eigen::MatrixXd::Ones(found.values.rows(), 1);
   for (std::size_t i = 0; i < known.vertices.size(); ++i) {
@@ -93,7 +93,7 @@ GONIO_INLINE located_samples locate_vertices(const vertex_coordinates& coordinat
       axes = detail::axes_about(known.normals.col(column));
       found.weights(3 * column + 1, 0) = found.weights(3 * column + 2, 0) = known.tangential;
     }
-    detail::locate_along(axes, known.vertices[i], found.at);
+    detail::locate_along(axes, known.vertices[i], found.locations);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       if (known.weights.size() != 0) found.weights(3 * column + axis, 0) *= known.weights[column];
       found.values(3 * column + axis, 0) = axes.col(axis).dot(known.positions.col(column));
