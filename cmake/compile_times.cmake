@@ -93,6 +93,10 @@ Written by `cmake -D OUTPUT=${OUTPUT} -P cmake/compile_times.cmake`, ${today}, g
 memory of one compiler. The plain program has one product and one Cholesky decomposition of Eigen matrices, at -O2: ${seconds} s and
 ${megabytes} MB here; it was compiled again before each line.
 
+<!-- cmake -P cmake/compile_times.cmake -->
+
 ${heading}
-${table}")
+${table}
+<!-- end of cmake -->
+")
 endif()

@@ -58,8 +58,20 @@ option option::excludes(option other) { return option(*known_->excludes(other.kn
 
 // ---- commands ------------------------------------------------------------------------------------------------------
 
+struct command::extension {
+  std::function<void(command&)> added;
+  std::function<void(const std::function<void()>&)> around;
+};
+
+void command::extend_subcommands(std::function<void(command&)> added,
+                                 std::function<void(const std::function<void()>&)> around) {
+  extended_ = std::make_shared<const extension>(extension{std::move(added), std::move(around)});
+}
+
 command command::add_subcommand(const std::string& name, const std::string& description) {
-  return {*known_->add_subcommand(name, description), std::make_shared<declared_files>()};
+  command added(*known_->add_subcommand(name, description), std::make_shared<declared_files>(), extended_);
+  if (extended_) extended_->added(added);
+  return added;
 }
 
 option_group command::add_option_group(const std::string& name, const std::string& description) {
@@ -143,9 +155,9 @@ option command::add_flag(const std::string& names, bool& value, const std::strin
 }
 
 void command::callback(std::function<void()> work) {
-  known_->callback([work = std::move(work), files = files_] {
+  known_->callback([work = std::move(work), files = files_, extended = extended_] {
     files->require_writable();
-    work();
+    extended ? extended->around(work) : work();
   });
 }
 

@@ -71,6 +71,10 @@ class declared_files;
 class command {
  public:
   command add_subcommand(const std::string& name, const std::string& description);
+  /// For the subcommands that are added from now on: `added` may give each an option, and `around(work)` is called
+  /// instead of its work, which it calls itself.
+  void extend_subcommands(std::function<void(command&)> added,
+                          std::function<void(const std::function<void()>&)> around);
   option_group add_option_group(const std::string& name, const std::string& description);
   void require_subcommand();
   /// Words that are no option of it are no error.
@@ -123,12 +127,16 @@ class command {
   [[nodiscard]] std::size_t count(const std::string& name) const;
 
  protected:
-  command(CLI::App& known, std::shared_ptr<declared_files> files) : known_(&known), files_(std::move(files)) {}
+  struct extension;
+
+  command(CLI::App& known, std::shared_ptr<declared_files> files, std::shared_ptr<const extension> extended = nullptr)
+      : known_(&known), files_(std::move(files)), extended_(std::move(extended)) {}
   [[nodiscard]] CLI::App& known() const noexcept { return *known_; }
 
  private:
   CLI::App* known_;
-  std::shared_ptr<declared_files> files_;  ///< of the subcommand, and of its groups
+  std::shared_ptr<declared_files> files_;      ///< of the subcommand, and of its groups
+  std::shared_ptr<const extension> extended_;  ///< by the command that this one is a part of; may be nothing
 };
 
 /// Options of which some number must be given.

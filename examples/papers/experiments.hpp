@@ -24,5 +24,6 @@ void add_model_properties(command& app);
 void add_model_recovery(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
+void add_run(command& app);
 
 }  // namespace papers

@@ -1,9 +1,13 @@
 /// `gonio-papers`: the published experiments, and ours on real measurements.
 
 #include "papers/experiments.hpp"
+#include "papers/markdown_page.hpp"
 
 int main(int argc, char** argv) {
   cli::program app("gonio-papers", "Run an experiment and print its table", GONIO_VERSION);
+  papers::markdown_page page(argc, argv, GONIO_VERSION);
+  app.extend_subcommands([&page](cli::command& experiment) { page.add_option(experiment); },
+                         [&page](const std::function<void()>& work) { page.around(work); });
   papers::add_nielsen_test_materials(app);
   papers::add_measured_materials(app);
   papers::add_linear_combination(app);
@@ -21,5 +25,6 @@ int main(int argc, char** argv) {
   papers::add_model_recovery(app);
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
+  papers::add_run(app);
   return app.run(argc, argv);
 }

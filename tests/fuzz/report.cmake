@@ -50,7 +50,11 @@ the target `fuzz` (`cmake -S . -B build/fuzz -G Ninja -D CMAKE_CXX_COMPILER=clan
 not name the file or holds control characters. There is none; what was found by other means is mended, and `tests/crafted` keeps the files.
 On a machine that other work fills, a process may wait two seconds for its turn: such runs had `-timeout=20`, and the slowest file is in the table.
 
+<!-- cmake -P tests/fuzz/report.cmake -->
+
 | reader | files read | seconds | files kept, as they reach new code | slowest, whole seconds | largest memory of the process, MB |
 |---|---|---|---|---|---|
 ${rows}| all | ${all} | ${all_seconds} | | | |
+
+<!-- end of cmake -->
 ")

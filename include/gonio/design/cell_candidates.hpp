@@ -17,7 +17,7 @@ namespace gonio::design {
 
 /// The rows Y and W of all cells (see `expected_error`), in float: 8 bytes a cell and observation, or 2.4 GB for a
 /// million cells and 270 observations. A prior that was learned with fewer cells (`gonio learn --thin`) needs less, and
-/// loses little: docs/directions.md.
+/// loses little: docs/results/directions.md.
 class cell_candidates {
  public:
   /// 4 k m operations a cell. `sample_noise_penalties` are those of the errors that a measurement of each cell has of

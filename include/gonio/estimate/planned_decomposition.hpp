@@ -15,7 +15,7 @@
 namespace gonio {
 
 /// Fits measurements at locations that are given beforehand, each of weight 1. What `decomposition` does for the same
-/// samples, up to float products in the matrix (docs/solvers.md); a reconstruction then reads the materials at the
+/// samples, up to float products in the matrix (docs/results/solvers.md); a reconstruction then reads the materials at the
 /// locations once.
 ///
 /// ```cpp

@@ -15,7 +15,7 @@
 
 namespace gonio {
 
-/// Which cosines weight a reflectance in `log_relative`. Two papers of the same authors differ: docs/estimators.md.
+/// Which cosines weight a reflectance in `log_relative`. Two papers differ: docs/reference/estimators.md.
 enum class cosine_weighting {
   product,  ///< cos theta_i cos theta_o: Nielsen et al. 2015, Eq. 2
   larger,   ///< the larger of the two: Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 3

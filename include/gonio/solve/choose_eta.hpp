@@ -2,7 +2,7 @@
 /// The penalty of a Tikhonov solver, chosen by how well each observation is predicted from the others.
 /// Leave-one-out (PRESS): Allen, Technometrics 16, 1974. Generalised cross-validation: Golub, Heath and Wahba,
 /// Technometrics 21, 1979. Both take the rows' errors for independent and fail where they go together, as those of a
-/// image's pixels do if light or camera are off their places (docs/directions.md, docs/eta.md).
+/// image's pixels do if light or camera are off their places (docs/results/directions.md, docs/results/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 

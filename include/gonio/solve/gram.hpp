@@ -101,7 +101,7 @@ class product_sum {
 ///
 /// `Products` is the precision of the products and of their sums over 128 rows; these sums are added in double. With
 /// `float` it takes about 0.6 times as long, and on measured materials entries are off by up to 1e-7 of their columns'
-/// lengths (docs/solvers.md has what that does to each solver).
+/// lengths (docs/results/solvers.md has what that does to each solver).
 template <class Products = double, class Derived>
 requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajor)) [[nodiscard]] Eigen::MatrixXd
     gram(const Eigen::MatrixBase<Derived>& rows, thread_count threads = {}) {

@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/solvers.md has both measured. It is
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does; docs/results/solvers.md has both measured. It is
 /// `non_negative_lasso` without a penalty under the name by which NNLS knows it. Throws gonio::error as `nnls` does.
 class nnls_coordinate_descent {
  public:

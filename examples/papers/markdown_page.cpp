@@ -1,0 +1,186 @@
+#include "papers/markdown_page.hpp"
+
+#include "command_line/fixed.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/io/file.hpp>
+
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <iostream>
+#include <optional>
+#include <sstream>
+#include <streambuf>
+
+namespace papers {
+
+namespace {
+
+constexpr std::size_t line_width = 120;
+
+/// Does this argument set an option that changes nothing of what is printed?
+bool is_left_out(const std::string& argument) {
+  const std::string name = argument.substr(0, argument.find('='));
+  return name == "--markdown" || name == "--state" || name == "--threads";
+}
+
+/// A path by its last part; everything else as it is.
+std::string without_folders(const std::string& argument) {
+  std::string name = argument;
+  while (name.size() > 1 && name.back() == '/') name.pop_back();
+  return name.substr(name.rfind('/') + 1);
+}
+
+/// The value that an option was given last.
+std::optional<std::string> value_of(const std::string& name, std::span<const std::string> arguments) {
+  std::optional<std::string> value;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == name && i + 1 < arguments.size()) value = arguments[i + 1];
+    if (arguments[i].starts_with(name + '=')) value = arguments[i].substr(name.size() + 1);
+  }
+  return value;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// Prose in lines of at most 120 characters. Rows of tables, lists and what is indented stay as they are.
+std::string wrapped(const std::string& text) {
+  std::string all;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const bool is_prose = !line.empty() && std::string_view("|-* ").find(line.front()) == std::string_view::npos;
+    while (is_prose && line.size() > line_width) {
+      const std::size_t space = line.rfind(' ', line_width);
+      if (space == std::string::npos || space == 0) break;
+      all += line.substr(0, space) + '\n';
+      line.erase(0, space + 1);
+    }
+    all += line + '\n';
+  }
+  return all;
+}
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of('\n');
+  if (first == std::string::npos) return {};
+  return text.substr(first, text.find_last_not_of('\n') + 1 - first);
+}
+
+std::string today() {
+  const std::chrono::year_month_day date(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return text.data();
+}
+
+/// Passes everything on to a buffer, and keeps it.
+class keeping_buffer : public std::streambuf {
+ public:
+  explicit keeping_buffer(std::streambuf& next) : next_(&next) {}
+  [[nodiscard]] const std::string& kept() const noexcept { return kept_; }
+
+ protected:
+  int_type overflow(int_type character) override {
+    if (traits_type::eq_int_type(character, traits_type::eof())) return traits_type::not_eof(character);
+    kept_ += traits_type::to_char_type(character);
+    return next_->sputc(traits_type::to_char_type(character));
+  }
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    kept_.append(text, static_cast<std::size_t>(size));
+    return next_->sputn(text, size);
+  }
+  int sync() override { return next_->pubsync(); }
+
+ private:
+  std::streambuf* next_;
+  std::string kept_;
+};
+
+/// What the work prints to standard output, where it also appears.
+std::string printed_by(const std::function<void()>& work) {
+  keeping_buffer buffer(*std::cout.rdbuf());
+  struct redirection {
+    std::streambuf* before;
+    ~redirection() { std::cout.rdbuf(before); }
+  };
+  const redirection restored{std::cout.rdbuf(&buffer)};
+  work();
+  return buffer.kept();
+}
+
+}  // namespace
+
+std::string normalised_command(std::span<const std::string> arguments) {
+  std::string command = "gonio-papers";
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (is_left_out(arguments[i])) {
+      if (arguments[i].find('=') == std::string::npos) ++i;  // its value
+    } else if (arguments[0] == "run" && arguments[i] == "--") {
+      command.clear();
+    } else {
+      command += (command.empty() ? "" : " ") + without_folders(arguments[i]);
+    }
+  }
+  return command;
+}
+
+std::string with_block(std::string_view page, const std::filesystem::path& path, const std::string& command,
+                       const std::string& content) {
+  const std::string begin = "<!-- " + command + " -->\n";
+  const std::string end = "<!-- end of " + command.substr(0, command.find(' ')) + " -->";
+  const auto line = [&](const std::string& wanted, std::size_t from) {
+    std::size_t found = page.find(wanted, from);
+    while (found != 0 && found != std::string_view::npos && page[found - 1] != '\n')
+      found = page.find(wanted, found + 1);
+    return found;
+  };
+  const std::size_t first = line(begin, 0);
+  const std::size_t last = first == std::string_view::npos ? first : line(end, first);
+  if (last == std::string_view::npos || line("<!-- end of ", first) != last)
+    throw gonio::error("'" + path.string() + "' has no block for `" + command + "`, which starts with the line '" +
+                       begin.substr(0, begin.size() - 1) + "' and ends with '" + end + "'");
+  if (line(begin, first + 1) != std::string_view::npos)
+    throw gonio::error("'" + path.string() + "' has more than one block for `" + command + "`");
+  return std::string(page.substr(0, first + begin.size())) + content + std::string(page.substr(last));
+}
+
+markdown_page::markdown_page(int argc, char** argv, std::string version)
+    : arguments_(argv + (argc > 0 ? 1 : 0), argv + argc), version_(std::move(version)) {}
+
+void markdown_page::add_option(command& to) {
+  to.add_output("--markdown", path_, {".md"},
+                "Page whose block for this command is replaced by what is printed (it starts with <!-- COMMAND -->)");
+}
+
+std::string markdown_page::origin(double seconds) const {
+  gonio::thread_count threads;
+  if (const auto given = value_of("--threads", arguments_))
+    std::from_chars(given->data(), given->data() + given->size(), threads.value);
+  const unsigned used = threads.resolve();
+  return "Printed on " + today() + " by `" + normalised_command(arguments_) + "`, gonio " + version_ + ", " +
+         std::to_string(used) + (used == 1 ? " thread" : " threads") + ", in " +
+         cli::fixed(seconds, seconds < 10.0 ? 1 : 0) + " s.";
+}
+
+void markdown_page::around(const std::function<void()>& work) const {
+  if (path_.empty()) return work();
+  const std::string command = normalised_command(arguments_);
+  static_cast<void>(with_block(read_text(path_), path_, command, {}));
+
+  const auto start = std::chrono::steady_clock::now();
+  const std::string printed = printed_by(work);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+
+  // The page may have other text by now.
+  const std::string content = '\n' + wrapped(trimmed(printed)) + '\n' + wrapped(origin(seconds));
+  const std::string page = with_block(read_text(path_), path_, command, content);
+  gonio::io::write_atomically(path_, std::as_bytes(std::span(page)));
+}
+
+}  // namespace papers

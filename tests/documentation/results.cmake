@@ -1,0 +1,77 @@
+# Prints the quick tables of docs/results again and compares:
+#   cmake -D SOURCE=. -D SHARED=../shared/data -D PAPERS=build/bin/gonio-papers -D SCRATCH=build/results
+#         -P tests/documentation/results.cmake
+# Quick are all blocks of quick.md, and those named below. Each command is run with --markdown into a copy of its page;
+# only the line that says when it was printed may differ. Commands whose data are not there are left out.
+cmake_minimum_required(VERSION 3.25)
+
+set(results "${SOURCE}/docs/results")
+file(STRINGS "${results}/quick.md" lines REGEX "^<!-- gonio-papers ")
+set(quick "")
+foreach(line IN LISTS lines)
+  string(REGEX REPLACE "^<!-- gonio-papers (.*) -->$" "quick.md|\\1" entry "${line}")
+  list(APPEND quick "${entry}")
+endforeach()
+list(APPEND quick "models.md|model-recovery")
+
+# The file or folder that a command calls by its name; the word itself if it is none; nothing if it is not there.
+function(resolve result word)
+  set(${result} "${word}" PARENT_SCOPE)
+  if(NOT word MATCHES "[.](npy|hdr|gz|binary|brdf|csv|prior)$" AND NOT word STREQUAL "rgl-measured")
+    return()
+  endif()
+  file(GLOB found "${SHARED}/${word}" "${SHARED}/*/${word}" "${SOURCE}/examples/data/${word}"
+    "${SOURCE}/examples/data/*/${word}")
+  list(APPEND found "") # nothing is there
+  list(GET found 0 first)
+  set(${result} "${first}" PARENT_SCOPE)
+endfunction()
+
+# The page without the lines that say when a block was printed.
+function(read_tables result page)
+  file(READ "${page}" text)
+  string(REGEX REPLACE "\nPrinted on [^<]*<!-- end of " "\n<!-- end of " text "${text}")
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+file(MAKE_DIRECTORY "${SCRATCH}")
+set(differing 0)
+set(compared 0)
+foreach(entry IN LISTS quick)
+  string(REGEX MATCH "^([^|]*)[|](.*)$" all "${entry}")
+  set(page "${CMAKE_MATCH_1}")
+  set(command "${CMAKE_MATCH_2}")
+  separate_arguments(words UNIX_COMMAND "${command}")
+  set(arguments "")
+  set(missing "")
+  foreach(word IN LISTS words)
+    resolve(argument "${word}")
+    if(argument STREQUAL "")
+      set(missing "${word}")
+    endif()
+    list(APPEND arguments "${argument}")
+  endforeach()
+  if(missing)
+    message(STATUS "left out, as ${missing} is not there: gonio-papers ${command}")
+    continue()
+  endif()
+  file(COPY "${results}/${page}" DESTINATION "${SCRATCH}")
+  execute_process(COMMAND "${PAPERS}" ${arguments} --markdown "${SCRATCH}/${page}"
+    RESULT_VARIABLE failed OUTPUT_VARIABLE printed ERROR_VARIABLE complaint)
+  if(failed)
+    message(SEND_ERROR "gonio-papers ${command}: ${complaint}")
+    math(EXPR differing "${differing} + 1")
+    continue()
+  endif()
+  math(EXPR compared "${compared} + 1")
+  read_tables(kept "${results}/${page}")
+  read_tables(again "${SCRATCH}/${page}")
+  if(NOT kept STREQUAL again)
+    message(SEND_ERROR "docs/results/${page} has not what gonio-papers ${command} prints:\n${printed}")
+    math(EXPR differing "${differing} + 1")
+  endif()
+endforeach()
+message(STATUS "results: ${compared} commands printed again, ${differing} differ")
+if(compared EQUAL 0)
+  message(FATAL_ERROR "no command was run")
+endif()
