@@ -27,12 +27,12 @@ void run(const std::vector<std::string>& words) {
   std::string line;
   for (const std::string& word : words) line += quoted(word) + ' ';
   std::FILE* pipe = ::popen(line.c_str(), "r");
-  if (pipe == nullptr) throw gonio::error("cannot run '" + words[0] + "'");
+  if (pipe == nullptr) gonio::refuse("cannot run '" + words[0] + "'");
   std::array<char, 4096> buffer{};
   for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     std::cout.write(buffer.data(), static_cast<std::streamsize>(count)).flush();
   const int status = ::pclose(pipe);
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw gonio::error("'" + words[0] + "' failed");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) gonio::refuse("'" + words[0] + "' failed");
 }
 
 }  // namespace
