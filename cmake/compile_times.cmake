@@ -66,7 +66,7 @@ endfunction()
 
 set(heading "| what | CPU s | times the plain program | goal | MB | goal |\n|---|---|---|---|---|---|")
 message("${heading}")
-set(first "${source}/examples/teaching/first_program.cpp")
+set(first "${source}/examples/learn/first_program.cpp")
 row("README's program, header-only, -O2" 250 600 "${first}" -O2)
 row("README's program, gonio::compiled, -O2" 150 600 "${first}" -O2 -DGONIO_COMPILED)
 header_row("`gonio/gonio.hpp`, -O0" 400 900 gonio/gonio.hpp)
@@ -76,7 +76,7 @@ endif()
 foreach(module IN ITEMS core solve table metric basis estimate design model capture evaluate io render shape)
   header_row("`gonio/${module}.hpp`, -O0" 600 900 gonio/${module}.hpp)
 endforeach()
-row("the teaching path tracer, header-only, -O2" 400 900 "${source}/examples/teaching/path_tracer.cpp"
+row("the path tracer, header-only, -O2" 400 900 "${source}/examples/learn/path_tracer.cpp"
     -O2 "-I${source}/examples")
 row("a metric, a basis and a solver of the reader's own, header-only, -O2" 400 900
     "${source}/tests/header_only/own_parts.cpp" -O2)

@@ -106,7 +106,8 @@ void add_design(command& app) {
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
-  command.add_input("--constraint", options->constraint, "What the apparatus cannot do (a text file, docs/formats.md)");
+  command.add_input("--constraint", options->constraint,
+                    "What the apparatus cannot do (a text file, docs/reference/formats.md)");
   command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", options->print_json, "Print the result as JSON");

@@ -171,7 +171,8 @@ void add_lab_scan(command& lab) {
 void add_lab_replay(command& lab) {
   auto command = lab.add_subcommand("replay", "Frames that were recorded earlier, as a scan");
   const auto options = std::make_shared<replay_command>();
-  command.add_input("manifest", options->manifest, "Which file was taken where (.json, docs/formats.md)").required();
+  command.add_input("manifest", options->manifest, "Which file was taken where (.json, docs/reference/formats.md)")
+      .required();
   add_label_option(command, options->label);
   command.add_output("-o,--output", options->output, {".scan"}, "Journal to write, or to go on with (.scan)")
       .required();

@@ -216,7 +216,8 @@ void add_near_field(command& app) {
   const auto options = std::make_shared<near_field_command>();
   command
       .add_input("images", options->pictures,
-                 "Images of linear radiance (.hdr), each followed by its set-up (docs/formats.md): camera, distant "
+                 "Images of linear radiance (.hdr), each followed by its set-up (docs/reference/formats.md): camera, "
+                 "distant "
                  "light and region of interest")
       .type_name("PICTURE SETUP")
       .required();

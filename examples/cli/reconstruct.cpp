@@ -76,7 +76,7 @@ void require_taken(const command& given, const method& chosen) {
     gonio::refuse("--truth requires --iteration-figure");
 }
 
-/// A line for each round; docs/formats.md has the columns.
+/// A line for each round; docs/reference/formats.md has the columns.
 void write_history(const std::filesystem::path& path, std::span<const gonio::correction_round> rounds) {
   std::string text = "round,error,change,down_weighted\n";
   const auto append = [&](double value, char separator) {

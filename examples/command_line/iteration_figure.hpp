@@ -17,7 +17,8 @@ struct iteration_image {
   std::vector<std::pair<std::size_t, double>> differences;
 };
 
-/// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/formats.md describes the image.
+/// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/reference/formats.md describes the
+/// image.
 class iteration_figure {
  public:
   iteration_figure(gonio::correction corrections, gonio::sample_set samples, std::optional<gonio::brdf_table> truth,

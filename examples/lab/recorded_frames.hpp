@@ -1,7 +1,7 @@
 #pragma once
 /// Frames that a real laboratory recorded, as a goniometer: a folder of PNG files and a manifest that says which was
-/// taken where (JSON; docs/formats.md). What was recorded elsewhere goes through the same path as what a machine
-/// measures now.
+/// taken where (JSON; docs/reference/formats.md). What was recorded elsewhere goes through the same path as what a
+/// machine measures now.
 
 #include "command_line/json.hpp"
 #include <gonio/capture/device.hpp>

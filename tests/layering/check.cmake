@@ -1,5 +1,5 @@
 # Fails if a header under ROOT (an include/gonio folder) includes against the arrows of
-# docs/architecture.md: cmake -D ROOT=include/gonio -P check.cmake
+# docs/reference/architecture.md: cmake -D ROOT=include/gonio -P check.cmake
 cmake_minimum_required(VERSION 3.25)
 
 # "user -> used ..."; whoever may include a module may include what that module may include.

@@ -37,7 +37,7 @@ gonio::shape::similarity_transform find_pose(const gonio::shape::shape_model& mo
 }
 
 void add_shape(command& app) {
-  auto shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/shapes.md)");
+  auto shape = app.add_subcommand("shape", "Recover surfaces that scans show in part (docs/learn/shapes.md)");
   shape.require_subcommand();
   add_shape_learn(shape);
   add_shape_recover(shape);

@@ -1,6 +1,6 @@
 #pragma once
 /// What readers believe of the sizes that a file claims, before they ask for memory. A few bytes of deflated zeros can
-/// claim gigabytes; what instruments and this library write shrinks far less. docs/formats.md, "Limits".
+/// claim gigabytes; what instruments and this library write shrinks far less. docs/reference/formats.md, "Limits".
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #pragma once
 /// What the binary files of this library have in common: a magic word, a version, and a payload that is deflated and
-/// checksummed. Described in docs/formats.md.
+/// checksummed. Described in docs/reference/formats.md.
 
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/file.hpp>

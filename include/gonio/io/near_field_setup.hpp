@@ -1,6 +1,6 @@
 #pragma once
 /// Text files that say how an image of a flat sample was taken: a line for each entry, angles in degrees, lengths in
-/// any one unit, the sample in the plane z = 0. docs/formats.md has all the entries.
+/// any one unit, the sample in the plane z = 0. docs/reference/formats.md has all the entries.
 ///
 /// ```
 /// size 640 480           # of the image: columns, rows

@@ -1,6 +1,6 @@
 #pragma once
 /// The learned prior as a file: principal components under the log-relative metric, quantised, deflated and
-/// checksummed. The format is described in docs/formats.md.
+/// checksummed. The format is described in docs/reference/formats.md.
 
 #include <gonio/basis/pca.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The record of a scan on disk, which survives whatever ends the process: readings are appended one by one and are on
-/// the disk before the machine moves on. Text; docs/formats.md has the lines. POSIX.
+/// the disk before the machine moves on. Text; docs/reference/formats.md has the lines. POSIX.
 
 #include <gonio/capture/device.hpp>
 #include <gonio/capture/scan.hpp>

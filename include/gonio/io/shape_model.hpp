@@ -1,5 +1,5 @@
 #pragma once
-/// An active shape model as a file; the format is described in docs/formats.md.
+/// An active shape model as a file; the format is described in docs/reference/formats.md.
 
 #include <gonio/io/checked_file.hpp>
 #include <gonio/shape/shape_model.hpp>

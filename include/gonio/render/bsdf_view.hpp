@@ -1,8 +1,8 @@
 #pragma once
 /// A material as a renderer asks for it: `eval`, `eval_pdf` and `sample`, by numbers of the standard library alone.
 /// This header needs no other and compiles as C++17, too, so that a renderer's own files need neither Eigen nor the
-/// rest of the library: one file makes the material, the others see a `bsdf_view`. docs/embedding.md has recipes for
-/// pbrt-v4, Mitsuba 3 and Cycles.
+/// rest of the library: one file makes the material, the others see a `bsdf_view`. docs/learn/renderer.md has recipes
+/// for pbrt-v4, Mitsuba 3 and Cycles.
 
 #include <array>
 

@@ -55,8 +55,8 @@ namespace detail {
 }  // namespace detail
 
 /// Algorithm 1: the same as `recover` by truncated singular values and closest places, which count in full.
-/// `recover` comes closer to the surface (docs/shapes.md); this is what the paper compares with others. The fit that it
-/// returns is the one that it began with. Throws as `recover` does.
+/// `recover` comes closer to the surface (docs/learn/shapes.md); this is what the paper compares with others. The fit
+/// that it returns is the one that it began with. Throws as `recover` does.
 [[nodiscard]] recovered_shape recover_algorithm_1(const shape_model& model, const surface_index& scan,
                                                   const similarity_transform& pose,
                                                   const algorithm_1_options& options = {}, thread_count threads = {});

@@ -1,0 +1,73 @@
+# cmake -D TOOL=build/.../bin/gonio [-D CHECK=ON] -P cmake/tool_reference.cmake: writes docs/reference/tool.md, the help
+# of each subcommand as the tool prints it, with lines of at most 120 characters. CHECK: fails where the page differs.
+cmake_minimum_required(VERSION 3.25)
+cmake_path(SET source NORMALIZE "${CMAKE_CURRENT_LIST_DIR}/..")
+set(page "${source}/docs/reference/tool.md")
+set(width 120)
+set(indent "                              ") # of the descriptions, as the tool prints them
+
+# wrapped(RESULT TEXT): the text with its long lines broken between words.
+function(wrapped result text)
+  set(out "")
+  while(NOT text STREQUAL "")
+    string(FIND "${text}" "\n" end)
+    string(SUBSTRING "${text}" 0 ${end} line)
+    math(EXPR end "${end} + 1")
+    string(SUBSTRING "${text}" ${end} -1 text)
+    string(LENGTH "${line}" length)
+    while(length GREATER width)
+      string(SUBSTRING "${line}" 0 ${width} start)
+      string(FIND "${start}" " " blank REVERSE)
+      string(SUBSTRING "${line}" 0 ${blank} start)
+      string(APPEND out "${start}\n")
+      math(EXPR blank "${blank} + 1")
+      string(SUBSTRING "${line}" ${blank} -1 line)
+      set(line "${indent}${line}")
+      string(LENGTH "${line}" length)
+    endwhile()
+    string(APPEND out "${line}\n")
+  endwhile()
+  set(${result} "${out}" PARENT_SCOPE)
+endfunction()
+
+# describe(WORD...): the help of a subcommand, and of those that it has.
+function(describe)
+  execute_process(COMMAND "${TOOL}" ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "\n+$" "\n" help "${help}")
+  wrapped(text "${help}")
+  string(JOIN " " name gonio ${ARGN})
+  set_property(GLOBAL APPEND_STRING PROPERTY text "\n## ${name}\n\n```\n${text}```\n")
+
+  string(FIND "${help}" "\nSubcommands:\n" position)
+  if(position EQUAL -1)
+    return()
+  endif()
+  string(SUBSTRING "${help}" ${position} -1 help)
+  string(REGEX MATCHALL "\n  [a-z-]+" subcommands "${help}")
+  foreach(subcommand IN LISTS subcommands)
+    string(STRIP "${subcommand}" subcommand)
+    describe(${ARGN} ${subcommand})
+  endforeach()
+endfunction()
+
+set_property(GLOBAL PROPERTY text "# The options of the tool
+
+What `gonio --help` and `gonio SUBCOMMAND --help` print. Written by `cmake -D TOOL=build/.../bin/gonio -P
+cmake/tool_reference.cmake`; the tests compare it. Angles on the command line are degrees. `gonio` ends with exit code 2
+and one sentence if its input is bad.
+")
+describe()
+get_property(text GLOBAL PROPERTY text)
+
+if(NOT CHECK)
+  file(WRITE "${page}" "${text}")
+  return()
+endif()
+set(present "")
+if(EXISTS "${page}")
+  file(READ "${page}" present)
+endif()
+if(NOT present STREQUAL text)
+  message(FATAL_ERROR "docs/reference/tool.md is not what the tool prints now; write it again: "
+                      "cmake -D TOOL=${TOOL} -P cmake/tool_reference.cmake")
+endif()

@@ -1,0 +1,40 @@
+/// An in-plane scan as goniometers make it: the light stands still, the viewer goes from grazing on its side over the
+/// normal to grazing on the other side. The instrument gives the BRDF times the cosine of the light's angle.
+
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/model/formula_materials.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <cmath>
+#include <cstdio>
+
+/// The viewer in the plane of light and normal. A positive angle is on the far side from the light, where the mirror
+/// direction is; a negative one is on the light's side, where -theta_i is retro-reflection.
+gonio::direction viewer(double signed_angle) {
+  const double azimuth = signed_angle >= 0.0 ? gonio::radians(180.0) : 0.0;  // the light's azimuth is 0
+  return gonio::spherical_direction(std::abs(signed_angle), azimuth);
+}
+
+int main() {
+  const auto prior = gonio::io::read_prior("materials.prior");
+  const auto truth = gonio::model::formula_material("red-paint");  // what lies in the instrument
+  const double theta_i = gonio::radians(45.0);
+  const gonio::direction light = gonio::spherical_direction(theta_i, 0.0);
+
+  gonio::sample_set samples;
+  for (int degrees = -80; degrees <= 80; degrees += 4) {
+    const gonio::direction view = viewer(gonio::radians(degrees));
+    const gonio::rgb instrument = truth(light, view) * std::cos(theta_i);
+    samples.push_back({gonio::to_half_difference(light, view), instrument / std::cos(theta_i)});
+  }
+  const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
+
+  std::printf("viewer     red of the scan  reconstructed, sr^-1\n");
+  for (const double degrees : {-62.0, -46.0, -2.0, 26.0, 38.0, 46.0, 58.0}) {
+    const gonio::direction view = viewer(gonio::radians(degrees));
+    std::printf("%4.0f degrees %13.4f %14.4f\n", degrees, truth(light, view).x(), paint(light, view).x());
+  }
+  const gonio::direction across = gonio::spherical_direction(theta_i, gonio::radians(90.0));
+  std::printf("out of the plane %8.4f %14.4f\n", truth(light, across).x(), paint(light, across).x());
+}
