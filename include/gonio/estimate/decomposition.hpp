@@ -1,6 +1,7 @@
 #pragma once
 /// Basis decomposition: the mapped measurements as a linear combination of a basis' functions.
-/// Nielsen et al. 2015, Eq. 9-12 (pca x log-relative x Tikhonov); Noell et al. 2014, Eq. 7-11 (measured x log x NNLS).
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9-12 (pca x log-relative x Tikhonov); Noell et al. 2014, Eq.
+/// 7-11 (measured x log x NNLS).
 
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition_parts.hpp>
