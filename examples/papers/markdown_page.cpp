@@ -144,7 +144,7 @@ std::string with_block(std::string_view page, const std::filesystem::path& path,
   const std::size_t last = first == std::string_view::npos ? first : line(end, first);
   if (last == std::string_view::npos || line("<!-- end of ", first) != last)
     gonio::refuse("'" + path.string() + "' has no block for `" + command + "`, which starts with the line '" +
-                       begin.substr(0, begin.size() - 1) + "' and ends with '" + end + "'");
+                  begin.substr(0, begin.size() - 1) + "' and ends with '" + end + "'");
   if (line(begin, first + 1) != std::string_view::npos)
     gonio::refuse("'" + path.string() + "' has more than one block for `" + command + "`");
   return std::string(page.substr(0, first + begin.size())) + content + std::string(page.substr(last));

@@ -123,5 +123,4 @@ TEST_CASE("non-negative weights of principal components are no estimator") {
   static_assert(!decomposes<components, gonio::nnls> && !decomposes<components, gonio::quadratic_program<>>);
   static_assert(!decomposes<components, gonio::nnls_block_pivoting> &&
                 !decomposes<components, gonio::non_negative_lasso>);
-  static_assert(!decomposes<tables, gonio::log> && !decomposes<gonio::nnls, tables>);
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Learning principal components from tables, through the Gram matrix of the observations: with m columns
-/// of a million cells, m x m is small and cells x cells is never formed. Nielsen et al. 2015, Eq. 4-6.
+/// of a million cells, m x m is small and cells x cells is never formed. Nielsen et al. 2015
+/// (doi:10.1145/2816795.2818085), Eq. 4-6.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>

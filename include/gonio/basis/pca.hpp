@@ -1,7 +1,7 @@
 #pragma once
 /// Principal components of measured BRDFs in the domain of an error metric.
-/// Nielsen et al. 2015, section 3, Eq. 4-6: every colour channel of every material is an observation,
-/// X - mu = U Sigma V', and the basis is the scaled components Q = V Sigma.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), section 3, Eq. 4-6: every colour channel of every material is an
+/// observation, X - mu = U Sigma V', and the basis is the scaled components Q = V Sigma.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/error.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// What a camera's counts mean: the exposure that causes each, up to a factor (P. Debevec and J. Malik, "Recovering
-/// High Dynamic Range Radiance Maps from Photographs", SIGGRAPH 1997; Nielsen's thesis 2016, note on relative BRDF
-/// measurement, Sec. 3).
+/// High Dynamic Range Radiance Maps from Photographs", SIGGRAPH 1997, doi:10.1145/258734.258884; Nielsen's thesis 2016,
+/// note on relative BRDF measurement, Sec. 3).
 
 #include <gonio/core/error.hpp>
 

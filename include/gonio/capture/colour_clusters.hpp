@@ -1,10 +1,10 @@
 #pragma once
 /// Which pixels of an image show the same material, told by their colours alone.
 /// Xu, Nielsen, Yu, Jensen and Ramamoorthi, "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition",
-/// SIGGRAPH Asia 2016, section 8 and Figure 17: with a fixed camera the pixels of both images are the same points of
-/// a surface; the second, diffuse image is clustered by colour and a BRDF estimated for each cluster. The paper names
-/// neither the algorithm, nor the colour space, nor how many clusters are chosen: k-means, CIELAB and silhouettes are
-/// ours.
+/// SIGGRAPH Asia 2016 (doi:10.1145/2980179.2982396), section 8 and Figure 17: with a fixed camera the pixels of both
+/// images are the same points of a surface; the second, diffuse image is clustered by colour and a BRDF estimated for
+/// each cluster. The paper names neither the algorithm, nor the colour space, nor how many clusters are chosen:
+/// k-means, CIELAB and silhouettes are ours.
 
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/parallel.hpp>

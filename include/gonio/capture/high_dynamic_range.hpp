@@ -1,6 +1,6 @@
 #pragma once
 /// Several exposures of a pixel as one radiance, and how far to trust it (P. Debevec and J. Malik, "Recovering High
-/// Dynamic Range Radiance Maps from Photographs", SIGGRAPH 1997, Eq. 6).
+/// Dynamic Range Radiance Maps from Photographs", SIGGRAPH 1997, doi:10.1145/258734.258884, Eq. 6).
 
 #include <gonio/capture/camera_response.hpp>
 #include <gonio/capture/device.hpp>

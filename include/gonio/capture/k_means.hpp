@@ -1,7 +1,7 @@
 #pragma once
 /// Clusters of points around their means: Lloyd's algorithm from the seeds of k-means++ (Arthur and Vassilvitskii,
 /// "k-means++: The Advantages of Careful Seeding", SODA 2007), and how well they stand apart (Rousseeuw, "Silhouettes:
-/// a Graphical Aid to the Interpretation and Validation of Cluster Analysis", 1987).
+/// a Graphical Aid to the Interpretation and Validation of Cluster Analysis", 1987, doi:10.1016/0377-0427(87)90125-7).
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// A photographed mirror sphere as the light all around it (P. Debevec, "Rendering Synthetic Objects into Real Scenes",
-/// SIGGRAPH 1998; Nielsen's thesis 2016, note on environment maps, Eq. 1-3).
+/// SIGGRAPH 1998, doi:10.1145/280814.280864; Nielsen's thesis 2016, note on environment maps, Eq. 1-3).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>

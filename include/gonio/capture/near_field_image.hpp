@@ -1,6 +1,7 @@
 #pragma once
 /// An image of a flat sample, taken from close by under a distant light, as measurements of its BRDF: every pixel has
-/// its own viewing direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, sections 5.2 and 7.
+/// its own viewing direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016 (doi:10.1145/2980179.2982396), sections 5.2
+/// and 7.
 ///
 /// The sample lies in the plane z = 0. A pixel's value is the radiance L that it sees, so that f = L / (E cos theta_i),
 /// where E is the irradiance of a surface that faces the light. If the values are in units of their own, so is E: of a

@@ -69,9 +69,9 @@ struct angular_grid {
 [[nodiscard]] direction_pair above_arc(const direction_pair& pair);
 
 /// A short way through some places: from the first always to the nearest that is left, then, until none shortens the
-/// way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958). `between(i, j)` is the way between
-/// two places, the same both ways. The way starts at the first place and does not return. O(count^2) for each
-/// improvement's sweep; the result depends on nothing but the input.
+/// way, stretches of it turned round (2-opt; G. Croes, Operations Research 6, 1958, doi:10.1287/opre.6.6.791).
+/// `between(i, j)` is the way between two places, the same both ways. The way starts at the first place and does not
+/// return. O(count^2) for each improvement's sweep; the result depends on nothing but the input.
 template <class Between>
 [[nodiscard]] std::vector<std::size_t> short_way(std::size_t count, const Between& between) {
   std::vector<std::size_t> order(count);

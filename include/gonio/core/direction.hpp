@@ -1,6 +1,7 @@
 #pragma once
 /// Directions in the local frame of a surface (normal +z) and Rusinkiewicz's half and difference angles.
-/// S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998.
+/// S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
+/// (doi:10.1007/978-3-7091-6453-2_2).
 ///
 /// A pair (wi, wo) of an isotropic material has three degrees of freedom: theta_h, the angle of the half
 /// vector h from the normal; theta_d, the angle between wi and h; phi_d, the azimuth of wi about h,

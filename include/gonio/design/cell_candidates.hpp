@@ -1,6 +1,6 @@
 #pragma once
-/// Every cell of a basis as a candidate for the next measurement: what E(S) of Xu et al. 2016, Eq. 15, becomes with
-/// each of them, all at once.
+/// Every cell of a basis as a candidate for the next measurement: what E(S) of Xu et al. 2016
+/// (doi:10.1145/2980179.2982396), Eq. 15, becomes with each of them, all at once.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/design/capture_geometry.hpp>

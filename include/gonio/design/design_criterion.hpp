@@ -1,6 +1,7 @@
 #pragma once
-/// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016) is
-/// one such criterion; here are the condition number (Nielsen et al. 2015) and two of Bayesian experimental design.
+/// What a set of measurements is worth, as a function of a basis' rows at them. `expected_error` (Xu et al. 2016,
+/// doi:10.1145/2980179.2982396) is one such criterion; here are the condition number (Nielsen et al. 2015,
+/// doi:10.1145/2816795.2818085) and two of Bayesian experimental design.
 
 #include <gonio/solve/default_eta.hpp>
 
@@ -34,8 +35,8 @@ void require_positive_eta(double eta);
 
 /// Tikhonov's penalty is the prior c ~ N(0, s^2 / eta I) of weights that are measured with noise of variance s^2; after
 /// measuring R their covariance is s^2 (R'R + eta I)^-1. D-optimality minimises the volume of its ellipsoid: here its
-/// logarithm, over that of the prior (Chaloner and Verdinelli 1995, "Bayesian Experimental Design: A Review"). O(n^2
-/// k).
+/// logarithm, over that of the prior (Chaloner and Verdinelli 1995, "Bayesian Experimental Design: A Review",
+/// doi:10.1214/ss/1177009939). O(n^2 k).
 class d_optimality {
  public:
   /// Throws gonio::error unless eta is positive.

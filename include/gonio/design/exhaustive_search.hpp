@@ -1,6 +1,7 @@
 #pragma once
-/// Searches that try every candidate as the next measurement, which Xu et al. 2016 could not afford: greedy growth, and
-/// exchange until no replacement of one measurement by any other is an improvement (Fedorov's exchange, 1972).
+/// Searches that try every candidate as the next measurement, which Xu et al. 2016 (doi:10.1145/2980179.2982396) could
+/// not afford: greedy growth, and exchange until no replacement of one measurement by any other is an improvement
+/// (Fedorov's exchange, 1972).
 
 #include <gonio/design/search.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// What a set of measurements leaves unknown: the expected error of Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016,
-/// "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition", Eq. 12-15.
+/// "Minimal BRDF Sampling for Two-Shot Near-Field Reflectance Acquisition" (doi:10.1145/2980179.2982396), Eq. 12-15.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/design_criterion.hpp>

@@ -1,5 +1,6 @@
 #pragma once
-/// What images are worth: E(S) of Xu et al. 2016 where a candidate brings many samples (section 5.2).
+/// What images are worth: E(S) of Xu et al. 2016 (doi:10.1145/2980179.2982396) where a candidate brings many samples
+/// (section 5.2).
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// Images of a flat sample by a camera that is close to it, under a distant light: every pixel has its own viewing
-/// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016, section 5.2 and Fig. 4.
+/// direction. Xu, Nielsen, Yu, Jensen and Ramamoorthi 2016 (doi:10.1145/2980179.2982396), section 5.2 and Fig. 4.
 
 #include <gonio/design/capture_geometry.hpp>
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Directions at which the literature recommends to measure, as data.
-/// Nielsen et al. 2015, Table 1: the best n directions of a search over MERL's grid by condition number. Westlund and
-/// Meyer 2001, "Applying Appearance Standards to Light Reflection Models": what industry measures.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Table 1: the best n directions of a search over MERL's grid by
+/// condition number. Westlund and Meyer 2001, "Applying Appearance Standards to Light Reflection Models": what industry
+/// measures.
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>

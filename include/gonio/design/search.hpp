@@ -1,7 +1,8 @@
 #pragma once
 /// Searches for what to measure, for any geometry of candidates and any objective that tells what a set of them is
 /// worth. Random swaps: Matusik, Pfister, Brand and McMillan 2003. Descent on the grid: Nielsen, Jensen and Ramamoorthi
-/// 2015, section 4; from the best of many candidates: Xu et al. 2016, section 5.1.
+/// 2015 (doi:10.1145/2816795.2818085), section 4; from the best of many candidates: Xu et al. 2016
+/// (doi:10.1145/2980179.2982396), section 5.1.
 
 #include <gonio/core/error.hpp>
 #include <gonio/core/progress.hpp>

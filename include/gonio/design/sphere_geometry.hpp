@@ -1,7 +1,7 @@
 #pragma once
-/// Images of a sphere of the material (Marschner et al. 2000; Nielsen et al. 2015, section 6): with light and camera
-/// far away all of its points have the same theta_d, half the angle between the two, and every (theta_h, phi_d) at
-/// which both are above the horizon is seen.
+/// Images of a sphere of the material (Marschner et al. 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015,
+/// doi:10.1145/2816795.2818085, section 6): with light and camera far away all of its points have the same theta_d,
+/// half the angle between the two, and every (theta_h, phi_d) at which both are above the horizon is seen.
 
 #include <gonio/design/capture_geometry.hpp>
 

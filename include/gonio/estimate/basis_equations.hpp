@@ -1,6 +1,6 @@
 #pragma once
 /// The least-squares problems that fitting measurements by a basis amounts to.
-/// Nielsen et al. 2015, Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/located_samples.hpp>

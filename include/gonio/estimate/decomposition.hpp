@@ -1,8 +1,10 @@
 #pragma once
 /// Basis decomposition: the mapped measurements as a linear combination of a basis' functions.
-/// Nielsen et al. 2015, Eq. 9-12 (pca x log-relative x Tikhonov); Noell et al. 2014, Eq. 7-11 (measured x log x NNLS).
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9-12 (pca x log-relative x Tikhonov); Noell et al. 2014, Eq.
+/// 7-11 (measured x log x NNLS).
 
 #include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/decomposition_parts.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/solve/solver.hpp>
@@ -26,9 +28,13 @@ concept non_negative_weights_need_functions_of_definite_sign =
 /// const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
 /// const auto lc = gonio::decomposition{gonio::measured{materials, gonio::log{}}, gonio::nnls{}}.fit(samples);
 /// ```
-template <colour_basis Basis, solver Solver>
+/// Basis must be a `colour_basis`, Solver a `solver`. Where one is not, the compiler's first lines name the member that
+/// it lacks.
+template <class Basis, class Solver>
 requires non_negative_weights_need_functions_of_definite_sign<Basis, Solver>
 class decomposition {
+  static_assert(sizeof(detail::decomposition_parts<Basis, Solver>) > 0);
+
  public:
   explicit decomposition(Basis basis, Solver solver = Solver(), thread_count threads = {})
       : basis_(std::move(basis)), solver_(std::move(solver)), threads_(threads) {}

@@ -16,8 +16,8 @@
 
 namespace gonio {
 
-/// The reconstruction of Nielsen et al. 2015, Eq. 12, from samples whose light and viewer may be anywhere on circles of
-/// `angle` radians around their directions.
+/// The reconstruction of Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 12, from samples whose light and viewer
+/// may be anywhere on circles of `angle` radians around their directions.
 ///
 /// What a sample then shows is, on average, the mean of the prior's rows over the circles, and a value deviates from it
 /// by d = (q(x) - mean q) . c + o(x) - mean o at a location x, where o is the mean material's value there, mapped as if

@@ -1,5 +1,5 @@
 #pragma once
-/// Tikhonov's penalty eta (Nielsen et al. 2015, Eq. 12) as what it is, a noise parameter.
+/// Tikhonov's penalty eta (Nielsen et al. 2015, doi:10.1145/2816795.2818085, Eq. 12) as what it is, a noise parameter.
 ///
 /// Prior: c ~ N(0, I/m), since the coefficients of the m training observations have orthonormal columns. With row error
 /// variance sigma^2, the posterior mean minimises |Q c - y|^2 + m sigma^2 |c|^2. sigma^2 is the variance of the noise

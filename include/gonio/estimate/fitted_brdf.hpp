@@ -1,5 +1,6 @@
 #pragma once
-/// A BRDF held as the weights of a basis, and its expansion to tables (Nielsen et al. 2015, Eq. 10).
+/// A BRDF held as the weights of a basis, and its expansion to tables (Nielsen et al. 2015,
+/// doi:10.1145/2816795.2818085, Eq. 10).
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/estimate/estimator.hpp>

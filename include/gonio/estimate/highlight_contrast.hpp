@@ -1,8 +1,9 @@
 #pragma once
 /// How much a material shines, and a database split by that into soft and specular materials.
-/// Nielsen, Jensen and Ramamoorthi 2015, section 8: a database of mostly specular materials makes soft ones ring; two
-/// priors are proposed, chosen between by the ratio of an in-peak sample to an out-of-peak sample. Neither the
-/// directions of the two samples nor the ratio that divides them is in the paper: both are ours.
+/// Nielsen, Jensen and Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8: a database of mostly specular
+/// materials makes soft ones ring; two priors are proposed, chosen between by the ratio of an in-peak sample to an
+/// out-of-peak sample. Neither the directions of the two samples nor the ratio that divides them is in the paper: both
+/// are ours.
 
 #include <gonio/metric/log_relative.hpp>
 #include <gonio/table/material_set.hpp>

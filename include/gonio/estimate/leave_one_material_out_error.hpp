@@ -1,8 +1,8 @@
 #pragma once
 /// What a reconstruction from given locations and noise is expected to miss of a material that the basis has not seen:
-/// the expected error of Xu et al. 2016, Eq. 12-15 (`expected_error`), but each material is left out of the basis
-/// before it is reconstructed. That makes it a function of Tikhonov's penalty worth minimising: a material that the
-/// basis contains is reconstructed best without any.
+/// the expected error of Xu et al. 2016 (doi:10.1145/2980179.2982396), Eq. 12-15 (`expected_error`), but each material
+/// is left out of the basis before it is reconstructed. That makes it a function of Tikhonov's penalty worth
+/// minimising: a material that the basis contains is reconstructed best without any.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>

@@ -2,8 +2,8 @@
 /// Measurements as a mixture of inliers, which scatter about an estimate, and of outliers. Outliers follow a smoothed
 /// density of all measured values. What Noell, Koehler and Stricker 2014, section 2.3, choose by hand (gamma,
 /// "depending on the dynamic range and the outlier ratio") is estimated here from the residuals by expectation and
-/// maximisation (Dempster, Laird and Rubin 1977); inliers' residuals follow Student's t (Lange, Little and Taylor
-/// 1989).
+/// maximisation (Dempster, Laird and Rubin 1977, doi:10.1111/j.2517-6161.1977.tb01600.x); inliers' residuals follow
+/// Student's t (Lange, Little and Taylor 1989, doi:10.1080/01621459.1989.10478852).
 
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlier_weights.hpp>

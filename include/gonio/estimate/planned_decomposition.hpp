@@ -15,8 +15,8 @@
 namespace gonio {
 
 /// Fits measurements at locations that are given beforehand, each of weight 1. What `decomposition` does for the same
-/// samples, up to float products in the matrix (docs/results/solvers.md); a reconstruction then reads the materials at the
-/// locations once.
+/// samples, up to float products in the matrix (docs/results/solvers.md); a reconstruction then reads the materials at
+/// the locations once.
 ///
 /// ```cpp
 /// const auto plan = gonio::locate_samples(materials.cells(), first_surface).at;

@@ -126,7 +126,8 @@ class pose_iteration {
 /// values y, less the prior's mean, and its rows Q depend on t through the directions, and y through the light's cosine
 /// that was divided by. For given turns the weights are
 /// Tikhonov's and leave F(t) = eta y'(Q Q' + eta I)^-1 y; turns are found by Gauss and Newton's steps on F (variable
-/// projection with Kaufman's derivative, BIT 15, 1975), shortened until they help. O(n k^2 + k^3) a step.
+/// projection with Kaufman's derivative, BIT 15, 1975, doi:10.1007/BF01932995), shortened until they help. O(n k^2 +
+/// k^3) a step.
 ///
 /// Several materials that are in the same images share light and camera: the sum then is over all of them, each with
 /// its own weights c, and with one t.

@@ -1,7 +1,7 @@
 #pragma once
 /// Scattered-data interpolation over a pyramid of grids: Gortler, Grzeszczuk, Szeliski and Cohen, "The Lumigraph",
-/// SIGGRAPH 1996, section 3.3 (splat, pull, push), which Noell, Koehler and Stricker 2014, section 3.1, compare their
-/// estimator with, over the table of a BRDF.
+/// SIGGRAPH 1996 (doi:10.1145/237170.237200), section 3.3 (splat, pull, push), which Noell, Koehler and Stricker 2014,
+/// section 3.1, compare their estimator with, over the table of a BRDF.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/completed_table.hpp>

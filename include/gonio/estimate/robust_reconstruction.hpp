@@ -96,7 +96,7 @@ correction_round damped_step(Run& run, const channel_values& inlier_weights) {
 }  // namespace detail
 
 /// What the start of `robust_reconstruction` costs. The defaults were chosen on the ten test materials of Nielsen et
-/// al. 2015 and fifteen difficult ones (docs/results/robust-estimation.md).
+/// al. 2015 (doi:10.1145/2816795.2818085) and fifteen difficult ones (docs/results/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random,
   std::size_t samples = 20'000;

@@ -1,7 +1,7 @@
 #pragma once
 /// A prior for soft and one for specular materials, of which the measurements choose.
-/// Nielsen, Jensen and Ramamoorthi 2015, section 8: whether a material is specular is told by the ratio of an in-peak
-/// to an out-of-peak sample; what ratio exactly says estimate/highlight_contrast.hpp.
+/// Nielsen, Jensen and Ramamoorthi 2015 (doi:10.1145/2816795.2818085), section 8: whether a material is specular is
+/// told by the ratio of an in-peak to an out-of-peak sample; what ratio exactly says estimate/highlight_contrast.hpp.
 
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>

@@ -2,7 +2,7 @@
 /// The error measures of an estimated table against its truth. None of them suffices alone: the mapped error is not
 /// perceptual, and a mean colour difference does not notice a lost highlight.
 /// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia
-/// 2015, Eq. 1-2 (mapping, cosine weight).
+/// 2015 (doi:10.1145/2816795.2818085), Eq. 1-2 (mapping, cosine weight).
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// Measurements simulated from a table, with the defects that real ones have. Noell et al. 2014, section 3.1
-/// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015.
+/// (data ratio, outlier ratio), and relative noise as in Nielsen et al. 2015 (doi:10.1145/2816795.2818085).
 
 #include <gonio/core/random.hpp>
 #include <gonio/table/brdf_table.hpp>

@@ -7,7 +7,7 @@
 
 namespace gonio {
 
-/// The ten materials that Nielsen et al. 2015 leave out of the prior (their Figure 2).
+/// The ten materials that Nielsen et al. 2015 (doi:10.1145/2816795.2818085) leave out of the prior (their Figure 2).
 [[nodiscard]] const std::vector<std::string>& nielsen_test_materials();
 
 }  // namespace gonio

@@ -1,7 +1,7 @@
 #pragma once
 /// Dense tables in the binary format of the MERL database: three little-endian int32 (extents of theta_h,
 /// theta_d, phi_d), then a plane of float64 for red, green and blue; a value times 1/1500, 1.15/1500 or
-/// 1.66/1500 is in sr^-1. Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+/// 1.66/1500 is in sr^-1. Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 ///
 /// A file does not say at which point of a cell its values were taken. Cells without a value, -1 in all
 /// three channels, are the only trace of it: see `infer_convention`.

@@ -1,6 +1,6 @@
 #pragma once
-/// Materials as networks (Sztrajman et al. 2021, see model/network_brdf.hpp): an .npy array of 675 columns,
-/// a row for each material, and a text file with one name a line.
+/// Materials as networks (Sztrajman et al. 2021, doi:10.1111/cgf.14335, see model/network_brdf.hpp): an .npy array of
+/// 675 columns, a row for each material, and a text file with one name a line.
 
 #include <gonio/io/file.hpp>
 #include <gonio/io/npy.hpp>

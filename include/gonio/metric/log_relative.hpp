@@ -1,7 +1,8 @@
 #pragma once
 /// The log-relative metric: the logarithm of a cosine-weighted reflectance relative to that of a reference.
 /// Nielsen, Jensen and Ramamoorthi, "On Optimal, Minimal BRDF Sampling for Reflectance Acquisition",
-/// SIGGRAPH Asia 2015, Eq. 1-4.
+/// SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4; weighed by the larger cosine: Xu et al. 2016
+/// (doi:10.1145/2980179.2982396), section 3.
 
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/cell_matrix.hpp>

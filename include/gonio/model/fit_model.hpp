@@ -2,8 +2,9 @@
 /// Fits sums of lobes to measurements.
 /// J. B. Nielsen, J. R. Frisvad, K. Conradsen and H. Aanaes, "Addressing Grazing Angle Reflections in Phong Models",
 /// SIGGRAPH Asia 2014 posters (consecutive optimisation, L1 norm); G. H. Golub and V. Pereyra, "The Differentiation of
-/// Pseudo-Inverses and Nonlinear Least Squares Problems Whose Variables Separate", 1973, and L. Kaufman, "A Variable
-/// Projection Method for Solving Separable Nonlinear Least Squares Problems", 1975 (colours are solved for exactly).
+/// Pseudo-Inverses and Nonlinear Least Squares Problems Whose Variables Separate", 1973 (doi:10.1137/0710036), and L.
+/// Kaufman, "A Variable Projection Method for Solving Separable Nonlinear Least Squares Problems", 1975
+/// (doi:10.1007/BF01932995; colours are solved for exactly).
 
 #include <gonio/model/model_loss.hpp>
 

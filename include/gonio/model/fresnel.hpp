@@ -7,7 +7,7 @@
 namespace gonio::model {
 
 /// Schlick's approximation: f0 + (1 - f0) (1 - cosine)^5. C. Schlick, "An Inexpensive BRDF Model for Physically-based
-/// Rendering", EG 1994; J. B. Nielsen's thesis (2016), Eq. 2.21.
+/// Rendering", EG 1994 (doi:10.1111/1467-8659.1330233); J. B. Nielsen's thesis (2016), Eq. 2.21.
 template <class Real>
 [[nodiscard]] Real fresnel_schlick(double cosine, const Real& f0) {
   const double rest = std::max(1.0 - cosine, 0.0);  // a cosine may round to more than 1
@@ -23,7 +23,7 @@ template <class Real>
 }
 
 /// A dielectric of relative refractive index n >= 1, unpolarised light from outside. R. L. Cook and K. E. Torrance, "A
-/// Reflectance Model for Computer Graphics", ACM TOG 1982, section 4.
+/// Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), section 4.
 template <class Real>
 [[nodiscard]] Real fresnel_dielectric(double cosine, const Real& index) {
   using std::sqrt;

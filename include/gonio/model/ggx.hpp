@@ -1,8 +1,10 @@
 #pragma once
 /// The isotropic GGX microfacet model, reflection only.
-/// Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007:
+/// Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007
+/// (doi:10.2312/EGWR/EGSR07/195-206):
 /// Eq. 20 (the BRDF), 23 (masking of both directions), 33 (distribution), 34 (Smith's masking of one).
-/// The Fresnel factor is C. Schlick's, "An Inexpensive BRDF Model for Physically-based Rendering", EG 1994.
+/// The Fresnel factor is C. Schlick's, "An Inexpensive BRDF Model for Physically-based Rendering", EG 1994
+/// (doi:10.1111/1467-8659.1330233).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// Generalised cosine lobes. E. P. F. Lafortune, S.-C. Foo, K. E. Torrance and D. P. Greenberg, "Non-Linear
-/// Approximation of Reflectance Functions", SIGGRAPH 1997; J. B. Nielsen's thesis, Eq. 2.18.
+/// Approximation of Reflectance Functions", SIGGRAPH 1997 (doi:10.1145/258734.258801); J. B. Nielsen's thesis, Eq.
+/// 2.18.
 
 #include <gonio/model/phong.hpp>
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Directions for a renderer to follow, drawn where an analytic BRDF is bright: of a model, a sum of lobes or what a
 /// fit returned. Each lobe is drawn by its `techniques_of`, and the lobes are mixed by their albedos: E. Veach and L.
-/// J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
+/// J. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995
+/// (doi:10.1145/218380.218498).
 
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/model/sampling_techniques.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// Measured materials as small neural networks, 6 -> 21 -> 21 -> 3 with rectified hidden layers.
 /// Sztrajman, Rainer, Ritschel and Weyrich, "Neural BRDF Representation and Importance Sampling", Computer
-/// Graphics Forum 2021, https://doi.org/10.1111/cgf.14335.
+/// Graphics Forum 2021 (doi:10.1111/cgf.14335).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>

@@ -1,10 +1,11 @@
 #pragma once
 /// Densities in closed form by which directions are drawn where a lobe is bright, and which of them each lobe takes.
 /// B. Walter, "Notes on the Ward BRDF", Cornell PCG-05-06, 2005 (Gaussian slopes); B. Walter, S. R. Marschner, H. Li
-/// and K. E. Torrance, EGSR 2007, Eq. 14 (reflected half vectors); E. Heitz, "Sampling the GGX Distribution of Visible
-/// Normals", JCGT 2018; J. Dupuy and A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023; E. P. F.
-/// Lafortune, S.-C. Foo, K. E. Torrance and D. P. Greenberg, "Non-Linear Approximation of Reflectance Functions",
-/// SIGGRAPH 1997 (cosine lobes).
+/// and K. E. Torrance, EGSR 2007 (doi:10.2312/EGWR/EGSR07/195-206), Eq. 14 (reflected half vectors); E. Heitz,
+/// "Sampling the GGX Distribution of Visible Normals", JCGT 2018; J. Dupuy and A. Benyoub, "Sampling Visible GGX
+/// Normals with Spherical Caps", HPG 2023 (doi:10.1111/cgf.14867); E. P. F. Lafortune, S.-C. Foo, K. E. Torrance and D.
+/// P. Greenberg, "Non-Linear Approximation of Reflectance Functions", SIGGRAPH 1997 (doi:10.1145/258734.258801; cosine
+/// lobes).
 
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/model/analytic_brdf.hpp>

@@ -1,6 +1,7 @@
 #pragma once
-/// The microfacet model of K. E. Torrance and E. M. Sparrow 1967, as R. L. Cook and K. E. Torrance, "A Reflectance
-/// Model for Computer Graphics", ACM TOG 1982, have it: J. B. Nielsen's thesis, Eq. 2.19-2.22.
+/// The microfacet model of K. E. Torrance and E. M. Sparrow 1967 (doi:10.1364/JOSA.57.001105), as R. L. Cook and K. E.
+/// Torrance, "A Reflectance Model for Computer Graphics", ACM TOG 1982 (doi:10.1145/357290.357293), have it: J. B.
+/// Nielsen's thesis, Eq. 2.19-2.22.
 
 #include <gonio/model/fresnel.hpp>
 #include <gonio/model/lobe.hpp>

@@ -1,7 +1,8 @@
 #pragma once
 /// The cell of a MERL-like grid in which a pair of directions lies, without trigonometric functions: for the inner loop
-/// of a renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998; the grid
-/// is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+/// of a renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
+/// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
+/// 2003 (doi:10.1145/882262.882343).
 ///
 /// An angle in a quadrant is told by its sine's share of sine plus cosine, s / (s + c), which rises from 0 to 1 nearly
 /// evenly, and whatever length both are multiplied by. The shares at the cells' borders are tabulated once.

@@ -1,8 +1,8 @@
 #pragma once
 /// Reconstructed BRDFs that are evaluated from their weights when they are asked: many materials that share their
 /// principal components need a few hundred bytes each. J. B. Nielsen, H. W. Jensen and R. Ramamoorthi, "On Optimal,
-/// Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015, Eq. 1-4 (the log-relative mapping) and 10
-/// (the reconstruction Q c + mu).
+/// Minimal BRDF Sampling for Reflectance Acquisition", SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4 (the
+/// log-relative mapping) and 10 (the reconstruction Q c + mu).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>

@@ -1,9 +1,9 @@
 #pragma once
 /// Light measured all around, as a latitude-longitude image (P. Debevec, "Rendering Synthetic Objects into Real
-/// Scenes", SIGGRAPH 1998), and as directional lights: one for each pixel, or a few drawn by importance along a
-/// Hilbert curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the Hilbert Curve", Journal of
-/// Graphics Tools 8(3), 2003). The light under which Noell et al. 2014, Sec. 3.1, judge BRDFs: their spheres stand in
-/// Debevec's Grace Cathedral.
+/// Scenes", SIGGRAPH 1998, doi:10.1145/280814.280864), and as directional lights: one for each pixel, or a few drawn by
+/// importance along a Hilbert curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the Hilbert
+/// Curve", Journal of Graphics Tools 8(3), 2003). The light under which Noell et al. 2014, Sec. 3.1, judge BRDFs: their
+/// spheres stand in Debevec's Grace Cathedral.
 
 #include <gonio/core/error.hpp>
 #include <gonio/render/image.hpp>

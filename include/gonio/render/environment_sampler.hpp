@@ -2,7 +2,8 @@
 /// Directions towards the bright parts of an environment map, drawn in proportion to its luminance: what importance
 /// sampling of a BRDF alone misses, a small bright lamp. M. Pharr, W. Jakob and G. Humphreys, "Physically Based
 /// Rendering", 4th edition 2023, Sec. 12.5.2; the weights for a draw that two samplers could have made are E. Veach and
-/// L. Guibas's, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
+/// L. Guibas's, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995
+/// (doi:10.1145/218380.218498).
 
 #include <gonio/render/environment_map.hpp>
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Where a pair of directions lies on a MERL-like grid, without trigonometric functions: for the inner loop of a
-/// renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998; the grid is
-/// that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+/// renderer. S. Rusinkiewicz, "A New Change of Variables for Efficient BRDF Representation", EGWR 1998
+/// (doi:10.1007/978-3-7091-6453-2_2); the grid is that of Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH
+/// 2003 (doi:10.1145/882262.882343).
 ///
 /// The three angles come from ratios of sums and differences of the two directions, and their arc tangents from one
 /// polynomial, which a compiler can evaluate for several pairs at once.

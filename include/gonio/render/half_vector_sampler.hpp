@@ -2,8 +2,9 @@
 /// Directions for a renderer to follow, drawn where an isotropic BRDF is bright: half vectors from a distribution
 /// tabulated for each of some viewers, or cosine-weighted directions, in a ratio of their own for each viewer. After J.
 /// Lawrence, S. Rusinkiewicz and R. Ramamoorthi, "Efficient BRDF Importance Sampling Using a Factored Representation",
-/// SIGGRAPH 2004, whose factor of half vectors this tabulates without factoring it, and M. Pharr, W. Jakob and G.
-/// Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected directions).
+/// SIGGRAPH 2004 (doi:10.1145/1015706.1015751), whose factor of half vectors this tabulates without factoring it, and
+/// M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 2023, Sec. 9.6 (densities of reflected
+/// directions).
 
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/sampled_direction.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 /// A tabulated BRDF for the inner loop of a renderer: nearest or trilinear look-up, one pair of directions at a time or
 /// many, in float or double, its values stored as float, double or half. The grid is that of Matusik et al., "A
-/// Data-Driven Reflectance Model", SIGGRAPH 2003.
+/// Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>

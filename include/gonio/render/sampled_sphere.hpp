@@ -1,7 +1,7 @@
 #pragma once
 /// A sphere in an environment as a path tracer sees it: light drawn by importance of the BRDF and of the environment,
 /// combined. E. Veach and L. Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH
-/// 1995: the balance heuristic. Light that is reflected once is all there is on a sphere.
+/// 1995 (doi:10.1145/218380.218498): the balance heuristic. Light that is reflected once is all there is on a sphere.
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>

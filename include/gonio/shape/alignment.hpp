@@ -1,8 +1,9 @@
 #pragma once
 /// Shapes brought onto one another by rotation, translation and, if wanted, scale: one onto one in the least-squares
-/// sense (Umeyama, IEEE PAMI 13(4), 1991; Kabsch, Acta Cryst. A32, 1976), and many onto their mean by generalised
-/// Procrustes alignment (Gower, Psychometrika 40, 1975). As "Anatomically correct surface recovery" does (Nielsen's
-/// doctoral thesis, DTU 2016, contribution C.V, section 2 and Algorithm 1).
+/// sense (Umeyama, IEEE PAMI 13(4), 1991, doi:10.1109/34.88573; Kabsch, Acta Cryst. A32, 1976,
+/// doi:10.1107/S0567739476001873), and many onto their mean by generalised Procrustes alignment (Gower, Psychometrika
+/// 40, 1975, doi:10.1007/BF02291478). As "Anatomically correct surface recovery" does (Nielsen's doctoral thesis, DTU
+/// 2016, contribution C.V, section 2 and Algorithm 1).
 
 #include <gonio/shape/triangle_mesh.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Which of two sets belong together at the least total cost: the linear assignment problem, solved by the Hungarian
-/// method (Kuhn, Naval Research Logistics Quarterly 2, 1955) as dlib has it, in O(n^3). Programs that include this link
-/// dlib; docs/decisions/0011-assignment.md says why.
+/// method (Kuhn, Naval Research Logistics Quarterly 2, 1955, doi:10.1002/nav.3800020109) as dlib has it, in O(n^3).
+/// Programs that include this link dlib; docs/decisions/0011-assignment.md says why.
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// An active shape model brought onto a scan: closest places in turn with the pose and the weights that go there.
 /// "Anatomically correct surface recovery" (Nielsen, doctoral thesis, DTU 2016, contribution C.V), section 2, Eq. 3;
-/// closest points as Besl and McKay, IEEE PAMI 14(2), 1992.
+/// closest points as Besl and McKay, IEEE PAMI 14(2), 1992 (doi:10.1109/34.121791).
 ///
 /// The paper finds the weights by downhill simplex, the pose by closest points. With the places on the scan held both
 /// are one least-squares problem, which the solver of BRDFs solves at once:

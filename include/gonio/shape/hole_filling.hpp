@@ -2,7 +2,8 @@
 /// Holes of a surface filled as smoothly as can be, from their surroundings alone: what recovery by the statistics of
 /// many shapes has to beat ("Anatomically correct surface recovery", Nielsen, doctoral thesis, DTU 2016, contribution
 /// C.V, section 4, compares itself with such a method). The energies are those of Kobbelt, Campagna, Vorsatz and
-/// Seidel, "Interactive multi-resolution modeling on arbitrary meshes" (SIGGRAPH 1998), section 3.
+/// Seidel, "Interactive multi-resolution modeling on arbitrary meshes" (SIGGRAPH 1998, doi:10.1145/280814.280831),
+/// section 3.
 
 #include <gonio/shape/mesh_topology.hpp>
 

@@ -2,7 +2,7 @@
 /// 3D shape context descriptors: what lies where around a point of a surface, as a histogram, and which points of two
 /// surfaces look most alike. "Anatomically correct surface recovery" (Nielsen's doctoral thesis, DTU 2016,
 /// contribution C.V), section 2, after Frome et al., "Recognizing objects in range data using regional point
-/// descriptors" (ECCV 2004).
+/// descriptors" (ECCV 2004, doi:10.1007/978-3-540-24672-5_18).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/parallel.hpp>
@@ -74,8 +74,8 @@ class point_tree {
 
 /// So many vertices of triangles, spread as evenly as that goes: the one farthest from the centroid of all, then always
 /// the one farthest from those chosen. Of equally far ones the lowest number. Fewer if there are no more places.
-/// Gonzalez, Theoretical Computer Science 38, 1985. O(count x vertices). Throws gonio::error if a vertex is not finite,
-/// a triangle names a vertex that there is not, or there are no triangles.
+/// Gonzalez, Theoretical Computer Science 38, 1985 (doi:10.1016/0304-3975(85)90224-5). O(count x vertices). Throws
+/// gonio::error if a vertex is not finite, a triangle names a vertex that there is not, or there are no triangles.
 [[nodiscard]] std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh, Eigen::Index count);
 
 /// Descriptors of chosen vertices, in their order. Left out are those whose normal is too near the vertical axis

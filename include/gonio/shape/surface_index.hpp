@@ -1,7 +1,8 @@
 #pragma once
 /// Where a triangulated surface is closest to a point, where a line meets it, and on which side of it a point is.
 /// Ericson, "Real-Time Collision Detection" (2005), sections 5.1.5, 5.3.3, 5.3.6 and 6.1; signs by Baerentzen and
-/// Aanaes, "Signed distance computation using the angle weighted pseudonormal" (IEEE TVCG 11(3), 2005).
+/// Aanaes, "Signed distance computation using the angle weighted pseudonormal" (IEEE TVCG 11(3), 2005,
+/// doi:10.1109/TVCG.2005.49).
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/mesh_topology.hpp>

@@ -2,9 +2,10 @@
 /// A primal active-set method for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0: NNLS, Lasso and
 /// non-negative Lasso are one algorithm that differs in the signs it allows.
 ///
-/// With x >= 0 and lambda = 0 it is Lawson and Hanson's (Solving Least Squares Problems, 1974, algorithm NNLS) on the
-/// normal equations (Bro and de Jong, J. Chemometrics 11, 1997); with both signs it is the feature-sign search of Lee,
-/// Battle, Raina and Ng (NIPS 2006).
+/// With x >= 0 and lambda = 0 it is Lawson and Hanson's (Solving Least Squares Problems, 1974,
+/// doi:10.1137/1.9781611971217, algorithm NNLS) on the normal equations (Bro and de Jong, J. Chemometrics 11, 1997,
+/// doi:10.1002/(SICI)1099-128X(199709/10)11:5<393::AID-CEM483>3.0.CO;2-L); with both signs it is the feature-sign
+/// search of Lee, Battle, Raina and Ng (NIPS 2006).
 
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/growing_cholesky.hpp>

@@ -1,8 +1,9 @@
 #pragma once
 /// The penalty of a Tikhonov solver, chosen by how well each observation is predicted from the others.
-/// Leave-one-out (PRESS): Allen, Technometrics 16, 1974. Generalised cross-validation: Golub, Heath and Wahba,
-/// Technometrics 21, 1979. Both take the rows' errors for independent and fail where they go together, as those of a
-/// image's pixels do if light or camera are off their places (docs/results/directions.md, docs/results/eta.md).
+/// Leave-one-out (PRESS): Allen, Technometrics 16, 1974 (doi:10.1080/00401706.1974.10489157). Generalised
+/// cross-validation: Golub, Heath and Wahba, Technometrics 21, 1979 (doi:10.1080/00401706.1979.10489751). Both take the
+/// rows' errors for independent and fail where they go together, as those of an image's pixels do if light or camera
+/// are off their places (docs/results/directions.md, docs/results/eta.md).
 
 #include <gonio/solve/tikhonov.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Dot products as if in twice the precision: the residuals with which solutions are refined.
-/// Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26, 2005, algorithm 5.3 (Dot2).
+/// Ogita, Rump and Oishi, "Accurate sum and dot product", SIAM J. Sci. Comput. 26, 2005 (doi:10.1137/030601818),
+/// algorithm 5.3 (Dot2).
 
 #include <cmath>
 

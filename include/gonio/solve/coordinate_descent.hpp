@@ -1,6 +1,7 @@
 #pragma once
 /// Coordinate descent on the normal equations for min 1/2 x'Q x - m'x + lambda |x|_1, with or without x >= 0, with
-/// covariance updates and the active-set trick of Friedman, Hastie and Tibshirani (J. Stat. Software 33, 2010).
+/// covariance updates and the active-set trick of Friedman, Hastie and Tibshirani (J. Stat. Software 33, 2010,
+/// doi:10.18637/jss.v033.i01).
 
 #include <gonio/solve/active_set.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// The dual active-set method for strictly convex quadratic programs: Goldfarb and Idnani, Mathematical Programming 27,
-/// 1983. Active bounds are no rows of the systems: their weights leave them.
+/// 1983 (doi:10.1007/BF02591962). Active bounds are no rows of the systems: their weights leave them.
 
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/growing_cholesky.hpp>

@@ -1,5 +1,6 @@
 #pragma once
-/// Least squares with a penalty on the sum of the weights' magnitudes: Tibshirani, J. Royal Stat. Soc. B 58, 1996.
+/// Least squares with a penalty on the sum of the weights' magnitudes: Tibshirani, J. Royal Stat. Soc. B 58, 1996
+/// (doi:10.1111/j.2517-6161.1996.tb02080.x).
 
 #include <gonio/solve/coordinate_descent.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Non-linear least squares of a few unknowns within bounds, on normal equations: J. J. More, "The Levenberg-Marquardt
-/// Algorithm: Implementation and Theory", 1978, with the steps held within the box.
+/// Algorithm: Implementation and Theory", 1978 (doi:10.1007/BFb0067700), with the steps held within the box.
 
 #include <gonio/core/assertion.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
-/// Non-negative least squares by the active-set method of Lawson and Hanson (1974) on the normal equations
-/// (Bro and de Jong 1997). With measured materials as columns it is the initial estimate of Noell et al. 2014.
+/// Non-negative least squares by the active-set method of Lawson and Hanson (1974, doi:10.1137/1.9781611971217) on the
+/// normal equations (Bro and de Jong 1997, doi:10.1002/(SICI)1099-128X(199709/10)11:5<393::AID-CEM483>3.0.CO;2-L). With
+/// measured materials as columns it is the initial estimate of Noell et al. 2014.
 
 #include <gonio/solve/active_set.hpp>
 

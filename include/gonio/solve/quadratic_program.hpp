@@ -1,7 +1,8 @@
 #pragma once
 /// Least squares under linear constraints: Noell, Koehler and Stricker 2014, Eq. 10, by the dual active-set method of
-/// Goldfarb and Idnani 1983, and, where the Gram matrix is singular, by proximal points around it (Rockafellar, SIAM J.
-/// Control Optim. 14, 1976), which is how qpOASES regularises (Ferreau et al., Math. Prog. Comp. 6, 2014).
+/// Goldfarb and Idnani 1983 (doi:10.1007/BF02591962), and, where the Gram matrix is singular, by proximal points around
+/// it (Rockafellar, SIAM J. Control Optim. 14, 1976, doi:10.1137/0314056), which is how qpOASES regularises (Ferreau et
+/// al., Math. Prog. Comp. 6, 2014, doi:10.1007/s12532-014-0071-1).
 
 #include <gonio/solve/dual_active_set.hpp>
 #include <gonio/solve/linear_constraints.hpp>

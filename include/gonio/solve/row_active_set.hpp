@@ -1,7 +1,8 @@
 #pragma once
 /// The active-set method for min 1/2 |A x - b|^2 + lambda |x|_1, with or without x >= 0, on the rows: Lawson and
-/// Hanson, Solving Least Squares Problems, 1974, algorithm NNLS, with a penalty, and with solutions that are refined
-/// (Bjorck, BIT 7, 1967). It never squares the condition number, and is what solvers fall back to that do.
+/// Hanson, Solving Least Squares Problems, 1974 (doi:10.1137/1.9781611971217), algorithm NNLS, with a penalty, and with
+/// solutions that are refined (Bjorck, BIT 7, 1967, doi:10.1007/BF01939321). It never squares the condition number, and
+/// is what solvers fall back to that do.
 
 #include <gonio/solve/kkt.hpp>
 

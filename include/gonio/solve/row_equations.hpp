@@ -1,6 +1,7 @@
 #pragma once
 /// What the rows of a least-squares problem say without a Gram matrix, which would square their condition number.
-/// Lawson and Hanson, Solving Least Squares Problems, 1974, chapter 27 (rows accumulated block by block).
+/// Lawson and Hanson, Solving Least Squares Problems, 1974 (doi:10.1137/1.9781611971217), chapter 27 (rows accumulated
+/// block by block).
 
 #include <gonio/solve/kkt.hpp>
 #include <gonio/solve/least_squares_problem.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 /// Least squares with a quadratic penalty on the weights (ridge regression).
-/// Nielsen et al. 2015, Eq. 11-12.
+/// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 11-12.
 
 #include <gonio/solve/solver.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Least squares in the directions that explain most of the matrix: regularisation by truncated singular value
-/// decomposition. Hansen, BIT 27, 1987; the share of explained variance as Nielsen chooses it, "Statistical
-/// surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
+/// decomposition. Hansen, BIT 27, 1987 (doi:10.1007/BF01937276); the share of explained variance as Nielsen chooses it,
+/// "Statistical surface recovery" (doctoral thesis, DTU 2016, contribution C.V, Eq. 4-7).
 
 #include <gonio/solve/solver.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Regular grids over (theta_h, theta_d, phi_d) in MERL's layout: theta_d and phi_d are uniform over
 /// [0, pi/2] and [0, pi], theta_h is finer towards the highlight, with node position proportional to
-/// sqrt(theta_h). Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003.
+/// sqrt(theta_h). Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343).
 
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>

@@ -48,8 +48,8 @@ class block_pivoting {
   bool finished_ = false;
 };
 
-/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/results/solvers.md has both
-/// measured. Throws gonio::error as `nnls` does.
+/// Minimises |W^(1/2) (A x - b)|^2 over x >= 0, as `nnls` does, in fewer and larger steps; docs/results/solvers.md has
+/// both measured. Throws gonio::error as `nnls` does.
 class nnls_block_pivoting {
  public:
   static constexpr bool non_negative = true;

@@ -1,0 +1,59 @@
+#pragma once
+/// What a decomposition's metric, basis and solver must have, one sentence for each member, for the compiler to say.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/solve/solver.hpp>
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace gonio::detail {
+
+/// The metric of a basis, or void if it has none.
+template <class Basis>
+struct metric_of {
+  using type = void;
+};
+template <class Basis>
+requires requires(const Basis& functions) { functions.metric(); }
+struct metric_of<Basis> {
+  using type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
+};
+
+/// Instantiating it asserts one part after the other, and of each part first the members, then its concept, which also
+/// knows their types.
+template <class Basis, class Solver>
+struct decomposition_parts {
+  using metric = typename metric_of<Basis>::type;
+  static constexpr bool channelwise = requires(const Basis& functions) { functions.channel(std::size_t{}); };
+
+  static_assert(!std::is_void_v<metric>, "decomposition: the basis has no metric()");
+  static_assert(
+      requires(const metric& map) { map.forward(1.0, std::size_t{}); },
+      "decomposition: the metric of the basis has no forward(rho, cell)");
+  static_assert(
+      requires(const metric& map) { map.inverse(1.0, std::size_t{}); },
+      "decomposition: the metric of the basis has no inverse(y, cell)");
+  static_assert(error_metric<metric>, "decomposition: the metric of the basis is no gonio::error_metric");
+
+  static_assert(
+      requires(const Basis& functions) { functions.size(); }, "decomposition: the basis has no size()");
+  static_assert(
+      requires(const Basis& functions) { functions.cells(); }, "decomposition: the basis has no cells()");
+  static_assert(
+      channelwise || requires(const Basis& functions) { functions.offset(std::size_t{}); },
+      "decomposition: the basis has no offset(cell)");
+  static_assert(
+      channelwise || requires(const Basis& functions) { functions.row(std::size_t{}); } ||
+          requires(const Basis& functions, const location& at, function_row out) { functions.read_row(at, out); },
+      "decomposition: the basis has neither row(cell) nor read_row(location, out)");
+  static_assert(colour_basis<Basis>, "decomposition: the basis is no gonio::basis and no gonio::channelwise_basis");
+
+  static_assert(
+      requires(const Solver& any, const least_squares_problem& problem) { any.solve(problem); },
+      "decomposition: the solver has no solve(problem)");
+  static_assert(solver<Solver>, "decomposition: the solver is no gonio::solver");
+};
+
+}  // namespace gonio::detail

@@ -1,0 +1,37 @@
+/// Must not compile: the metric, the basis or the solver of a decomposition lacks a member, which a macro names.
+/// incomplete_parts.cmake compiles it once for each.
+
+#include <gonio/estimate/decomposition.hpp>
+
+#include <span>
+
+struct half {
+  double forward(double rho, const auto&) const noexcept { return rho / 2.0; }
+#if !defined(WITHOUT_INVERSE)
+  double inverse(double y, const auto&) const noexcept { return 2.0 * y; }
+#endif
+};
+
+struct constant {
+  gonio::valid_cells over;
+  std::size_t size() const { return 1; }
+  const gonio::valid_cells& cells() const { return over; }
+  double offset(std::size_t) const { return 0.0; }
+  half metric() const { return {}; }
+#if !defined(WITHOUT_ROW)
+  std::span<const float> row(std::size_t) const {
+    static constexpr float one = 1;
+    return {&one, 1};
+  }
+#endif
+};
+
+struct own_solver {
+#if !defined(WITHOUT_SOLVE)
+  gonio::solution solve(const gonio::least_squares_problem& problem) const;
+#endif
+};
+
+auto fit(const constant& functions, const gonio::sample_set& samples) {
+  return gonio::decomposition{functions, own_solver{}}.fit(samples);
+}
