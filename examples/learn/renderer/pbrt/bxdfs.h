@@ -2,7 +2,7 @@
 class GonioBxDF {
   public:
     GonioBxDF() = default;
-    GonioBxDF(const gonio::bsdf_view *paint, const SampledWavelengths &lambda) : paint(paint), lambda(lambda) {}
+    GonioBxDF(const gonio::render::bsdf_view *paint, const SampledWavelengths &lambda) : paint(paint), lambda(lambda) {}
 
     SampledSpectrum f(Vector3f wo, Vector3f wi, TransportMode) const {
         if (!SameHemisphere(wo, wi)) return SampledSpectrum(0.f);
@@ -29,13 +29,13 @@ class GonioBxDF {
 
   private:
     // Seen from behind as from the front.
-    static gonio::bsdf_view::vector Front(Vector3f w, Vector3f wo) {
+    static gonio::render::bsdf_view::vector Front(Vector3f w, Vector3f wo) {
         return {float(w.x), float(w.y), float(wo.z < 0 ? -w.z : w.z)};
     }
-    SampledSpectrum Spectral(const gonio::bsdf_view::colour &c, float scale) const {
+    SampledSpectrum Spectral(const gonio::render::bsdf_view::colour &c, float scale) const {
         RGB rgb(scale * c[0], scale * c[1], scale * c[2]);  // more than 1 in a highlight: unbounded, no albedo
         return RGBUnboundedSpectrum(*RGBColorSpace::sRGB, rgb).Sample(lambda);
     }
-    const gonio::bsdf_view *paint = nullptr;
+    const gonio::render::bsdf_view *paint = nullptr;
     SampledWavelengths lambda;
 };
