@@ -63,6 +63,7 @@ void add_design(command& app) {
   auto command = app.add_subcommand("design", "Find what to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
+  // Declare the prior, and what is measured.
   add_prior_option(command, options->prior);
   command.add_option("-n,--count", design.count, "Number of measurements").capture_default_str();
   command
@@ -71,6 +72,7 @@ void add_design(command& app) {
                   "a close camera; fixed-camera, fixed-light: such images with one camera, or one light")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
+  // Declare what a set is worth, and how sets are searched for.
   command
       .add_option(
           "--criterion", design.criterion,
@@ -85,6 +87,7 @@ void add_design(command& app) {
                   "descend")
       .check(check::one_of({"exchange", "greedy", "descent"}))
       .capture_default_str();
+  // Declare the reconstruction and the errors of the measurements.
   command
       .add_option("--eta", design.eta,
                   "Tikhonov's penalty of the reconstruction; the default is about what gonio reconstruct chooses")
@@ -103,12 +106,14 @@ void add_design(command& app) {
       .add_option("--misplaced", options->angular_error,
                   "Points: degrees by which light and viewer may each be off their directions")
       .capture_default_str();
+  // Declare the limits of the apparatus.
   command.add_option("--fov", options->field_of_view, "Near field: angle in degrees that the sample spans from above")
       .capture_default_str();
   command.add_option("--step", options->step, "Near field: degrees between candidates").capture_default_str();
   command.add_input("--constraint", options->constraint,
                     "What the apparatus cannot do (a text file, docs/reference/formats.md)");
   command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  // Declare the run and its output.
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", options->print_json, "Print the result as JSON");
   add_threads_option(command, design.threads);

@@ -46,21 +46,24 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
 }
 
 void fit(const fit_command_options& options) {
+  // Choose the lobes.
   if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
     gonio::refuse("--cell-weights needs a table: samples carry their own weights");
   auto kinds = lobes_named(options.model);
   if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
+  // Read the measurements, and fit the model under the metric.
   std::optional<gonio::brdf_table> table;
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
   const auto observations = table ? gonio::model::fit_observations(*table, options.fit.threads, options.cell_weights)
                                   : gonio::model::fit_observations(read_measurements(options.measurements));
   const gonio::model::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
 
-  // Both before either is written: what a renderer cannot have leaves nothing behind.
+  // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
   const std::string pbrt = options.pbrt.empty() ? "" : gonio::io::pbrt_material(found.model);
   const std::string mitsuba = options.mitsuba.empty() ? "" : gonio::io::mitsuba_material(found.model);
   if (!pbrt.empty()) gonio::io::write_renderer_material(options.pbrt, pbrt);
   if (!mitsuba.empty()) gonio::io::write_renderer_material(options.mitsuba, mitsuba);
+  // Tabulate the fit, and draw it beside the table that was measured.
   if (!options.output.empty() || !options.picture.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
     const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.fit.threads);
@@ -73,6 +76,7 @@ void fit(const fit_command_options& options) {
       gonio::io::write_png(options.picture, gonio::render::side_by_side(pictures, 8));
     }
   }
+  // Print the fit.
   if (!options.print_json) return print(found, observations.size());
   std::cout << json{{"measurements", observations.size()},  {"loss", found.loss},
                     {"evaluations", found.evaluations},     {"converged", found.converged},
@@ -86,6 +90,7 @@ void fit(const fit_command_options& options) {
 void add_fit(command& app) {
   auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
   const auto options = std::make_shared<fit_command_options>();
+  // Declare the measurements and the model.
   command
       .add_input("measurements", options->measurements,
                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
@@ -97,6 +102,7 @@ void add_fit(command& app) {
       .add_option("--model", options->model,
                   "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
       .capture_default_str();
+  // Declare how they are compared.
   command
       .add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log (ln(1 + x)) or cubic root")
       .check(check::one_of({"lin", "log", "cubic"}))
@@ -105,6 +111,7 @@ void add_fit(command& app) {
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->fit);
   add_cell_weights_option(command, options->cell_weights);
+  // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"},
                      "The model as a table to write (.binary, or .npy)");
   auto image = command.add_output("--image", options->picture, {".png"},

@@ -77,9 +77,11 @@ void require_reference(const calibrate_command& options,
 }
 
 void run(const calibrate_command& options) {
+  // Read both scans, and calibrate the camera and the geometry.
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
   require_same_poses(options, material, reference);
   const gonio::capture::calibration known = calibration_of(options, material, reference);
+  // Measure the reflectance of each pose, and say which poses are left out.
   std::vector<gonio::capture::measured_reflectance> usable;
   const auto leave_out = [&](std::size_t pose, const std::string& reason) {
     std::cout << "left out: pose " << pose + 1 << ", " << in_degrees(material.poses[pose]) << ": " << reason << '\n';
@@ -98,6 +100,7 @@ void run(const calibrate_command& options) {
   }
   if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
   require_reference(options, usable);
+  // Write the samples, and say how well they are known.
   gonio::sample_set samples;
   std::vector<double> deviations;
   for (const auto& each : usable) {

@@ -136,6 +136,7 @@ void add_label_option(command& to, std::string& label) {
 void add_lab_scan(command& lab) {
   auto command = lab.add_subcommand("scan", "Measure poses in a simulated laboratory; goes on where it was stopped");
   const auto options = std::make_shared<scan_command>();
+  // Declare the plan and what lies in the machine.
   command.add_input("plan", options->plan, "Poses, as `gonio lab plan` writes them (.csv)").required();
   auto what = command.add_option_group("what", "What lies in the machine (one of)");
   what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
@@ -145,10 +146,12 @@ void add_lab_scan(command& lab) {
       .check(check::range(0.01, 1.0))
       .capture_default_str();
   add_label_option(command, options->label);
+  // Declare the machine and its camera.
   add_machine_options(command, options->machine);
   command.add_option("--camera", options->camera, "The camera's response")
       .check(check::one_of({"linear", "gamma", "s-shaped"}))
       .capture_default_str();
+  // Declare what is wrong with it.
   command.add_flag("--ideal", options->ideal,
                    "Nothing is wrong: no noise, points for lamp and sample, all in its place, 16 bits instead of 12");
   command.add_option("--noise", options->noise, "Factor of all noise")
@@ -160,6 +163,7 @@ void add_lab_scan(command& lab) {
   command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
+  // Declare the seeds and the journal.
   command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
   command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")
       .capture_default_str();

@@ -167,10 +167,12 @@ void add_reconstruct(command& app) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
   const auto how = std::make_shared<image_options>();
+  // Declare the samples and the method.
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);
+  // Declare the metric, the solver and the noise.
   command
       .add_option("--metric", options->metric,
                   "Errors of linear, rbf and the start of correction are those of the reflectance mapped by: lin, "
@@ -181,17 +183,20 @@ void add_reconstruct(command& app) {
   command.add_option(
       "--noise", options->noise,
       "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
+  // Declare the corrections.
   add_correction_options(command, *options);
   command
       .add_option("--misplaced", options->angular_error,
                   "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
                   "of highlights count less then (for images: gonio near-field --misplaced)")
       .capture_default_str();
+  // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
   auto image = command.add_output("--image", options->picture, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
+  // Refuse options that the method does not take, then run it.
   command.callback([command, options, how] {
     const method& chosen = method_named(options->method);
     require_taken(command, chosen);

@@ -71,6 +71,7 @@ reconstruction iterate(Run run, const reconstruct_options& options, bool automat
 /// The method chosen by --gamma, from materials under a metric.
 reconstruction correct(const gonio::measured<gonio::any_metric>& materials, const reconstruct_options& options,
                        const gonio::sample_set& samples, std::optional<gonio::brdf_table> truth, progress_bar& bar) {
+  // Make the correction functions.
   const auto gamma = gamma_of(options);
   const gonio::thread_count threads = options.threads;
   const gonio::correction_limits limits{.rounds = options.iterations};
@@ -81,6 +82,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
   if (!options.iteration_figure.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
   iteration_figure* watcher = watched ? &*watched : nullptr;
 
+  // Iterate with the weights of the paper if gamma is given, else with automatic ones.
   const auto as_published = [&] {
     const gonio::decomposition initial{materials, gonio::nnls{}, threads};
     const gonio::relative_deviation_weights weighting{*gamma};
@@ -95,6 +97,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
   reconstruction result = gamma ? as_published() : automatic();
   if (!watched) return result;
 
+  // Draw the iteration figure.
   bar.draw("drawing", 1.0);
   auto [picture, differences] = watched->draw();
   result.iteration_figure = std::move(picture);

@@ -12,7 +12,7 @@ struct white_lambertian {
     return gonio::rgb::Constant(wi.z() > 0 && wo.z() > 0 ? std::numbers::inv_pi : 0.0);
   }
 };
-static_assert(gonio::brdf<white_lambertian>);
+static_assert(gonio::brdf<white_lambertian> && gonio::brdf<gonio::brdf_view<white_lambertian>>);
 
 struct may_throw {
   gonio::rgb operator()(const gonio::direction&, const gonio::direction&) const { return gonio::rgb::Zero(); }

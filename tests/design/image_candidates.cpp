@@ -12,6 +12,8 @@ using gonio::design::expected_error;
 using gonio::design::near_field_geometry;
 using gonio::design::sphere_geometry;
 
+static_assert(gonio::design::sweeping_objective<gonio::design::image_candidates<gonio::log_relative, sphere_geometry>>);
+
 constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 0.1, .common_shift = 0.3};
 
 /// E of all samples of some images, one row each.

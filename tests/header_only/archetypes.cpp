@@ -28,6 +28,9 @@ gonio::sample_set grey_samples(double value) {
   return samples;
 }
 
+static_assert(gonio::tabulated_brdf<gonio::fitted_brdf<archetype::constant_basis>>);
+static_assert(gonio::tabulated_brdf<gonio::fitted_brdf<archetype::theta_d_polynomial>>);
+
 /// The constant function fits constant samples by any solver.
 template <class Solver>
 void check_constant(const Solver& solver) {

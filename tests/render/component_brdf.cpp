@@ -14,6 +14,8 @@ using gonio::render::component_brdf;
 using gonio::render::interpolation;
 using gonio::render::shared_components;
 
+static_assert(gonio::render::log_relative_components<gonio::log_relative_pca>);
+
 namespace {
 
 const gonio::log_relative_pca& some_components() {

@@ -13,6 +13,8 @@ using gonio::rgb;
 using gonio::render::interpolation;
 using gonio::render::lookup_table;
 
+static_assert(gonio::render::table_over_cells<gonio::brdf_table>);
+
 namespace {
 
 const gonio::grid coarse({45, 30, 60});

@@ -24,7 +24,6 @@ using gonio::online_quadratic_program;
 using gonio::quadratic_program;
 using gonio::sign_rule;
 
-static_assert(gonio::solver_iteration<dual_active_set>);
 static_assert(gonio::normal_solver<quadratic_program<convex_weights>>);
 static_assert(gonio::solves_non_negative<quadratic_program<convex_weights>>);
 static_assert(!gonio::solves_non_negative<quadratic_program<linear_constraints>>);

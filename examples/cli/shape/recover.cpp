@@ -53,24 +53,29 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
 }
 
 void recover_shape(const shape_recover_command& options) {
+  // Read the model and the scan.
   const gonio::shape::shape_model model = gonio::io::read_shape_model(options.model);
   const gonio::shape::triangle_mesh scan = gonio::io::read_mesh(options.scan);
   gonio::shape::recovery_options how;
   how.fine.position_error = options.noise;
+  // Recover the shape, and bring it into the frame of the model.
   const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
   const gonio::shape::recovered_shape found = in_file(options.scan, [&] {
     return gonio::shape::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
   });
   gonio::shape::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
 
+  // List the vertices that the scan does not show.
   const std::vector<bool> known = gonio::shape::marks_of(found.known, model.vertices());
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
     if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
+  // Estimate how sure they are by trials.
   if (options.trials > 0 && !missing.empty())
     print_how_sure({model, index, found, {.trials = options.trials, .recovery = how}, options.threads}, found.surface,
                    missing);
+  // Compare them with the truth, if there is one.
   Eigen::VectorXd distances;
   std::vector<gonio::rgb> colours;
   if (!options.truth.empty()) {
@@ -84,6 +89,7 @@ void recover_shape(const shape_recover_command& options) {
                 << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
     }
   }
+  // Write the mesh, coloured by its distance from the truth, and the image.
   if (colours.empty())
     gonio::io::write_mesh(options.output, recovered);
   else

@@ -52,12 +52,14 @@ void print_row(const std::string& label, double reference, const json& full, con
 void run(const nielsen_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
+  // Learn the prior without the test materials.
   const nielsen_split split = nielsen_split::learn({options.networks}, options.threads, listener);
   const auto& prior = split.prior;
   const auto& truths = split.truths;
   const auto shipped = as_shipped(prior);
   const gonio::appearance_metric judge(truths.cells, 36, options.threads);
 
+  // Reconstruct the test materials from each published set of directions.
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
   for (const std::size_t n : gonio::design::nielsen_direction_counts) {
     const auto directions = gonio::design::nielsen_directions(n);
@@ -69,10 +71,12 @@ void run(const nielsen_options& options) {
     result["directions"][std::to_string(n)] = {
         {"full", mean_errors(full)}, {"shipped_form", mean_errors(thin)}, {"materials", errors_by_name(full)}};
   }
+  // Project the test materials on the prior, which bounds every reconstruction.
   const auto bound = project_on(prior, truths, judge, options.threads);
   result["projection"] = {{"full", mean_errors(bound)}, {"materials", errors_by_name(bound)}};
   bar.wipe();
 
+  // Print the errors.
   if (options.print_json) {
     std::cout << result.dump(2) << '\n';
     return;

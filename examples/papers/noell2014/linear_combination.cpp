@@ -62,6 +62,7 @@ void run_combination(const combination_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
   const combination_experiment experiment(options, listener);
+  // Combine the other materials under each metric.
   std::vector<std::pair<std::string, std::vector<material_result>>> results;
   const auto run_one = [&](const std::string& name, const auto& metric) {
     gonio::report(listener, "combining under " + name, 0.0);
@@ -72,6 +73,7 @@ void run_combination(const combination_options& options) {
   run_one("log", gonio::log{});
   bar.wipe();
 
+  // Print the errors.
   if (options.print_json) {
     json all;
     for (const auto& [name, materials] : results)

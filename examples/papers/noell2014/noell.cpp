@@ -249,6 +249,7 @@ void run_noell(const noell_options& options) {
 void add_noell(command& app, const std::string& name, const std::string& description, const noell_options& defaults) {
   auto command = app.add_subcommand(name, description);
   const auto options = std::make_shared<noell_options>(defaults);
+  // Declare the materials, their methods and the environment.
   add_networks_option(command, options->networks);
   add_environment_option(command, options->environment);
   command.add_option("--materials", options->materials, "test (ten of them), all, or the name of one")
@@ -260,6 +261,7 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
           "lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for another metric than log")
       .check(check::without([](const std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
       .capture_default_str();
+  // Declare the measurements.
   command
       .add_option("--data", options->data_ratios,
                   "Shares of the table that are measured, or, above 1, numbers of samples")
@@ -269,6 +271,7 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
       .check(check::range(0.0, 1.0))
       .capture_default_str();
   command.add_option("--seeds", options->seeds, "Seeds of cells and outliers").capture_default_str();
+  // Declare the run and its output.
   command
       .add_option("--iterations", options->iterations,
                   "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "

@@ -29,6 +29,7 @@ struct corrections_options {
 void run_corrections(const corrections_options& options) {
   progress_bar bar;
   const auto listener = bar.listener();
+  // Tabulate the materials.
   const gonio::measured materials{gonio::model::tabulate_networks(gonio::io::read_networks(options.networks),
                                                                   gonio::valid_cells(), options.threads, listener),
                                   gonio::log{}, options.threads};
@@ -37,6 +38,7 @@ void run_corrections(const corrections_options& options) {
     std::vector<double> deviations;
   };
   std::vector<row> rows;
+  // Make the correction functions by both rules, and combine each from the others.
   const auto check = [&](const std::string& rule, const gonio::correction_rule& how) {
     gonio::report(listener, "making correction functions", 0.0);
     const gonio::correction functions{materials, how, gonio::nnls{}, options.threads};
@@ -46,6 +48,7 @@ void run_corrections(const corrections_options& options) {
   check("as printed", gonio::correction_rule::as_printed());
   check("gonio's default", {});
   bar.wipe();
+  // Print how far the combinations are off.
   if (options.print_json) {
     json all = json::array();
     for (const row& each : rows)

@@ -117,11 +117,13 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
     return gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
   };
   const auto gcv = gonio::eta_criterion::generalised_cross_validation;
+  // Derive the penalties that depend on the places alone.
   const gonio::sample_set places = gonio::sample_table(truths.tables[0], cells);
   const double stated = gonio::eta_of_noise(prior, places, noise, options.threads);
   const gonio::eta_range plausible = gonio::plausible_etas(prior, places, 0.3, options.threads);
   const reconstruction_error error(prior, truths, equations_of(places).rows());
 
+  // Reconstruct each material with every penalty, and with the one that each rule chooses.
   const Eigen::VectorXd etas = gonio::detail::geometric(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
   eta_outcome each, forty, of_noise, unknown, free;
@@ -143,6 +145,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
       add(unknown, gonio::choose_eta(problem, gcv, plausible));
       add(free, gonio::choose_eta(problem, gcv));
     }
+  // Find the penalty that is best for all materials together.
   Eigen::Index at = 0;
   const double best = shared.minCoeff(&at);
   return {{"best", {{"eta", etas[at]}, {"rms", best}}},

@@ -121,6 +121,7 @@ std::vector<named_table> tables_of(const sampling_options& options) {
 
 void run_sampling(const sampling_options& options) {
   progress_bar bar;
+  // Compare the variances of each material under each light.
   const auto lights = lights_of(options);
   const auto tables = tables_of(options);
   std::vector<std::vector<double>> ratios(tables.size(), std::vector<double>(lights.size()));
@@ -138,6 +139,7 @@ void run_sampling(const sampling_options& options) {
       options.threads);
   bar.wipe();
 
+  // Print the ratios.
   if (options.print_json) {
     json all;
     for (std::size_t i = 0; i < tables.size(); ++i)

@@ -84,9 +84,11 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
 
 void run(const measured_options& options) {
   progress_bar bar;
+  // Read the prior, and list the tables.
   const auto prior = gonio::io::read_prior(options.prior);
   const auto files = gonio::io::list_merl_directory(options.tables);
   if (files.empty()) gonio::refuse(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
+  // Reconstruct each table from random samples, and judge the results.
   std::vector<gonio::image> rows;
   std::vector<gonio::appearance_metric> judges;  // of the last table's cells, most often those of the next, too
   json result = json::object();
@@ -106,6 +108,7 @@ void run(const measured_options& options) {
   bar.wipe();
   if (!options.picture.empty()) gonio::io::write_png(options.picture, gonio::render::stacked(rows));
 
+  // Print the errors.
   if (options.print_json) {
     std::cout << result.dump(2) << '\n';
     return;

@@ -120,6 +120,7 @@ json recover(const gonio::model::lobe_kind& kind, const recovery_options& given)
   double worst = 0.0;
   std::vector<double> passed_on;
   for (std::size_t draw = 0; draw < given.draws; ++draw) {
+    // Draw a model, and recover it from exact values.
     const gonio::model::analytic_brdf truth({draw_lobe(lambert, random), draw_lobe(kind, random)});
     const Eigen::VectorXd exact = unknowns_of(truth);
     const auto clean = gonio::model::fit_model({&lambert, &kind}, observe(truth, draw_pairs(random, given.samples)),
@@ -129,14 +130,17 @@ json recover(const gonio::model::lobe_kind& kind, const recovery_options& given)
     found += off < 1e-6 ? 1 : 0;
     evaluations += clean.evaluations;
 
+    // Recover it from few noisy values.
     const auto noisy = observe_with_noise(truth, draw_pairs(random, given.few), given.noise, random);
     gonio::model::model_fit_options many = fit;
     many.random_starts = given.starts;
     const auto estimate = gonio::model::fit_model({&lambert, &kind}, noisy, gonio::lin(), many);
     const Eigen::VectorXd error = unknowns_of(estimate.model) - exact;
-    // Its mean is 1 for an unbiased estimator that reaches the bound of Cramer and Rao.
+    // Weigh the error by the information: the mean is 1 for an unbiased estimator that reaches the bound of Cramer and
+    // Rao.
     passed_on.push_back(error.dot(information(truth, noisy) * error) / static_cast<double>(error.size()));
   }
+  // Report how often it was found, and how much of the noise was passed on.
   const auto near = std::ranges::count_if(passed_on, [](double ratio) { return ratio <= 4.0; });
   const double median = distribution(passed_on).median;
   std::erase_if(passed_on, [](double ratio) { return ratio > 4.0; });

@@ -72,14 +72,17 @@ void print_row(const json& row) {
 }
 
 void run(const cosine_options& options) {
+  // Refuse penalties that are no numbers.
   for (const std::string& eta : options.etas)
     if (eta != "auto" && !(number_of_eta(eta) > 0.0)) gonio::refuse("--eta must be positive, or auto");
   progress_bar bar;
+  // Tabulate the test materials.
   const auto networks = options.networks.read();
   const auto cells = options.networks.cells();
   const auto truths = gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
                                                       options.threads, bar.listener());
   const gonio::appearance_metric judge(cells, 36, options.threads);
+  // Reconstruct them with a prior that is mapped with each weight.
   json rows = json::array();
   for (const auto& [name, weighting] : weightings) {
     const auto prior = learn_all_components(networks_except(networks, gonio::nielsen_test_materials()), cells,
@@ -94,6 +97,7 @@ void run(const cosine_options& options) {
       }
   }
   bar.wipe();
+  // Print the errors.
   if (options.print_json) {
     std::cout << rows.dump(2) << '\n';
     return;

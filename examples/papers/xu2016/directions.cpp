@@ -267,12 +267,14 @@ void write_set(const directions_options& options, const json& row) {
 }
 
 void run(const directions_options& options) {
+  // Refuse options that the geometry does not take.
   if (options.geometry == "sphere" && options.angular_error > 0.0)
     gonio::refuse("--misplaced needs --geometry point or near-field");
   if (options.expected > 0.0 && options.geometry == "sphere")
     gonio::refuse("--expected-misplacement needs --geometry point or near-field");
   progress_bar bar;
   const auto listener = bar.listener();
+  // Find and judge each set, unless the state file has its result.
   resumable_results results(options.state);
   std::optional<laboratory> lab;  // opened when there is something to do
   json all = json::array();
@@ -304,6 +306,7 @@ void run(const directions_options& options) {
   }
   bar.wipe();
 
+  // Write the sets, and print the errors.
   if (!options.folder.empty())
     for (const json& row : all.elements()) write_set(options, row);
   if (options.print_json) {
@@ -321,6 +324,7 @@ void add_directions(command& app) {
   auto command = app.add_subcommand(
       "directions", "Published directions and ours on ten materials, 90 others learned (Nielsen 2015, Xu 2016)");
   const auto options = std::make_shared<directions_options>();
+  // Declare the sets.
   add_networks_option(command, options->networks);
   command.add_option("--sets", options->sets, "published, industry, random, or a criterion of `gonio design`")
       .check(check::one_of(
@@ -328,6 +332,7 @@ void add_directions(command& app) {
       .capture_default_str();
   command.add_input("--files", options->files, "Directions to judge beside them, of images those of the centre (.csv)");
   add_counts_option(command, options->counts);
+  // Declare the geometry and the search.
   command.add_option("--geometry", options->geometry, "As `gonio design` has them")
       .check(check::one_of({"point", "sphere", "near-field", "fixed-camera", "fixed-light"}))
       .capture_default_str();
@@ -337,11 +342,13 @@ void add_directions(command& app) {
   command.add_option("--eta", options->eta, "Tikhonov's penalty that sets are searched with").capture_default_str();
   command.add_flag("--in-sample", options->in_sample,
                    "Search by the error of materials that the prior has seen, as Xu et al. do, not of each left out");
+  // Declare the reconstruction.
   command
       .add_option("--reconstruction-eta", options->reconstruction_eta,
                   "Penalty of the reconstruction: a number (Nielsen et al. 2015: 40), gcv, loo, or auto, as `gonio "
                   "reconstruct` chooses it")
       .capture_default_str();
+  // Declare the errors of the measurements.
   command.add_option("--noise", options->noise, "Relative deviation of every measurement, which searches expect, too")
       .capture_default_str();
   command.add_option("--common-shift", options->common_shift, "Searches expect it: beta of Xu et al. 2016, Eq. 15")
@@ -355,6 +362,7 @@ void add_directions(command& app) {
                   "Degrees by which light and viewer are expected to be off: of points, by search and reconstruction; "
                   "of images, by a reconstruction that finds where they were")
       .capture_default_str();
+  // Declare the run and its output.
   command.add_option("--seed", options->seed, "Seed of what is random").capture_default_str();
   command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
   command.add_output_folder("--write", options->folder, {}, "Folder to write each set to, as directions (.csv)");

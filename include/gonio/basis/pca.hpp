@@ -104,5 +104,6 @@ class pca {
 
 /// The prior of Nielsen et al. 2015.
 using log_relative_pca = pca<log_relative>;
+static_assert(tabulated_basis<log_relative_pca>);
 
 }  // namespace gonio

@@ -44,6 +44,7 @@ using phong_fresnel = lobe<with_fresnel<phong_shape>::shape>;
 using blinn_phong_fresnel = lobe<with_fresnel<blinn_phong_shape>::shape>;
 using phong_blinn_fresnel = lobe<with_fresnel<phong_blinn_shape>::shape>;
 
+static_assert(lobe_shape<with_fresnel<phong_shape>::shape>);
 static_assert(brdf<phong_fresnel> && brdf<blinn_phong_fresnel> && brdf<phong_blinn_fresnel>);
 
 }  // namespace gonio::model

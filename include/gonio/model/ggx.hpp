@@ -92,6 +92,7 @@ struct ggx_shape {
     return fresnel_schlick(at.cosine_d, f0) * detail::ggx_distribution(at.h, alpha) * masking;
   }
 };
+static_assert(lobe_shape<ggx_shape>);
 
 using ggx_lobe = lobe<ggx_shape>;
 

@@ -31,6 +31,7 @@ struct lafortune_shape {
     return detail::cosine_power(base, exponent);
   }
 };
+static_assert(lobe_shape<lafortune_shape>);
 
 using lafortune = lobe<lafortune_shape>;
 

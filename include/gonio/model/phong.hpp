@@ -37,6 +37,7 @@ struct phong_shape {
     return (shininess + 2.0) * (0.5 * std::numbers::inv_pi) * detail::cosine_power(at.mirrored_cosine(), shininess);
   }
 };
+static_assert(lobe_shape<phong_shape>);
 
 /// Modified Blinn-Phong: (s + 8) / (8 pi) (h . n)^s. 2014, Eq. 2; thesis Eq. 2.16.
 template <class Real>
@@ -51,6 +52,7 @@ struct blinn_phong_shape {
     return (shininess + 8.0) * (0.125 * std::numbers::inv_pi) * detail::cosine_power(at.h.z(), shininess);
   }
 };
+static_assert(lobe_shape<blinn_phong_shape>);
 
 /// The variant between the two: ((1 - alpha) (wr . wo) + alpha (h . n)^4)^s, whose colour is the k_s of the paper: it
 /// has no normalisation. 2014, Eq. 3. A negative base counts as zero.
@@ -69,6 +71,7 @@ struct phong_blinn_shape {
     return detail::cosine_power(base, shininess);
   }
 };
+static_assert(lobe_shape<phong_blinn_shape>);
 
 using phong = lobe<phong_shape>;
 using blinn_phong = lobe<blinn_phong_shape>;

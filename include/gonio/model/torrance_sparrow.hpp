@@ -42,6 +42,7 @@ struct torrance_sparrow_shape {
     return exp(Real(-exponent)) * (squared_secant * squared_secant * std::numbers::inv_pi) / squared_slope;
   }
 };
+static_assert(lobe_shape<torrance_sparrow_shape>);
 
 using torrance_sparrow = lobe<torrance_sparrow_shape>;
 

@@ -101,6 +101,7 @@ using anisotropic_ward = lobe<detail::anisotropic_ward<detail::ward_normalisatio
 using anisotropic_ward_duer = lobe<detail::anisotropic_ward<detail::ward_normalisation::product>::shape>;
 using anisotropic_ward_bounded = lobe<detail::anisotropic_ward<detail::ward_normalisation::bounded>::shape>;
 
+static_assert(lobe_shape<ward_shape> && lobe_shape<ward_duer_shape> && lobe_shape<ward_bounded_shape>);
 static_assert(brdf<ward> && brdf<ward_duer> && brdf<ward_bounded>);
 static_assert(brdf<anisotropic_ward> && brdf<anisotropic_ward_duer> && brdf<anisotropic_ward_bounded>);
 

@@ -109,11 +109,13 @@ template <direction_sampler Sampler>
                                   const sampled_sphere_view& view = {}, thread_count threads = {},
                                   const progress& listener = {}) {
   GONIO_ASSERT(view.size >= 1 && view.samples >= 1);
+  // Allocate the image, and a sum of light for each row.
   const auto side = static_cast<std::size_t>(view.size);
   image picture = uniform_image(side, side, rgb::Zero());
   std::vector<detail::seen_light> rows(side);
   std::mutex reporting;
   std::size_t done = 0;
+  // Average the samples of a pixel; each starts at a place within the pixel.
   const auto place = [side](std::size_t pixel, double within) {
     return (static_cast<double>(pixel) + within) / static_cast<double>(side) * 2.0 - 1.0;
   };
@@ -124,6 +126,7 @@ template <direction_sampler Sampler>
                          view.shows_environment);
     set_pixel(picture, row, column, rows[row].sum / view.samples);
   };
+  // Render the rows in parallel.
   for_each_block(
       side, 1,
       [&](block range) {
@@ -132,6 +135,7 @@ template <direction_sampler Sampler>
         report(listener, "rendering", static_cast<double>(++done) / static_cast<double>(side));
       },
       threads);
+  // Scale the image such that a white sphere would have the mean luminance `view.white`.
   detail::seen_light all;
   for (const detail::seen_light& row : rows) {
     all.white += row.white;

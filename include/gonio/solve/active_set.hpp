@@ -271,6 +271,7 @@ class active_set {
   double rhs_scale_ = 0.0;
   Eigen::Index entering_ = -1;
 };
+static_assert(solver_iteration<active_set<sign_rule::any>>);
 
 /// The optimum, from weights near it: what a method that finds the support ends with. Throws gonio::error naming the
 /// `method` without convergence.

@@ -69,5 +69,6 @@ class coordinate_descent {
   int steps_ = 0;
   bool finished_ = false;
 };
+static_assert(solver_iteration<coordinate_descent<sign_rule::any>>);
 
 }  // namespace gonio

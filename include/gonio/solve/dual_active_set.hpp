@@ -4,6 +4,7 @@
 
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/growing_cholesky.hpp>
+#include <gonio/solve/iteration.hpp>
 #include <gonio/solve/working_set.hpp>
 
 #include <Eigen/Core>
@@ -149,6 +150,7 @@ class dual_active_set {
   int changes_ = 0;
   bool singular_ = false;
 };
+static_assert(solver_iteration<dual_active_set>);
 
 }  // namespace gonio
 

@@ -68,6 +68,8 @@ template <class Function>
                                                 const unknown_bounds& bounds,
                                                 const levenberg_marquardt_options& options = {}) {
   GONIO_ASSERT(start.size() == bounds.lowest.size() && start.size() == bounds.highest.size());
+  // Prepare the step of the damped parabola (H + damping diag H) s = -g within the bounds, and the gain that it
+  // promises.
   const auto within = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return x.cwiseMax(bounds.lowest).cwiseMin(bounds.highest);
   };
@@ -82,6 +84,7 @@ template <class Function>
     return -(here.gradient.dot(step) + 0.5 * step.dot(here.hessian * step));
   };
 
+  // Start within the bounds.
   local_minimum found;
   found.unknowns = within(start);
   if (start.size() == 0) {
@@ -96,35 +99,40 @@ template <class Function>
   double damping = 1e-3, bend = 1.0;
   constexpr double largest_damping = 1e12, least_bend = 0.05;
   for (std::size_t iteration = 0; iteration < options.iteration_limit && !found.converged; ++iteration) {
+    // Step to the minimum of the damped parabola.
     local_parabola flatter = here;
     flatter.hessian *= bend;
     const Eigen::VectorXd step = step_from(found.unknowns, flatter, damping);
     if (!step.allFinite()) break;  // a start at which the function is no number
     const double promised = gain_of(flatter, step);
+    // Stop where steps are tiny or promise no gain.
     const bool tiny = (step.array().abs() <= options.smallest_step * found.unknowns.array().abs().max(1.0)).all();
     const double least_gain = std::max(options.smallest_gain * here.value, options.resolution);
     if (tiny || promised <= least_gain || damping > largest_damping) {
       found.converged = true;
       break;
     }
+    // Evaluate the candidate.
     const Eigen::VectorXd candidate = within(found.unknowns + step);
     local_parabola there = function(candidate);
     ++found.evaluations;
     // A comparison that a value which is no number fails.
     const bool better = there.value < here.value;
     const double change = there.value - here.value, kept = -change / promised;
+    // Adapt the damping to the share of the promised gain that was kept.
     damping *= !better ? 8.0 : kept > 0.75 ? 0.1 : kept > 0.25 ? 1.0 : 3.0;
     damping = std::max(damping, 1e-15);
     if (!better) {
       bend = 1.0;
       continue;
     }
-    // Weighted squares that lie above a norm bend more than it does. What the step has met is a better guess.
+    // Guess the curvature from what the step has met: weighted squares that lie above a norm bend more than it does.
     const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
     bend = std::isfinite(met) ? std::clamp(met, least_bend, 1.0) : 1.0;
     found.unknowns = candidate;
     here = std::move(there);
   }
+  // Report the value, and the gain that an undamped step still promises.
   found.value = here.value;
   found.promised_gain = gain_of(here, step_from(found.unknowns, here, 0.0)) / scale;
   return found;

@@ -4,6 +4,7 @@
 /// solutions that are refined (Bjorck, BIT 7, 1967, doi:10.1007/BF01939321). It never squares the condition number, and
 /// is what solvers fall back to that do.
 
+#include <gonio/solve/iteration.hpp>
 #include <gonio/solve/kkt.hpp>
 
 #include <Eigen/Core>
@@ -65,6 +66,7 @@ class row_active_set {
   std::vector<bool> barred_;
   Eigen::Index entering_ = -1;
 };
+static_assert(solver_iteration<row_active_set>);
 
 }  // namespace gonio
 

@@ -67,6 +67,7 @@ concept sample_range =
     std::ranges::forward_range<Range> && std::convertible_to<std::ranges::range_reference_t<Range>, sample>;
 
 using sample_set = std::vector<sample>;
+static_assert(sample_range<sample_set>);
 
 namespace detail {
 

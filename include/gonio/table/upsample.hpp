@@ -53,6 +53,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
   for (std::size_t linear = 0; linear < source.size(); ++linear)
     std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
 
+  // Find the interval of the source, and the cosine, of each phi_d of the target.
   std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
   std::vector<double> cos_phi_d(index(fine.phi_d));
   for (int k = 0; k < fine.phi_d; ++k) {
@@ -60,6 +61,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
     cos_phi_d[index(k)] = std::cos(target.phi_d(k));
   }
 
+  // Visit the target's rows in parallel.
   const std::size_t rows = index(fine.theta_h) * index(fine.theta_d);
   for_each_block(
       rows, index(fine.theta_d),
@@ -90,6 +92,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
             values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
                             static_cast<float>(p.weight[1]) * line.col(p.node[1]);
           }
+          // Hand the row to the caller.
           auto row_values = values.leftCols(count);
           const cell_row row{first,
                              static_cast<std::size_t>(count),

@@ -24,6 +24,7 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
   const auto refuse_unless = [](bool usable, const std::string& what) {
     if (!usable) gonio::refuse(what);
   };
+  // Check that the camera and the light see the sample.
   const double height = setup.camera.position().z();
   refuse_unless(height > 0.0, "the camera is not above the sample's plane, its z is " + std::to_string(height));
   const direction& light = setup.light.towards;
@@ -34,6 +35,7 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
   const rgb& irradiance = setup.light.irradiance;
   refuse_unless(irradiance.isFinite().all() && (irradiance > 0.0).all(),
                 "the light's irradiance must be finite and positive in each channel");
+  // Check that the region and the window contain pixels.
   if (setup.disc)
     refuse_unless(std::isfinite(setup.disc->radius) && setup.disc->radius > 0.0 && setup.disc->centre.allFinite(),
                   "the region of interest needs a positive radius and a finite centre");
@@ -47,6 +49,7 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
         "the window must have pixels, all of them in the image of " + std::to_string(whole.columns) + " x " +
             std::to_string(whole.rows));
   }
+  // Check the mask, the saturation and the block size.
   refuse_unless(
       setup.mask.empty() || setup.mask.size() == setup.camera.intrinsics().rows * setup.camera.intrinsics().columns,
       "the mask has " + std::to_string(setup.mask.size()) + " pixels, which are not those of the image");

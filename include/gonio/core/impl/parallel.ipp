@@ -35,6 +35,7 @@ struct thread_team {
 
 GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads) {
   GONIO_ASSERT(block_size > 0);
+  // Run the blocks in order if one thread is enough.
   const std::size_t blocks = (count + block_size - 1) / block_size;
   const auto block_at = [&](std::size_t b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
   const std::size_t workers = std::min<std::size_t>(threads.resolve(), blocks);
@@ -43,6 +44,7 @@ GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, 
     return;
   }
 
+  // Let each worker take the next block until none is left; keep the exception of the first block that throws.
   std::atomic<std::size_t> next{0};
   std::mutex failure_mutex;
   std::exception_ptr failure;
@@ -61,11 +63,13 @@ GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, 
       }
     }
   };
+  // Start the other workers, work along, and wait for them.
   {
     detail::thread_team team;
     for (std::size_t w = 1; w < workers; ++w) team.members.emplace_back(work);
     work();
   }
+  // Report a failure to the caller.
   if (failure) std::rethrow_exception(failure);
 }
 

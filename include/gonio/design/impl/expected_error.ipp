@@ -80,6 +80,7 @@ GONIO_INLINE double expected_error::remainder::error(double common_shift) const 
 
 GONIO_INLINE expected_error::remainder expected_error::state(const rows& measured) const {
   const Eigen::Index n = measured.size(), m = coefficients_.rows();
+  // Without a measurement the whole energy of each material is left.
   remainder left;
   left.squared_errors = energies_;
   left.noise_response = Eigen::VectorXd::Zero(m);
@@ -88,11 +89,13 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
     return left;
   }
   const matrix_view both = measured.both.transpose();  // Y' beside W': m x 2n
+  // Invert K = Y Y' + eta I, with the penalty of each sample's own noise.
   const Eigen::MatrixXd products = product(measured.materials(), both);
   Eigen::MatrixXd k = products.leftCols(n);
   for (Eigen::Index i = 0; i < n; ++i) k(i, i) += options_.eta + measured.sample_noise_penalty[i];
   left.inverse = cholesky(k).solve(Eigen::MatrixXd::Identity(n, n));
-  // b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w), for all observations by one product with Y and W.
+  // Subtract from each energy what the measurements explain: b'W Y'b - 2 w . b = y . (K^-1 W Y' K^-1 y - 2 K^-1 w),
+  // for all observations by one product with Y and W.
   const Eigen::MatrixXd spread = product(left.inverse, product(products.rightCols(n), left.inverse));
   Eigen::MatrixXd factors(2 * n, n);
   factors.topRows(n) = spread;
@@ -101,13 +104,16 @@ GONIO_INLINE expected_error::remainder expected_error::state(const rows& measure
   Eigen::VectorXd change = Eigen::VectorXd::Zero(m);
   for (Eigen::Index i = 0; i < n; ++i) change += changed.col(i).cwiseProduct(both.col(i));
   left.squared_errors += change;
+  // Leave each material out of the basis that reconstructs it.
   if (options_.leave_out) {
     const matrix_view y = both.leftCols(n);
     leave_each_out(measured, product(y, left.inverse), product(y, spread), left);
   }
+  // Add what the samples' own noise contributes.
   left.own_variances = measured.sample_noise_penalty / static_cast<double>(m);
   for (Eigen::Index i = 0; i < n; ++i) left.own_energy += left.own_variances[i] * spread(i, i);
   for (double& squared : left.squared_errors) squared += left.own_energy;
+  // Add the response to the shift that all samples share.
   for (Eigen::Index i = 0; i < n; ++i) {
     left.noise_response += left.inverse.col(i).dot(measured.noise) * both.col(i);
     left.noise_energy += measured.noise[i] * spread.col(i).dot(measured.noise);

@@ -189,18 +189,21 @@ GONIO_INLINE double leave_one_material_out_error::error_at(double eta) const {
 
 GONIO_INLINE Eigen::Vector3d leave_one_material_out_error::squared_bias(const left_out& material,
                                                                         const Eigen::VectorXd& d) const {
+  // Reconstruct with the material in the basis: u = D q.
   const Eigen::VectorXd f = values_.cwiseProduct(d), shift = d.cwiseProduct(shift_);
   const Eigen::MatrixXd fn = detail::scaled_rows(f, material.n);
   Eigen::MatrixXd u = detail::scaled_rows(f, material.t);  // D q first
   for (Eigen::Index c = 0; c < 3; ++c) u.col(c) += shift;
+  // Leave it out by Woodbury's identity: (D^-1 - N N')^-1 changes D by a 3 x 3 system.
   const Eigen::Matrix3d within = Eigen::Matrix3d::Identity() - detail::dots(material.n, fn);
   const Eigen::Matrix3d known = detail::dots(material.n, u);
   detail::add_combined(fn, detail::solve_3_by_3(within, known), u);
-  // x - c = V u - N p, and its distance from t.
+  // Express the reconstruction as x - c = V u - N p, and take the gradient of its distance from t.
   const Eigen::Matrix3d p = detail::dots(material.n, u);
   Eigen::MatrixXd gradient = product(norm_, u);
   detail::add_combined(material.mn, -2.0 * p, gradient);
   for (Eigen::Index c = 0; c < 3; ++c) gradient.col(c) -= 2.0 * material.mt.col(c);
+  // Sum the squared distance of each channel in the norm M.
   Eigen::Vector3d found = material.energy;
   for (Eigen::Index c = 0; c < 3; ++c) {
     found[c] += u.col(c).dot(gradient.col(c));

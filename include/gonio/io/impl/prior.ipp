@@ -120,6 +120,7 @@ struct prior_domain {
 }
 
 [[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
+  // Read the grid and the counts, and refuse counts that the rest of the file cannot hold.
   const auto [cells, weighting] = take_domain(in, name);
   const auto components = in.take<std::uint32_t>();
   const auto materials = in.take<std::uint32_t>();
@@ -128,6 +129,7 @@ struct prior_domain {
   if (least_rest(static_cast<double>(cells.size()), components, materials) > static_cast<double>(in.left()))
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
                    components, " components of ", materials, " materials over ", cells.size(), " cells"});
+  // Read what describes the training: variance, source, names, singular values and coefficients.
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(materials);
@@ -136,6 +138,7 @@ struct prior_domain {
   const auto singular = in.take_all<double>(components);
   const auto observed = in.take_all<float>(std::size_t{3} * materials * components);
 
+  // Decode the quantised reference, mean and components.
   std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
@@ -147,6 +150,7 @@ struct prior_domain {
   }
   if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});
 
+  // Refuse values that are not finite.
   Eigen::VectorXd singular_values(k);
   std::copy(singular.begin(), singular.end(), singular_values.data());
   Eigen::MatrixXf coefficients(3 * static_cast<Eigen::Index>(materials), k);
@@ -155,6 +159,7 @@ struct prior_domain {
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
                       all_finite(values) && all_finite(mean);
   if (!finite) gonio::refuse({name, ": a value of the prior is not finite"});
+  // Construct the prior; its own checks name the file.
   return naming_prior(name, [&] {
     return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
                              std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),

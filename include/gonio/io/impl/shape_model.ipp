@@ -53,6 +53,7 @@ template <class Matrix>
 }
 
 [[nodiscard]] GONIO_INLINE shape::shape_model take_shape_model(byte_reader& in, const std::string& name) {
+  // Read the counts, and refuse those that the rest of the file cannot hold.
   const std::size_t vertices = in.take<std::uint32_t>(), triangles = in.take<std::uint32_t>(),
                     components = in.take<std::uint32_t>(), shapes = in.take<std::uint32_t>();
   if (components == 0 || components > shapes || shapes > in.left() / sizeof(std::uint32_t))
@@ -63,6 +64,7 @@ template <class Matrix>
     gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
                    components, " components of ", shapes, " shapes of ", vertices, " vertices and ", triangles,
                    " triangles"});
+  // Read the names and the matrices.
   const auto explained_variance = in.take<double>();
   std::string source = in.take_text();
   std::vector<std::string> names(shapes);
@@ -73,10 +75,12 @@ template <class Matrix>
   auto mean = in.take_all<float>(3 * vertices);
   auto functions = take_matrix<cell_matrix>(in, 3 * vertices, components);
   if (in.left() != 0) gonio::refuse(name + ": " + std::to_string(in.left()) + " bytes follow the last component");
+  // Refuse values that are not finite.
   const bool finite = std::isfinite(explained_variance) && singular_values.allFinite() && coefficients.allFinite() &&
                       functions.allFinite() &&
                       std::ranges::all_of(mean, [](float value) { return std::isfinite(value); });
   if (!finite) gonio::refuse(name + ": a value of the shape model is not finite");
+  // Construct the model; its own checks name the file.
   try {
     return {shape::shape_basis({{vertices},
                                 lin{},

@@ -156,24 +156,26 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
 }
 
 GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) const {
+  // Solve for the colours x of each channel: the normal equations with x >= 0.
   const std::vector<Eigen::MatrixXd> of_channels = products(u);
   const Eigen::MatrixXd found = solve_colours(of_channels);
   const Eigen::Index count = lobes(), p = shapes();
   local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? static_cast<std::size_t>(c) : 0];
-    // The residual is G x - y, its slopes D times the colours of their lobes.
+    // Evaluate the loss: the residual is G x - y, its slopes D times the colours of their lobes.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
     residual.head(count) = found.col(c);
     residual[count + p + c] = -1.0;
     const Eigen::VectorXd against = all * residual;
     result.value += 0.5 * residual.dot(against);
+    // Add the gradient and Gauss and Newton's Hessian by the shapes.
     Eigen::VectorXd colour(p);
     for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(static_cast<Eigen::Index>(owner(j).lobe), c);
     result.gradient += colour.cwiseProduct(against.segment(count, p));
     for (Eigen::Index j = 0; j < p; ++j)
       for (Eigen::Index i = 0; i < p; ++i) result.hessian(i, j) += colour[i] * all(count + i, count + j) * colour[j];
-    // What colours that are not held at zero make up for.
+    // Subtract what colours that are not held at zero make up for.
     std::vector<Eigen::Index> lit;
     for (Eigen::Index l = 0; l < count; ++l)
       if (found(l, c) > 0.0) lit.push_back(l);
@@ -183,6 +185,7 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
     const Eigen::MatrixXd among = entries(all, lit, lit);
     result.hessian -= product(crossed.transpose(), solve_semidefinite(among, crossed));
   }
+  // Divide by the total weight: the loss is a mean.
   result.value /= total_weight_;
   result.gradient /= total_weight_;
   result.hessian /= total_weight_;
@@ -191,21 +194,25 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
 
 GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
   const Eigen::Index count = lobes(), p = shapes(), n = p + count;
+  // Decode the shapes and the colours from the unknowns.
   const auto parameters = decoded(x);
   const Eigen::MatrixXd colour = colours(x);
-  // For each channel the products of its slopes by shapes and its own colours, and of those with the residual.
+  // Sum over the observations, for each channel, the products of its slopes by shapes and its own colours, and of those
+  // with the residual.
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * (n + 1), n + 1);
   const Eigen::MatrixXd sums = sum_over_blocks(
       observations_.size(), block_size, zero,
       [&](Eigen::MatrixXd& sum, block range) {
         std::array<Eigen::MatrixXd, 3> columns;
         columns.fill(Eigen::MatrixXd(n + 1, static_cast<Eigen::Index>(range.size())));
+        // Evaluate each lobe and its slopes by the shapes at an observation.
         Eigen::VectorXd value(n + 3);
         std::array<double, 3> losses{};
         for (std::size_t i = range.begin; i < range.end; ++i) {
           const fit_observation& seen = observations_[i];
           evaluate(seen.at, parameters, value);
           for (Eigen::Index c = 0; c < 3; ++c) {
+            // Weigh the residual of each channel: the loss, and the root of its curvature.
             const double modelled = value.head(count).dot(colour.col(c));
             const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
             const auto [loss, curvature] = norm_of(residual);
@@ -213,12 +220,14 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
             const double root = std::sqrt(seen.weight[c] * curvature);
             const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
             auto column = columns[static_cast<std::size_t>(c)].col(static_cast<Eigen::Index>(i - range.begin));
+            // Store the slopes by the shapes and by the own colours, and the residual, as a column.
             for (Eigen::Index j = 0; j < p; ++j)
               column[j] = slope * value[count + j] * colour(static_cast<Eigen::Index>(owner(j).lobe), c);
             column.segment(p, count) = slope * value.head(count);
             column[n] = root * residual;
           }
         }
+        // Add the products of all columns; the last diagonal entry sums the losses instead of squares.
         for (Eigen::Index c = 0; c < 3; ++c) {
           const auto& own = columns[static_cast<std::size_t>(c)];
           auto part = sum.middleRows(c * (n + 1), n + 1);
@@ -229,6 +238,7 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
       },
       options_.threads);
 
+  // Assemble the parabola: channels share the shapes, and each has its own colours.
   local_parabola result{0.0, Eigen::VectorXd::Zero(unknowns()), Eigen::MatrixXd::Zero(unknowns(), unknowns())};
   for (Eigen::Index c = 0; c < 3; ++c) {
     const auto part = sums.middleRows(c * (n + 1), n + 1) / total_weight_;

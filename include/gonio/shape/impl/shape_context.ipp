@@ -160,15 +160,18 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
 
 GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::vector<Eigen::Index>& chosen,
                                         const shape_context_options& options, thread_count threads) {
+  // Refuse options, meshes and vertices that cannot be used.
   detail::require_context(options);
   detail::require_finite_mesh(mesh);
   for (const Eigen::Index vertex : chosen)
     if (vertex < 0 || vertex >= mesh.vertices.cols())
       refuse({"vertex ", vertex, " of a mesh of ", mesh.vertices.cols(), " cannot be described"});
+  // Prepare the normals, the area of each vertex and the search tree.
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
   Eigen::MatrixXd histograms = Eigen::MatrixXd::Zero(options.bins(), static_cast<Eigen::Index>(chosen.size()));
+  // Sum the areas of the neighbours of a vertex by the bin in its own frame.
   const auto fill = [&](Eigen::Index point) {
     const Eigen::Index vertex = chosen[static_cast<std::size_t>(point)];
     const Eigen::Vector3d origin = mesh.vertices.col(vertex);
@@ -183,6 +186,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   for_each_index(
       chosen.size(), 8, [&](std::size_t i) { fill(static_cast<Eigen::Index>(i)); }, threads);
 
+  // Normalise the histograms, and leave out vertices that see nothing.
   shape_descriptors found;
   std::vector<Eigen::Index> filled;
   for (Eigen::Index point = 0; point < histograms.cols(); ++point) {

@@ -17,6 +17,7 @@ namespace gonio {
 
 GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::MatrixXd& right_hand_side,
                                        const Eigen::VectorXd& weights, thread_count threads) {
+  // Sum (A b)'W(A b) over blocks of rows, right-hand sides as further columns.
   const Eigen::Index k = rows.columns, r = right_hand_side.cols();
   using sum_type = detail::product_sum<double>;
   const sum_type zero(k + r);
@@ -26,11 +27,13 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
           [&](sum_type& sum, block range) {
             const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
             const Eigen::OuterStride<> stride(sum.stride());
+            // Read the rows, and append their right-hand sides.
             rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), count, k, stride));
             for (Eigen::Index row = 0; row < count; ++row) {
               double* equation = sum.row(row);
               for (Eigen::Index column = 0; column < r; ++column)
                 equation[k + column] = right_hand_side(begin + row, column);
+              // Multiply by the root of the weight.
               const double weight = weights[begin + row];
               if (weight == 1.0) continue;
               for (Eigen::Index column = 0; column < k + r; ++column) equation[column] *= std::sqrt(weight);
@@ -40,6 +43,7 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
           threads)
           .symmetric();
 
+  // Split the sum into A'WA, A'Wb and b'Wb (Noell et al. 2014, Eq. 10).
   Eigen::MatrixXd gram(k, k), rhs(k, r);
   Eigen::VectorXd rhs_squared_norm(r);
   for (Eigen::Index column = 0; column < k; ++column) std::copy_n(&all(0, column), k, &gram(0, column));

@@ -102,6 +102,7 @@ GONIO_INLINE Eigen::Index least_squares::rank(const normal_equations& normal) co
 }
 
 GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem) const {
+  // Factorise the scaled rows with column pivoting, Q R P, and keep as many rows of R as the rank.
   auto [lengths, right, qr] = detail::factorise_rows(problem, threshold_);
   const Eigen::Index rank = qr.rank();
   right.applyOnTheLeft(qr.householderQ().adjoint());
@@ -109,6 +110,7 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
   const Eigen::MatrixXd kept = right.topRows(rank);
 
   solution found;
+  // Solve the triangle, or find the x of the smallest norm if columns depend on each other.
   if (rank == problem.unknowns()) {
     const Eigen::MatrixXd scaled = triangle.triangularView<Eigen::Upper>().solve(kept);
     found.weights = detail::scaled_rows(qr.colsPermutation() * scaled, lengths.cwiseInverse());
@@ -116,12 +118,14 @@ GONIO_INLINE solution least_squares::solve(const least_squares_problem& problem)
     const Eigen::MatrixXd transposed = triangle.transpose();
     found.weights = detail::minimum_norm(detail::scaled_rows(qr.colsPermutation() * transposed, lengths), kept);
   }
+  // Report the residual of the rows.
   found.report.residual = problem.residual(found.weights);
-  // 1/2 x'Qx - m'x as half the difference of two squares: the terms themselves cancel when x is large.
+  // Compute 1/2 x'Qx - m'x as half the difference of two squares: the terms themselves cancel when x is large.
   found.report.objective.resize(found.report.residual.size());
   for (Eigen::Index column = 0; column < found.report.residual.size(); ++column)
     found.report.objective[column] = 0.5 * (found.report.residual[column] * found.report.residual[column] -
                                             problem.right_hand_side().col(column).cwiseAbs2().dot(problem.weights()));
+  // Check the optimality of the rows, and refuse weights that explain less than zeros would.
   found.report.kkt_residual = detail::stationarity_of_rows(problem, found.weights);
   for (Eigen::Index column = 0; column < found.report.objective.size(); ++column) {
     const double residual = found.report.residual[column];

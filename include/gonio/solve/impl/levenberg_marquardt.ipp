@@ -21,6 +21,7 @@ namespace gonio::detail {
 GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                                           const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) {
   const Eigen::Index n = gradient.size();
+  // Hold the unknowns at a bound that the gradient pushes against.
   Eigen::VectorXd step = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Index> free;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -28,6 +29,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
     if (!held) free.push_back(i);
   }
   while (!free.empty()) {
+    // Solve for the free unknowns: H_ff s = -(g + H s_held)_f.
     const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of those that are held
     const auto count = static_cast<Eigen::Index>(free.size());
     Eigen::MatrixXd among(count, count);
@@ -38,6 +40,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
       for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[static_cast<std::size_t>(i)], column);
     }
     const Eigen::VectorXd moves = solve_semidefinite(among, descent);
+    // Hold those whose step leaves the box at its border.
     std::vector<Eigen::Index> inside;
     for (std::size_t j = 0; j < free.size(); ++j) {
       const Eigen::Index i = free[j];
@@ -47,6 +50,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
       else
         inside.push_back(i);
     }
+    // Accept the step once all free unknowns are inside.
     if (inside.size() == free.size()) {
       for (std::size_t j = 0; j < free.size(); ++j) step[free[j]] = moves[static_cast<Eigen::Index>(j)];
       break;

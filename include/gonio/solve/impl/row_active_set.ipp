@@ -114,6 +114,7 @@ GONIO_INLINE void row_active_set::drop(std::ptrdiff_t position) {
 }
 
 GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
+  // Factorise the passive columns, and give up if they depend on each other.
   const Eigen::MatrixXd columns = columns_of(state_.passive);
   const Eigen::Index n = columns.rows(), p = columns.cols();
   passive_optimum found{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(n)};
@@ -121,11 +122,12 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
   const householder_qr qr(columns);
   for (Eigen::Index i = 0; i < p; ++i)
     if (!(std::abs(qr.triangle(i, i)) > detail::dependent_share * qr.length(i))) return found;
-  // The equations misfit + A_P z = b, A_P' misfit = penalties, solved, and solved again for what is left of them in
-  // twice the precision.
+  // Solve misfit + A_P z = b, A_P' misfit = penalties, and solve again for what is left of them in twice the precision
+  // (Bjorck 1967).
   constexpr int refinements = 2;
   Eigen::VectorXd above(n), below(p), z(p);
   for (int round = 0; round <= refinements; ++round) {
+    // Compute what is left of both equations.
     for (Eigen::Index i = 0; i < n; ++i) {
       compensated_sum left(right_[i]);
       left.add(-found.misfit[i]);
@@ -138,6 +140,7 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
       for (Eigen::Index i = 0; i < n; ++i) left.add_product(-columns(i, j), found.misfit[i]);
       below[j] = left.value();
     }
+    // Solve for the corrections by Q and R, and add them.
     qr.apply_transposed(above.data());
     qr.solve_transposed(below.data());
     for (Eigen::Index j = 0; j < p; ++j) z[j] = above[j] - below[j];

@@ -192,11 +192,12 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
   const Eigen::MatrixXd& gram = normal.gram();
   const double length = std::sqrt(normal.rhs_squared_norm()[right_hand_side]);
   const Eigen::VectorXd norms = gram.diagonal().cwiseSqrt();
-  // lambda |x|_1 is at most b'Wb / 2 at the optimum.
+  // Accept a penalty that bounds the weights: lambda |x|_1 is at most b'Wb / 2 at the optimum.
   if (task.lambda > 0.0) {
     const double largest = norms.maxCoeff() * length / (2.0 * task.lambda);
     if (epsilon * largest * largest <= 1e-10) return true;
   }
+  // Collect the columns with a weight, and those whose sign the gradient leaves undecided.
   const scaled_gradient gradient = gradient_of(normal, right_hand_side, weights);
   std::vector<Eigen::Index> columns;
   for (Eigen::Index j = 0; j < weights.size(); ++j)
@@ -206,12 +207,14 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
     const double slope = task.signs == sign_rule::any ? std::abs(gradient.value[j]) : -gradient.value[j];
     if (slope - task.lambda / norms[j] >= -undecided * length) columns.push_back(j);
   }
+  // Accept non-negative weights of columns at acute angles, which cannot cancel each other.
   if (task.signs == sign_rule::non_negative) {
     bool acute = true;
     for (const Eigen::Index i : columns)
       for (const Eigen::Index j : columns) acute = acute && gram(i, j) >= 0.0;
     if (acute) return true;
   }
+  // Find the least pivot of the columns that may take part.
   growing_cholesky factor(std::ssize(columns));
   double least = 1.0;
   Eigen::VectorXd cross(std::ssize(columns));
@@ -221,6 +224,7 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
     if (!factor.append(cross.head(size), gram(j, j))) return false;
     least = std::min(least, factor.pivot(size) / gram(j, j));
   }
+  // Compare the rounding error with the length of the right-hand side.
   const double reach = norms.dot(weights.cwiseAbs());
   return least > least_pivot && epsilon * reach <= tolerance * std::sqrt(least) * length;
 }
