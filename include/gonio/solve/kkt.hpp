@@ -1,5 +1,5 @@
 #pragma once
-/// KKT residuals of optimality: how far weights are from the Karush-Kuhn-Tucker conditions of their problem, computed
+/// KKT residuals: how far weights are from the Karush-Kuhn-Tucker conditions of their problem, computed
 /// from the problem and the weights alone, so that nobody has to trust a solver.
 
 #include <gonio/solve/normal_equations.hpp>

@@ -1,5 +1,5 @@
 #pragma once
-/// Linear constraints on the weights of a least-squares problem, and the KKT residual of optimality under them.
+/// Linear constraints on the weights of a least-squares problem, and the KKT residual under them.
 /// Noell, Koehler and Stricker 2014, Eq. 10.
 
 #include <gonio/core/error.hpp>
