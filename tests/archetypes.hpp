@@ -55,7 +55,7 @@ struct ordinary_least_squares {
   gonio::solution solve(const gonio::least_squares_problem& problem) const {
     const gonio::normal_equations& normal = problem.normal();
     const Eigen::MatrixXd x = gonio::solve_semidefinite(normal.gram(), normal.rhs());
-    return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)};
+    return {x, {problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)}};
   }
 };
 static_assert(gonio::solver<ordinary_least_squares>);

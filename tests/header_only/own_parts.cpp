@@ -50,7 +50,7 @@ struct relaxation {
           for (Eigen::Index i = 0; i < x.rows(); ++i) slope += normal.gram()(j, i) * x(i, column);
           x(j, column) -= slope / normal.gram()(j, j);
         }
-    return {x, problem.residual(x), normal.objective(x), gonio::stationarity(normal, x), 2000};
+    return {x, {problem.residual(x), normal.objective(x), gonio::stationarity(normal, x), 2000}};
   }
 };
 static_assert(gonio::solver<relaxation>);

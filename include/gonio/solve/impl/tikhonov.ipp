@@ -103,7 +103,7 @@ GONIO_INLINE solution tikhonov::solve(const normal_equations& normal) const {
   for (Eigen::Index i = 0; i < penalised.rows(); ++i) penalised(i, i) += eta_;
   const normal_equations ridge(std::move(penalised), normal.rhs());
   const Eigen::MatrixXd x = cholesky(ridge.gram()).solve(ridge.rhs());
-  return detail::require_certified({x, normal.residual(x), ridge.objective(x), stationarity(ridge, x)},
+  return detail::require_certified({x, {normal.residual(x), ridge.objective(x), stationarity(ridge, x)}},
                                    "Tikhonov's solver");
 }
 
