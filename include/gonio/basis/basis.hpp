@@ -32,17 +32,42 @@ concept function_set = requires(const Basis& functions, std::size_t cell) {
 /// and stays valid as long as the basis or a copy of it lives; copies are cheap (they share storage);
 /// all members are const and thread safe.
 ///
-/// The smallest model: one function, the constant 1, over a grid, in linear reflectance.
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/io/prior.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::log_relative_pca prior = gonio::io::read_prior("materials.prior");
+///   const std::span<const float> row = prior.row(0);
+///   std::printf("%zu functions; the first is %g at cell 0\n", row.size(), double{row[0]});
+/// }
+/// ```
+/// With a model of your own, the constant 1 over a grid:
+/// ```cpp
+/// #include <gonio/estimate/decomposition.hpp>
+/// #include <gonio/metric/lin.hpp>
+/// #include <gonio/solve/tikhonov.hpp>
+///
+/// #include <cstdio>
+///
 /// struct constant_basis {
 ///   gonio::valid_cells over;
 ///   std::size_t size() const { return 1; }
 ///   const gonio::valid_cells& cells() const { return over; }
 ///   std::span<const float> row(std::size_t) const { static constexpr float one = 1; return {&one, 1}; }
 ///   double offset(std::size_t) const { return 0; }
-///   identity_metric metric() const { return {}; }
+///   gonio::lin metric() const { return {}; }
 /// };
 /// static_assert(gonio::tabulated_basis<constant_basis>);
+///
+/// int main() {
+///   gonio::sample_set samples;
+///   samples.push_back({gonio::half_difference{0.1, 0.2, 0.3}, gonio::rgb::Constant(0.25), 1.0});
+///   const auto fit = gonio::decomposition{constant_basis{gonio::valid_cells()}, gonio::tikhonov{1e-9}}.fit(samples);
+///   std::printf("the constant is %g\n", fit.weights()(0, 0));
+/// }
 /// ```
 template <class Basis>
 concept tabulated_basis = function_set<Basis> && requires(const Basis& functions, std::size_t cell) {
@@ -59,17 +84,40 @@ using function_row = Eigen::Ref<Eigen::RowVectorXd>;
 /// What the compiler cannot check, and a model must keep: `out`, of `size()` numbers, is written in full; `read_row`
 /// neither allocates nor throws; copies are cheap; all members are const and thread safe.
 ///
-/// The smallest model: a polynomial in theta_d, in linear reflectance.
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/basis/rbf.hpp>
+/// #include <gonio/metric/log.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::rbf functions{gonio::valid_cells(), gonio::log{}};
+///   const gonio::location here = gonio::locate(functions.cells(), {0.1, 0.2, 0.3});
+///   std::printf("the first of %zu is %g\n", std::size_t{functions.size()}, gonio::row_at(functions, here)[0]);
+/// }
+/// ```
+/// With a model of your own, a polynomial in theta_d:
+/// ```cpp
+/// #include <gonio/basis/basis.hpp>
+/// #include <gonio/metric/lin.hpp>
+///
+/// #include <cstdio>
+///
 /// struct theta_d_polynomial {
 ///   gonio::valid_cells over;
 ///   std::size_t size() const { return 2; }
 ///   const gonio::valid_cells& cells() const { return over; }
 ///   void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
 ///   double offset(std::size_t) const { return 0; }
-///   identity_metric metric() const { return {}; }
+///   gonio::lin metric() const { return {}; }
 /// };
 /// static_assert(gonio::computed_basis<theta_d_polynomial>);
+///
+/// int main() {
+///   const theta_d_polynomial functions{gonio::valid_cells()};
+///   std::printf("%g\n", gonio::row_at(functions, gonio::locate(functions.cells(), {0.1, 0.2, 0.3}))[1]);
+/// }
 /// ```
 template <class Basis>
 concept computed_basis = function_set<Basis> && !tabulated_basis<Basis> &&

@@ -113,17 +113,30 @@ concept camera = requires(C& eye, const C& same, double seconds) {
 /// it cannot, without moving; light and viewer hiding one another is such an obstacle. `travel(from, to)` is the
 /// largest angle in radians by which a part of it turns between two pairs. `measure(pair)`, for a pair that place()
 /// returned, takes images there; it leaves the lamps off, also when it throws device_failure.
+///
+/// With a machine of your own; examples/lab has simulated ones:
 /// ```cpp
+/// #include <gonio/capture/scan.hpp>
+///
+/// #include <cstdio>
+///
 /// struct open_hand {
 ///   gonio::capture::placement place(const gonio::direction_pair& pair) const { return {pair, ""}; }
 ///   double travel(const gonio::direction_pair& from, const gonio::direction_pair& to) const {
 ///     return gonio::angle_between(from.wi, to.wi);
 ///   }
 ///   std::uint16_t largest_count() const { return 255; }
-///   gonio::capture::reading measure(const gonio::direction_pair&) { return {{0.1},
-///   {gonio::capture::camera_frame::Constant(1, 3, 7)}}; }
+///   gonio::capture::reading measure(const gonio::direction_pair&) {
+///     return {{0.1}, {gonio::capture::camera_frame::Constant(1, 3, 7)}};
+///   }
 /// };
 /// static_assert(gonio::capture::goniometer<open_hand>);
+///
+/// int main() {
+///   const std::vector<gonio::direction_pair> pairs{{{0, 0, 1}, {0, 0, 1}}, {{0.6, 0, 0.8}, {0, 0, 1}}};
+///   const gonio::capture::scan_plan plan = gonio::capture::plan_scan(open_hand{}, pairs);
+///   std::printf("%zu poses, %g radians of way\n", plan.poses.size(), plan.length);
+/// }
 /// ```
 template <class G>
 concept goniometer = requires(G& machine, const G& same, const direction_pair& pair) {

@@ -17,14 +17,38 @@ namespace gonio {
 /// - it is finite, reciprocal (f(wi, wo) = f(wo, wi)) and isotropic up to rounding;
 /// - evaluation is thread safe, does not allocate and does not throw.
 ///
-/// The smallest model:
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/core/brdf.hpp>
+/// #include <gonio/model/lambert.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::model::lambertian grey{.albedo = gonio::rgb::Constant(0.18)};
+///   const gonio::direction light = gonio::direction(1, 0, 1).normalized(), viewer(0, 0, 1);
+///   std::printf("%g per steradian\n", grey(light, viewer).x());
+/// }
+/// ```
+/// With a model of your own:
+/// ```cpp
+/// #include <gonio/core/brdf.hpp>
+/// #include <gonio/table/brdf_table.hpp>
+///
+/// #include <cstdio>
+/// #include <numbers>
+///
 /// struct white_lambertian {
 ///   gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
 ///     return gonio::rgb::Constant(wi.z() > 0 && wo.z() > 0 ? std::numbers::inv_pi : 0.0);
 ///   }
 /// };
 /// static_assert(gonio::brdf<white_lambertian>);
+///
+/// int main() {
+///   const gonio::brdf_table table = gonio::tabulate(white_lambertian{}, gonio::valid_cells());
+///   std::printf("%g per steradian\n", table.at(0).x());
+/// }
 /// ```
 template <class F>
 concept brdf = requires(const F& f, const direction& wi, const direction& wo) {

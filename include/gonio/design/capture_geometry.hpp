@@ -26,6 +26,49 @@ using grid_step = std::array<int, 3>;
 /// - `directions(candidate)`: the directions of all of its samples; at least one.
 /// - `stepped(candidate, step)`: the candidate that a step on the grid leads to, if there is one and it is allowed.
 ///   Steps there and back lead back, where both exist.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/design/capture_geometry.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::design::point_geometry points{gonio::valid_cells()};
+///   const std::size_t candidate = points.nearest({{0, 0, 1}, {0, 0, 1}});
+///   std::printf("candidate %zu of %zu\n", candidate, std::size_t{points.size()});
+/// }
+/// ```
+/// With a model of your own, ten lamps above a camera at the normal:
+/// ```cpp
+/// #include <gonio/design/capture_geometry.hpp>
+///
+/// #include <cmath>
+///
+/// struct row_of_lamps {
+///   std::size_t size() const { return 10; }
+///   bool allows(std::size_t) const { return true; }
+///   gonio::direction_pair centre(std::size_t lamp) const {
+///     const double theta = 0.1 * static_cast<double>(lamp + 1);
+///     return {{std::sin(theta), 0, std::cos(theta)}, {0, 0, 1}};
+///   }
+///   std::size_t nearest(const gonio::direction_pair& pair) const {
+///     const double theta = std::acos(std::clamp(pair.wi.z(), -1.0, 1.0));
+///     return static_cast<std::size_t>(std::clamp(std::round(10 * theta) - 1, 0.0, 9.0));
+///   }
+///   std::vector<gonio::half_difference> directions(std::size_t lamp) const {
+///     return {gonio::to_half_difference(centre(lamp).wi, centre(lamp).wo)};
+///   }
+///   std::optional<std::size_t> stepped(std::size_t lamp, const gonio::design::grid_step& step) const {
+///     const int to = static_cast<int>(lamp) + step[0];
+///     if (to < 0 || to > 9 || step[1] != 0 || step[2] != 0) return {};
+///     return static_cast<std::size_t>(to);
+///   }
+/// };
+/// static_assert(gonio::design::capture_geometry<row_of_lamps>);
+///
+/// int main() { return row_of_lamps{}.nearest({{0, 0, 1}, {0, 0, 1}}) == 0 ? 0 : 1; }
+/// ```
 template <class Geometry>
 concept capture_geometry = requires(const Geometry& geometry, std::size_t candidate, const grid_step& step,
                                     const direction_pair& pair) {

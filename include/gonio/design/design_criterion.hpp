@@ -13,6 +13,36 @@ namespace gonio::design {
 
 /// A number for the components' values at measurements, n x k: the smaller, the better. It must not depend on the order
 /// of the rows.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/design/criterion_of_plan.hpp>
+/// #include <gonio/design/search.hpp>
+/// #include <gonio/io/prior.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const auto prior = gonio::io::read_prior("materials.prior");
+///   const gonio::design::point_geometry points(prior.cells());
+///   const gonio::design::criterion_of_plan condition{prior, points, gonio::design::condition_number{}};
+///   const auto five = gonio::design::grow_and_descend(points, condition, 5);
+///   std::printf("the condition number of 5 samples is %g\n", five.value);
+/// }
+/// ```
+/// With a model of your own, the inverse of the size of the rows:
+/// ```cpp
+/// #include <gonio/design/design_criterion.hpp>
+///
+/// #include <cstdio>
+///
+/// struct inverse_size {
+///   double operator()(const Eigen::MatrixXd& components) const { return 1.0 / components.squaredNorm(); }
+/// };
+/// static_assert(gonio::design::design_criterion<inverse_size>);
+///
+/// int main() { std::printf("%g\n", inverse_size{}(Eigen::MatrixXd::Identity(5, 5))); }
+/// ```
 template <class Criterion>
 concept design_criterion = requires(const Criterion& criterion, const Eigen::MatrixXd& components) {
   { criterion(components) } -> std::convertible_to<double>;

@@ -19,13 +19,35 @@ namespace gonio {
 /// - a cell number and the location of that cell give the same result;
 /// - all members are const, thread safe and do not allocate.
 ///
-/// A metric that does not depend on the location takes it and ignores it:
+/// With a model of the library:
 /// ```cpp
-/// struct identity_metric {
-///   double forward(double rho, const auto&) const noexcept { return rho; }
-///   double inverse(double y, const auto&) const noexcept { return y; }
+/// #include <gonio/metric/log.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::log metric;
+///   const double mapped = metric.forward(0.3, 0);
+///   std::printf("ln(1 + 0.3) = %g, and back: %g\n", mapped, metric.inverse(mapped, 0));
+/// }
+/// ```
+/// With a model of your own, which does not depend on the cell:
+/// ```cpp
+/// #include <gonio/metric/error_metric.hpp>
+///
+/// #include <cmath>
+/// #include <cstdio>
+///
+/// struct cube_root {
+///   double forward(double rho, const auto&) const noexcept { return std::cbrt(rho); }
+///   double inverse(double y, const auto&) const noexcept { return y * y * y; }
 /// };
-/// static_assert(gonio::error_metric<identity_metric>);
+/// static_assert(gonio::error_metric<cube_root>);
+///
+/// int main() {
+///   const std::size_t cell = 0;
+///   std::printf("%g\n", cube_root{}.forward(0.008, cell));
+/// }
 /// ```
 template <class Metric>
 concept error_metric = requires(const Metric& metric, double value, std::size_t cell, const location& at) {

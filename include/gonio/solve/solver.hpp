@@ -54,18 +54,44 @@ inline constexpr double kkt_residual_limit = 1e-9;
 /// where normal equations alone do not hold that much); a solver that does not reach it finds the optimum in another
 /// way or throws gonio::error; solving is const and thread safe.
 ///
+/// A solver whose weights cannot be negative says so, because no such combination of a basis whose functions have an
+/// arbitrary sign makes sense: `static constexpr bool non_negative = true;`.
+///
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/solve/nnls.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3).cwiseAbs();
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(1, 0, 2));
+///   const gonio::solution found = gonio::nnls{}.solve(problem);
+///   std::printf("%g, KKT residual %g\n", found.weights(2, 0), found.report.kkt_residual[0]);
+/// }
+/// ```
+/// With a model of your own:
+/// ```cpp
+/// #include <gonio/solve/semidefinite.hpp>
+/// #include <gonio/solve/solver.hpp>
+///
+/// #include <cstdio>
+///
 /// struct ordinary_least_squares {
 ///   gonio::solution solve(const gonio::least_squares_problem& problem) const {
 ///     const gonio::normal_equations& normal = problem.normal();
-///     const Eigen::MatrixXd x = normal.gram().ldlt().solve(normal.rhs());
+///     const Eigen::MatrixXd x = gonio::solve_semidefinite(normal.gram(), normal.rhs());
 ///     return {x, {problem.residual(x), normal.objective(x), gonio::stationarity(normal, x)}};
 ///   }
 /// };
 /// static_assert(gonio::solver<ordinary_least_squares>);
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3);
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(1, 0, 2));
+///   std::printf("%g\n", ordinary_least_squares{}.solve(problem).weights(2, 0));
+/// }
 /// ```
-/// A solver whose weights cannot be negative says so, because no such combination of a basis whose functions have an
-/// arbitrary sign makes sense: `static constexpr bool non_negative = true;`.
 template <class Solver>
 concept solver = requires(const Solver& candidate, const least_squares_problem& problem) {
   { candidate.solve(problem) } -> std::same_as<solution>;
