@@ -39,7 +39,7 @@ endif()
 if("sanitize" IN_LIST parts)
   set(dir build/sanitize)
   step("clang, sanitized: configure" ${cmake} --preset sanitize -B ${dir} -D GONIO_TEST_HEADERS_ALONE=ON
-       -D GONIO_BUILD_PAPERS=OFF -D GONIO_TEST_CONSUMERS=OFF)
+       -D GONIO_BUILD_PAPERS=OFF -D GONIO_BUILD_LEARN=OFF -D GONIO_TEST_CONSUMERS=OFF)
   step("clang, sanitized: build" ${cmake} --build ${dir} --parallel ${cores})
   step("clang, sanitized: test" ${ctest} --preset sanitize --test-dir ${dir})
 endif()
