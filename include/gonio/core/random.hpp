@@ -1,6 +1,6 @@
 #pragma once
-/// Random numbers that are the same everywhere: the standard fixes what std::mt19937_64 draws, not what the standard's
-/// distributions make of it.
+/// Random numbers from seeds. `uniform_number` is the same everywhere, since the standard fixes what std::mt19937_64
+/// draws; `random_choice` is the same wherever the standard library's uniform_int_distribution is.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
 #pragma once
-/// What it does to measurements that light and viewer are not quite where they are said to be.
+/// The penalty for measurements whose light and viewer are off their directions by an angle.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>

@@ -26,7 +26,7 @@ struct correction_limits {
 
 namespace detail {
 
-/// What a round did, given how far each measurement was trusted, what it counted, the factor that was wanted for its
+/// What a round did, given the inlier weight of each measurement, what it counted, the factor that was wanted for its
 /// estimate and the one that was found.
 [[nodiscard]] correction_round describe_round(const channel_values& inlier_weights, const channel_values& weights,
                                               const channel_values& wanted, const channel_values& found);
@@ -69,7 +69,7 @@ class correction_run {
   [[nodiscard]] const channel_values& measured() const noexcept { return measured_; }
   [[nodiscard]] channel_values estimated() const { return factor().correct(started_, total_); }
 
-  /// How far the weighting trusts each measurement now (Eq. 13), and what its estimate must be multiplied by (Eq. 12).
+  /// The inlier weight of each measurement now (Eq. 13), and what its estimate must be multiplied by (Eq. 12).
   [[nodiscard]] channel_values inlier_weights() const { return weighting_.weigh(measured_, estimated()); }
   [[nodiscard]] channel_values sigma() const { return factor().quotient(measured_, estimated()); }
 
@@ -158,7 +158,7 @@ class correction_run {
   std::vector<correction_round> history_;
 };
 
-/// An initial estimator whose estimate is corrected until it agrees with the samples that are to be trusted.
+/// An initial estimator whose estimate is corrected until it agrees with the inliers.
 ///
 /// The method as its paper prints it, with gamma = 3:
 /// ```cpp

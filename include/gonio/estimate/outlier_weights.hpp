@@ -1,5 +1,5 @@
 #pragma once
-/// How far to trust a measurement, given an estimate of it: the concept, and weights of a single residual. Noell,
+/// The inlier weight of a measurement, given an estimate of it: the concept, and weights of a single residual. Noell,
 /// Koehler and Stricker 2014, Eq. 13; for `automatic_weights`, which need no parameter, see outlier_mixture.hpp.
 
 #include <gonio/estimate/located_samples.hpp>

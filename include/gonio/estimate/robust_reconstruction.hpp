@@ -31,7 +31,7 @@ class reweighted_combination {
   [[nodiscard]] solution solve(const channel_values& inlier_weights) const {
     return combine([&](std::size_t c) { return equations(c, inlier_weights); });
   }
-  /// Weights that follow other samples as well, all of which are trusted.
+  /// Weights that follow other samples as well, all of which are inliers.
   [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const {
     const channel_values all = channel_values::Ones(3, std::ssize(others.locations_));
     return combine([&](std::size_t c) { return equations(c, inlier_weights) + others.equations(c, all); });
@@ -85,9 +85,9 @@ class reweighted_combination {
   channel_values mapped_;
 };
 
-/// A step with given trust, in which a sample counts less by its factor where that is above 1. Otherwise some outliers
-/// would decide whatever they count: where the estimate is near zero, the factor is in the hundreds, and the error that
-/// is minimised is its square.
+/// A step with given inlier weights, in which a sample counts less by its factor where that is above 1. Otherwise some
+/// outliers would decide whatever they count: where the estimate is near zero, the factor is in the hundreds, and the
+/// error that is minimised is its square.
 template <class Run>
 correction_round damped_step(Run& run, const channel_values& inlier_weights) {
   return run.step(inlier_weights / run.sigma().max(1.0f));
@@ -107,7 +107,7 @@ struct robust_start {
   /// As many samples as this say, all over the cells, that the surface is like the nearest material. It decides where
   /// nothing was measured: a combination that fits all samples but sees no highlight may have any highlight.
   double expectation = 1.0;
-  /// Rounds of the final iteration that still trust as the start does.
+  /// Rounds of the final iteration that still have the inlier weights of the start.
   int initial_weight_rounds = 3;
   std::uint64_t seed = 0;
 };
@@ -145,10 +145,10 @@ class robust_run {
 /// Fits samples of which any share may be outliers, in these steps:
 /// 1. Take the material that comes nearest (`nearest_material`), on at most 20,000 of the samples.
 /// 2. Combine materials for relative errors, five times, and correct the combination four times, down-weighting
-///    outliers anew each time: the result is rough, but knows which samples to trust.
+///    outliers anew each time: the result is rough, but knows the inliers.
 /// 3. Combine materials again under their own metric from the samples that are good; where there are none the nearest
 ///    material is expected.
-/// 4. Correct that by more samples: three rounds with what step 2 trusts, then with weights of its own.
+/// 4. Correct that by more samples: three rounds with the inlier weights of step 2, then with its own.
 ///
 /// Outliers are told from good samples in each of the samples' regions by itself: a fit that is good elsewhere would
 /// take a highlight that it misses for outliers, and then never learn better.
@@ -203,7 +203,7 @@ class robust_reconstruction {
  private:
   struct initial_state {
     initial_type initial;
-    run_type guide;  // knows which samples to trust
+    run_type guide;  // whose inlier weights the first rounds have
   };
 
   [[nodiscard]] static automatic_weights weights_of(const located_samples& samples) {

@@ -57,8 +57,8 @@ void require_shown(const vertex_observations& places, const shape_model& model);
 
 namespace detail {
 
-/// How far to trust places on a scan (Geman and McClure's weights): nearly in full up to three times the misplacement
-/// or, while the shape is far off, three times what is usual; at noisy edges of holes and spurious triangles hardly.
+/// Weights of places on a scan (Geman and McClure): nearly 1 up to three times the position error
+/// or, while the shape is far off, three times what is usual; nearly 0 at noisy edges of holes and spurious triangles.
 [[nodiscard]] Eigen::VectorXd inlier_weights(const vertex_observations& places, const point_columns& shape,
                                              double position_error);
 

@@ -2,6 +2,7 @@
 /// Bodies of estimate/highlight_contrast.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/metric/log_relative.hpp>
 #include <gonio/table/material_set.hpp>
@@ -57,9 +58,7 @@ GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, 
     if (!std::isfinite(contrasts[static_cast<Eigen::Index>(m)]))
       refuse({"material '", materials.names[m], "' has no contrast: its table is not finite"});
   if (!threshold) {
-    std::vector<double> sorted(contrasts.begin(), contrasts.end());
-    std::ranges::sort(sorted);
-    threshold = (sorted[sorted.size() / 2] + sorted[(sorted.size() - 1) / 2]) / 2.0;
+    threshold = median(std::vector<double>(contrasts.begin(), contrasts.end()));
   }
   for (std::size_t m = 0; m < materials.names.size(); ++m)
     (contrasts[static_cast<Eigen::Index>(m)] < *threshold ? soft : specular).push_back(m);

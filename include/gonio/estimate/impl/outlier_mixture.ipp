@@ -128,7 +128,11 @@ GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& re
                                                         std::span<const std::size_t> samples, double inlier_fraction) {
   std::vector<float> sorted;
   for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
-  return std::max(double{quantile(sorted, 0.5 * inlier_fraction)}, 1e-6);
+  // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
+  const auto middle =
+      sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));
+  std::ranges::nth_element(sorted, middle);
+  return std::max(double{*middle}, 1e-6);
 }
 
 GONIO_INLINE outlier_mixture automatic_weights::rescaled(const outlier_mixture& mixture, double ratio) {

@@ -66,17 +66,17 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return weights;
 }
 
-/// Where a scan is noisy, vertices are off by its noise besides their misplacement.
+/// Where a scan is noisy, vertices are off by its noise besides the position error.
 [[nodiscard]] GONIO_INLINE Eigen::RowVectorXd surface_weights(const surface_index& scan, double position_error) {
   Eigen::RowVectorXd weights = noise_variances(scan.mesh(), scan.topology());
   for (double& noise : weights) noise = 1.0 / (1.0 + noise / (position_error * position_error));
   return weights;
 }
 
-/// The places of a posed scan that a shape has, and how far to trust them.
-[[nodiscard]] GONIO_INLINE vertex_observations trusted_places(const posed_scan& scan, const triangle_mesh& shape,
-                                                              const fit_to_scan_options& options,
-                                                              thread_count threads) {
+/// The places of a posed scan that a shape has, and their weights.
+[[nodiscard]] GONIO_INLINE vertex_observations weighted_places(const posed_scan& scan, const triangle_mesh& shape,
+                                                               const fit_to_scan_options& options,
+                                                               thread_count threads) {
   vertex_observations places = closest_places(scan, shape, options.correspondence, threads);
   if (!options.robust || places.vertices.empty()) return places;
   const Eigen::VectorXd weights = inlier_weights(places, shape.vertices, options.position_error);
@@ -97,7 +97,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(part.vertices()));
   posed_scan posed{scan, pose, detail::surface_weights(scan, options.position_error)};
   for (int iteration = 1;; ++iteration) {
-    vertex_observations places = detail::trusted_places(posed, shape, options, threads);
+    vertex_observations places = detail::weighted_places(posed, shape, options, threads);
     require_shown(places, part);
     shape_with_motion functions(part.basis(), shape.vertices);
     const basis_equations equations(functions, locate_vertices(functions.cells(), places), threads);
@@ -109,7 +109,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
     const double change = (vertices - shape.vertices).norm();
     shape.vertices = std::move(vertices);
     if (change > tolerance && iteration < options.most_iterations) continue;
-    places = detail::trusted_places(posed, shape, options, threads);
+    places = detail::weighted_places(posed, shape, options, threads);
     return {posed.pose, std::move(functions), std::move(weights), std::move(places), solver, iteration};
   }
 }
