@@ -14,6 +14,7 @@
 #include <gonio/io/impl/npy.ipp>
 #include <gonio/io/impl/prior.ipp>
 #include <gonio/io/impl/renderer_material.ipp>
+#include <gonio/io/impl/rgl.ipp>
 #include <gonio/io/impl/rules.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>

@@ -1,5 +1,6 @@
 // The bodies of model/.
 
+#include <gonio/model/impl/adaptive_brdf.ipp>
 #include <gonio/model/impl/analytic_brdf.ipp>
 #include <gonio/model/impl/fit_model.ipp>
 #include <gonio/model/impl/fit_observations.ipp>

@@ -17,6 +17,7 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/renderer_material.hpp>
+#include <gonio/io/rgl.hpp>
 #include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 /// All of `model/`: analytic BRDFs, and their fit.
 
+#include <gonio/model/adaptive_brdf.hpp>
 #include <gonio/model/analytic_brdf.hpp>
 #include <gonio/model/fit_model.hpp>
 #include <gonio/model/fit_observations.hpp>

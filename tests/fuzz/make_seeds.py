@@ -68,6 +68,27 @@ def npy(values, shape, descr="<f4", version=1):
     return b"\x93NUMPY" + bytes([version, 0]) + length + dictionary.encode() + struct.pack(f"<{len(values)}{code}", *values)
 
 
+def tensor_file(arrays):
+    """arrays: name -> (code of the type, shape, bytes)"""
+    position = 18 + sum(13 + len(name) + 8 * len(shape) for name, (_, shape, _) in arrays.items())
+    head, body = b"tensor_file\0\1\0" + struct.pack("<I", len(arrays)), b""
+    for name, (code, shape, data) in arrays.items():
+        head += struct.pack("<H", len(name)) + name.encode() + struct.pack("<HBQ", len(shape), code, position + len(body))
+        head += struct.pack(f"<{len(shape)}Q", *shape)
+        body += data
+    return head + body
+
+
+def rgl(azimuths):
+    def numbers(*shape):
+        return 10, shape, struct.pack(f"<{math.prod(shape)}f", *(0.1 * (i % 7 + 1) for i in range(math.prod(shape))))
+
+    angles = 10, (2,), struct.pack("<2f", 0.0, 1.5707964)
+    return tensor_file({"description": (1, (5,), b"paint"), "phi_i": numbers(azimuths), "theta_i": angles,
+                        "ndf": numbers(2, 3), "sigma": numbers(2, 3), "vndf": numbers(azimuths, 2, 3, 4),
+                        "rgb": numbers(azimuths, 2, 3, 2, 2)})
+
+
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
@@ -100,6 +121,8 @@ put("npy", "three.npy", npy([1, 2], "(1, 2, 1)", "<f4", 2))
 put("npy", "none.npy", npy([], "(0, 5)", "<f8", 3))
 put("networks", "one", b"red paint\n\0" + npy([0.01 * (i % 50) for i in range(675)], "(1, 675)"))
 put("networks", "two", b"red\n blue \n\0" + npy([0.0] * 1350, "(2, 675)", "<f8"))
+put("rgl", "one.bsdf", rgl(1))
+put("rgl", "two.bsdf", rgl(2))
 put("samples", "half.csv", "theta_h,theta_d,phi_d,r,g,b,weight\n1,2,3,0.1,0.2,0.3,1\n# a comment\n40, 30, -170, 1e-3,+2,-0.5,0\n")
 put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1,1\n-45,0,45,360,.5,.5,.5\n")
 put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")

@@ -1,0 +1,81 @@
+#pragma once
+/// Measured materials over a parameterisation that follows each material's highlight, as the RGL database has them.
+/// Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", ACM Transactions
+/// on Graphics 37(6), 2018 (doi:10.1145/3272127.3275059), section 4.
+///
+/// With the half vector m of wi and wo, the distribution D of microfacet normals and the projected area sigma,
+///     f(wi, wo) = rgb(u; theta_i) D(m) / (4 sigma(wi) cos theta_o),
+/// where u in [0, 1]^2 is m mapped by the cumulative distribution of the normals that are visible from wi.
+
+#include <gonio/core/brdf.hpp>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <vector>
+
+namespace gonio::model {
+
+/// Values on regular grids over [0, 1]^2 whose outermost nodes lie on the border: `tables` of them, each of `rows` x
+/// `columns` numbers, row after row.
+struct unit_square_tables {
+  Eigen::Index tables = 0;
+  Eigen::Index rows = 0;
+  Eigen::Index columns = 0;
+  std::vector<float> values;
+
+  [[nodiscard]] const float* row(Eigen::Index table, Eigen::Index number) const noexcept {
+    return values.data() + (table * rows + number) * columns;
+  }
+};
+
+/// What an isotropic material consists of. A direction is mapped to [0, 1]^2 by its azimuth, phi / 2 pi + 1/2, across
+/// the rows, and sqrt(2 theta / pi) along them.
+struct adaptive_brdf_parts {
+  std::vector<double> theta_i;         ///< polar angles of wi, radians, ascending from 0 to pi/2; n of them
+  unit_square_tables normals;          ///< D: one table
+  unit_square_tables projected_area;   ///< sigma: one table
+  unit_square_tables visible_normals;  ///< density of visible normals: n tables; the scale of each does not matter
+  unit_square_tables reflectance;      ///< rgb: 3 n tables, red, green and blue of the first theta_i first
+};
+
+/// A BRDF given by such tables. A value type whose copies share them.
+///
+/// Measurements are not reciprocal: exchanging the two directions changes the values of the RGL database by 6 to 15 %
+/// in the mean. As the `brdf` concept asks for reciprocity, the value is the mean of both; `as_measured` has each.
+class adaptive_brdf {
+ public:
+  /// Throws gonio::error unless the sizes match, every number is finite, densities and areas are not negative and every
+  /// table of visible normals has a positive one.
+  explicit adaptive_brdf(adaptive_brdf_parts parts);
+
+  [[nodiscard]] const adaptive_brdf_parts& parts() const noexcept { return tables_->parts; }
+
+  /// Reflectance in sr^-1; zero below the horizon. O(log n).
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    return 0.5 * (as_measured(wi, wo) + as_measured(wo, wi));
+  }
+
+  /// The same with the light at `wi` and the viewer at `wo`, as it was measured.
+  [[nodiscard]] rgb as_measured(const direction& wi, const direction& wo) const noexcept;
+
+ private:
+  /// The tables, and the visible normals summed up, which scale to 1 over each table.
+  struct stored {
+    adaptive_brdf_parts parts;
+    unit_square_tables along_rows;   ///< of each row of visible normals, its trapezoids up to each column
+    unit_square_tables across_rows;  ///< a row for each table: whole rows' trapezoids up to each of them
+  };
+
+  [[nodiscard]] static stored summed_up(adaptive_brdf_parts parts);
+
+  std::shared_ptr<const stored> tables_;
+};
+
+static_assert(brdf<adaptive_brdf>);
+
+}  // namespace gonio::model
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/adaptive_brdf.ipp>
+#endif

@@ -1,0 +1,124 @@
+#include "../io/scratch.hpp"
+#include <gonio/model/adaptive_brdf.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+
+using gonio::direction;
+using gonio::rgb;
+using gonio::model::adaptive_brdf;
+using gonio::model::adaptive_brdf_parts;
+using gonio::model::unit_square_tables;
+
+namespace {
+
+constexpr double half_pi = std::numbers::pi / 2.0;
+
+/// Tables with the value `value(table, across, along)` at each node.
+template <class Value>
+unit_square_tables tabulated(Eigen::Index tables, Eigen::Index rows, Eigen::Index columns, const Value& value) {
+  unit_square_tables all{tables, rows, columns, {}};
+  for (Eigen::Index t = 0; t < tables; ++t)
+    for (Eigen::Index row = 0; row < rows; ++row)
+      for (Eigen::Index column = 0; column < columns; ++column)
+        all.values.push_back(static_cast<float>(value(t, static_cast<double>(row) / static_cast<double>(rows - 1),
+                                                      static_cast<double>(column) / static_cast<double>(columns - 1))));
+  return all;
+}
+
+/// A material whose normals are all alike, seen from any direction.
+adaptive_brdf_parts even_material() {
+  const auto all = [](double number) { return [number](Eigen::Index, double, double) { return number; }; };
+  return {{0.0, 0.7, half_pi},
+          tabulated(1, 2, 3, all(0.5)),
+          tabulated(1, 2, 3, all(2.0)),
+          tabulated(3, 5, 4, all(1.0)),
+          tabulated(9, 2, 2, [](Eigen::Index t, double, double) { return 0.1 * static_cast<double>(t % 3 + 1); })};
+}
+
+direction random_direction(std::mt19937& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  return gonio::spherical_direction(std::acos(1e-3 + 0.999 * uniform(random)), 6.28 * uniform(random));
+}
+
+/// Where a half vector lies in the unit square, as the database says it: across by azimuth, along by polar angle.
+std::pair<double, double> square_of(const direction& wi, const direction& wo) {
+  const direction h = (wi + wo).normalized();
+  const double turns = (std::atan2(h.y(), h.x()) - std::atan2(wi.y(), wi.x())) / (2.0 * std::numbers::pi) + 0.5;
+  return {turns - std::floor(turns), std::sqrt(std::acos(h.z()) / half_pi)};
+}
+
+}  // namespace
+
+TEST_CASE("alike normals leave reflectance over four areas and the cosine") {
+  const adaptive_brdf material(even_material());
+  std::mt19937 random(3);
+  for (int i = 0; i < 200; ++i) {
+    const direction wi = random_direction(random), wo = random_direction(random);
+    const rgb measured = rgb(0.1, 0.2, 0.3) * 0.5 / (4.0 * 2.0 * wo.z());
+    CHECK((material.as_measured(wi, wo) / measured - 1.0).abs().maxCoeff() < 1e-6);
+    const rgb swapped = measured * wo.z() / wi.z();
+    CHECK((material(wi, wo) / (0.5 * (measured + swapped)) - 1.0).abs().maxCoeff() < 1e-6);
+    CHECK((material(wi, wo) - material(wo, wi)).abs().maxCoeff() == 0.0);
+  }
+  CHECK((material(direction(0, 0, 1), direction(1, 0, 0)) == 0.0).all());
+  CHECK((material(direction(0.6, 0, -0.8), direction(0, 0, 1)) == 0.0).all());
+}
+
+TEST_CASE("reflectance is looked up where the visible normals' cumulative distribution maps the half vector") {
+  // The density (1 + a)(1 + b) has the distributions (a + a^2 / 2) / 1.5 across and the same along.
+  adaptive_brdf_parts parts = even_material();
+  parts.visible_normals =
+      tabulated(3, 4, 6, [](Eigen::Index, double across, double along) { return (1.0 + across) * (1.0 + along); });
+  // Red is the position across, green that along.
+  parts.reflectance =
+      tabulated(9, 2, 2, [](Eigen::Index t, double across, double along) { return t % 3 == 0 ? across : along; });
+  const adaptive_brdf material(std::move(parts));
+  const auto cumulative = [](double x) { return (x + 0.5 * x * x) / 1.5; };
+  std::mt19937 random(5);
+  for (int i = 0; i < 200; ++i) {
+    const direction wi = random_direction(random), wo = random_direction(random);
+    const rgb position = material.as_measured(wi, wo) * (4.0 * 2.0 * wo.z() / 0.5);
+    const auto [across, along] = square_of(wi, wo);
+    CHECK(position.x() == doctest::Approx(cumulative(across)).epsilon(1e-5));
+    CHECK(position.y() == doctest::Approx(cumulative(along)).epsilon(1e-5));
+  }
+}
+
+TEST_CASE("between two angles of the light, densities and their sums are interpolated") {
+  // From above normals are seen alike, from the side more of them are inclined.
+  adaptive_brdf_parts parts = even_material();
+  parts.theta_i = {0.0, half_pi};
+  parts.visible_normals =
+      tabulated(2, 4, 6, [](Eigen::Index t, double, double along) { return t == 0 ? 7.0 : 1.0 + along; });
+  parts.reflectance = tabulated(6, 2, 2, [](Eigen::Index, double, double along) { return along; });
+  const adaptive_brdf material(std::move(parts));
+  const direction wi = gonio::spherical_direction(0.25 * half_pi, 1.0), wo = gonio::spherical_direction(0.9, -0.4);
+  const double x = square_of(wi, wo).second;
+  const double expected = 0.75 * x + 0.25 * (x + 0.5 * x * x) / 1.5;
+  CHECK(material.as_measured(wi, wo).y() * (4.0 * 2.0 * wo.z() / 0.5) == doctest::Approx(expected).epsilon(1e-6));
+}
+
+TEST_CASE("parts of a material that do not fit are refused") {
+  const auto refused = [](auto&& change, std::initializer_list<std::string> words) {
+    adaptive_brdf_parts parts = even_material();
+    change(parts);
+    scratch::check_refused([&] { return adaptive_brdf(std::move(parts)); }, words);
+  };
+  refused([](auto& p) { p.theta_i = {0.0}; }, {"theta_i", "at least 2 ascending angles"});
+  refused([](auto& p) { p.theta_i = {0.0, 0.0, 1.0}; }, {"theta_i", "ascending"});
+  refused([](auto& p) { p.theta_i = {0.0, 1.0, 1.6}; }, {"theta_i", "pi/2"});
+  refused([](auto& p) { p.theta_i[1] = std::numeric_limits<double>::quiet_NaN(); }, {"theta_i"});
+  refused([](auto& p) { p.theta_i = {0.0, 1.0}; }, {"visible normals", "needs 2 tables", "not 3 of 5 x 4"});
+  refused([](auto& p) { p.normals.rows = 1; }, {"distribution of normals", "at least 2 x 2", "1 x 3"});
+  refused([](auto& p) { p.projected_area.values.pop_back(); }, {"projected area", "5 numbers"});
+  refused([](auto& p) { p.reflectance.tables = 3; }, {"reflectance", "needs 9 tables"});
+  refused([](auto& p) { p.reflectance.values[7] = std::numeric_limits<float>::infinity(); }, {"reflectance", "inf"});
+  refused([](auto& p) { p.visible_normals.values[3] = -1.0f; }, {"visible normals", "-1", "at least 0"});
+  refused([](auto& p) { std::fill_n(p.visible_normals.values.begin() + 20, 20, 0.0f); },
+          {"no normals are visible", "number 1"});
+}
