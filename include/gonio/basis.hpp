@@ -3,8 +3,11 @@
 /// functions.
 
 #include <gonio/basis/basis.hpp>
+#include <gonio/basis/combine.hpp>
 #include <gonio/basis/correction.hpp>
+#include <gonio/basis/discrepancy.hpp>
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/joined.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>

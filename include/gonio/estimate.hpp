@@ -8,6 +8,7 @@
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/decomposition_parts.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>

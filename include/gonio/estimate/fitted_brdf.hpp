@@ -2,7 +2,7 @@
 /// A BRDF held as the weights of a basis, and its expansion to tables (Nielsen et al. 2015,
 /// doi:10.1145/2816795.2818085, Eq. 10).
 
-#include <gonio/basis/basis.hpp>
+#include <gonio/basis/combine.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/vector_kernels.hpp>
@@ -78,9 +78,10 @@ class fitted_brdf {
 
   /// Expands the fit to a table: one product of the basis' rows with the weights, which reads the basis once,
   /// and where the cells are others an interpolation of its three channels. Rows that are computed are so at the
-  /// cells of the table. Same bytes for any number of threads.
+  /// cells of the table, unless the basis combines its functions at all of its own (`combining_basis`). Same bytes for
+  /// any number of threads.
   [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
-    if constexpr (row_metric<metric_type> && !computed)
+    if constexpr (row_metric<metric_type> && combinable)
       return tabulate_rows(cells, threads);
     else
       return tabulate_cells(cells, threads);
@@ -116,9 +117,14 @@ class fitted_brdf {
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const {
     mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
+    if constexpr (combining_basis<Basis>) field = basis_.combination(weights_, threads);
     for_each_index(
         basis_.cells().size(), 4096,
         [&](std::size_t cell) {
+          if constexpr (combining_basis<Basis>) {
+            field.col(static_cast<Eigen::Index>(cell)) += static_cast<float>(basis_.offset(cell));
+            return;
+          }
           const rgb value = mapped(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel)
             field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
@@ -131,6 +137,7 @@ class fitted_brdf {
   using metric_type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
   using channel_type = decltype(channel_of(std::declval<const Basis&>(), 0));
   static constexpr bool computed = computed_basis<channel_type>;
+  static constexpr bool combinable = !computed || combining_basis<Basis>;
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
   [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {

@@ -21,6 +21,10 @@ class cholesky {
   [[nodiscard]] Eigen::MatrixXd solve(const matrix_view& b) const;
   /// L^-1 B: k^2 operations for each column of B.
   [[nodiscard]] Eigen::MatrixXd solve_lower(const matrix_view& b) const;
+  /// L'^-1 B: k^2 operations for each column of B.
+  [[nodiscard]] Eigen::MatrixXd solve_upper(const matrix_view& b) const;
+  /// L^-1 b of k contiguous numbers, in their place.
+  void solve_lower_in_place(double* b) const noexcept;
 
   /// The logarithm of A's determinant.
   [[nodiscard]] double log_determinant() const;

@@ -28,20 +28,23 @@ GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_defi
 // Substitution column by column rather than Eigen's, which generates a blocked kernel for each triangle: there are few
 // right-hand sides as a rule, and one at a time reads L once.
 
-GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
+GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
   const Eigen::Index k = lower_.rows();
+  for (Eigen::Index j = 0; j < k; ++j) {
+    const double known = b[j] /= lower_(j, j);
+    add_scaled(-known, lower_.data() + j * (k + 1) + 1, b + j + 1, k - j - 1);
+  }
+}
+
+GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
   Eigen::MatrixXd x = b;
-  for (Eigen::Index column = 0; column < x.cols(); ++column)
-    for (Eigen::Index j = 0; j < k; ++j) {
-      const double known = x(j, column) /= lower_(j, j);
-      add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, k - j - 1);
-    }
+  for (Eigen::Index column = 0; column < x.cols(); ++column) solve_lower_in_place(x.data() + column * x.rows());
   return x;
 }
 
-GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const {
+GONIO_INLINE Eigen::MatrixXd cholesky::solve_upper(const matrix_view& b) const {
   const Eigen::Index k = lower_.rows();
-  Eigen::MatrixXd x = solve_lower(b);
+  Eigen::MatrixXd x = b;
   for (Eigen::Index column = 0; column < x.cols(); ++column)
     for (Eigen::Index j = k - 1; j >= 0; --j) {
       const double known = dot(lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, k - j - 1);
@@ -49,6 +52,8 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const {
     }
   return x;
 }
+
+GONIO_INLINE Eigen::MatrixXd cholesky::solve(const matrix_view& b) const { return solve_upper(solve_lower(b)); }
 
 GONIO_INLINE double cholesky::log_determinant() const {
   double sum = 0.0;

@@ -1,0 +1,49 @@
+#pragma once
+/// A combination of a basis' functions at all of its cells at once.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/solve/vector_kernels.hpp>
+#include <gonio/table/upsample.hpp>
+
+#include <Eigen/Core>
+
+#include <concepts>
+#include <span>
+
+namespace gonio {
+
+/// A computed basis that evaluates a combination of its functions, size() x 3 weights, at all of its cells at once, in
+/// float: what makes a table of a fit without a row for each cell. The offset is not part of it.
+template <class Basis>
+concept combining_basis = computed_basis<Basis> && requires(const Basis& functions, const Eigen::MatrixXd& weights) {
+  { functions.combination(weights, thread_count()) } -> std::same_as<cell_fields<3>>;
+};
+
+/// A basis that `combine` takes.
+template <class Basis>
+concept combinable_basis = tabulated_basis<Basis> || combining_basis<Basis>;
+
+/// A combination of a basis' functions at all of its cells, in float and without the offset.
+template <combinable_basis Basis>
+[[nodiscard]] cell_fields<3> combine(const Basis& functions, const Eigen::MatrixXd& weights,
+                                     thread_count threads = {}) {
+  if constexpr (combining_basis<Basis>) {
+    return functions.combination(weights, threads);
+  } else {
+    const Eigen::MatrixXf columns = weights.cast<float>();
+    cell_fields<3> field(3, static_cast<Eigen::Index>(functions.cells().size()));
+    for_each_index(
+        functions.cells().size(), 4096,
+        [&](std::size_t cell) {
+          const std::span<const float> row = functions.row(cell);
+          for (Eigen::Index channel = 0; channel < 3; ++channel)
+            field(channel, static_cast<Eigen::Index>(cell)) =
+                dot(columns.data() + channel * columns.rows(), row.data(), columns.rows());
+        },
+        threads);
+    return field;
+  }
+}
+
+}  // namespace gonio

@@ -1,0 +1,106 @@
+#pragma once
+/// What the components of a prior cannot say of a material: a smooth random function beside them.
+/// Model discrepancy as a Gaussian process: Kennedy and O'Hagan, "Bayesian calibration of computer models", Journal of
+/// the Royal Statistical Society B 63(3), 2001 (doi:10.1111/1467-9868.00294). Its functions are those of Rasmussen and
+/// Williams, "Gaussian Processes for Machine Learning", 2006, section 8.3.1, around the places that were measured.
+/// Results on real materials: docs/results/real-materials.md.
+
+#include <gonio/basis/basis.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/table/upsample.hpp>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <utility>
+
+namespace gonio {
+
+/// Over which distances a discrepancy is correlated: the standard deviations of its squared-exponential covariance in
+/// the coordinates sqrt(theta_h / 90 degrees), theta_d / 90 degrees and sin theta_d (cos 2 phi_d, sin 2 phi_d) / 2.
+struct correlation_lengths {
+  double theta_h = 0.1;
+  double theta_d = 0.2;
+  double azimuth = 0.4;
+};
+
+/// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type whose copies
+/// share their centres.
+///
+/// With the covariance k(x, y) = exp(-|x - y|^2 / 2) of places in units of the lengths, the functions are
+/// phi(x) = amplitude^(1/2) L^-1 k(centres, x), L L' = k(centres, centres): weights of unit variance make a function of
+/// the variance `amplitude`, exactly so at the centres and less far from all of them (`unexplained`).
+class discrepancy_functions {
+ public:
+  /// Throws gonio::error if there is no centre, an angle is not finite, or a length or the amplitude is not positive.
+  discrepancy_functions(std::span<const half_difference> centres, double amplitude,
+                        const correlation_lengths& lengths = {});
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return shared_->places.cols(); }
+  [[nodiscard]] double amplitude() const noexcept { return shared_->amplitude; }
+  [[nodiscard]] const correlation_lengths& lengths() const noexcept { return shared_->lengths; }
+
+  /// phi at some angles: size() contiguous numbers. O(size^2).
+  void read(const half_difference& angles, double* out) const noexcept;
+
+  /// The variance at some angles that no weights can give: amplitude - |phi|^2, at least 0. Reads `row`, phi there.
+  [[nodiscard]] double unexplained(std::span<const double> row) const noexcept;
+
+  /// The functions, with the weights of three channels (size() x 3), at all cells of a grid. O(size x (cells + size)):
+  /// the covariance is a product of one of theta_h and one of the other two angles.
+  [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
+                                           thread_count threads = {}) const;
+
+ private:
+  /// A column for each centre: where it is, in units of the lengths.
+  using place_columns = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+  struct stored {
+    place_columns places;
+    cholesky factors;
+    double amplitude;
+    correlation_lengths lengths;
+  };
+
+  std::shared_ptr<const stored> shared_;
+};
+
+/// The same as a basis: a computed one, around centres, over some cells, in the domain of a metric. It stands beside
+/// components as `joined{prior, discrepancy{prior.cells(), prior.metric(), centres, amplitude}}`; see
+/// estimate/discrepancy_decomposition.hpp for an estimator that has chosen all of it.
+template <error_metric Metric>
+class discrepancy {
+ public:
+  /// A function times -1 is as good a function: see `has_arbitrary_sign`.
+  static constexpr bool arbitrary_sign = true;
+
+  /// Throws gonio::error as `discrepancy_functions` does.
+  discrepancy(valid_cells cells, Metric metric, std::span<const half_difference> centres, double amplitude,
+              const correlation_lengths& lengths = {})
+      : cells_(std::move(cells)), metric_(std::move(metric)), functions_(centres, amplitude, lengths) {}
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return functions_.size(); }
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
+  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+  [[nodiscard]] const discrepancy_functions& functions() const noexcept { return functions_; }
+
+  void read_row(const location& at, function_row out) const noexcept { functions_.read(at.angles, out.data()); }
+
+  [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, thread_count threads = {}) const {
+    return functions_.combination(weights, cells_, threads);
+  }
+
+ private:
+  valid_cells cells_;
+  Metric metric_;
+  discrepancy_functions functions_;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/basis/impl/discrepancy.ipp>
+#endif

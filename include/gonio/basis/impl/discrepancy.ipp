@@ -1,0 +1,120 @@
+#pragma once
+/// Bodies of basis/discrepancy.hpp.
+
+#include <gonio/basis/discrepancy.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/solve/product.hpp>
+#include <gonio/solve/vector_kernels.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gonio {
+
+namespace detail {
+
+/// Where angles are, in units of the lengths: the first coordinate is theta_h's, the others are of theta_d and phi_d.
+[[nodiscard]] inline Eigen::Vector4d discrepancy_place(const half_difference& angles,
+                                                       const correlation_lengths& lengths) noexcept {
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  const double radius = 0.5 * std::sin(angles.theta_d) / lengths.azimuth;
+  return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle) / lengths.theta_h,
+          angles.theta_d / right_angle / lengths.theta_d, radius * std::cos(2.0 * angles.phi_d),
+          radius * std::sin(2.0 * angles.phi_d)};
+}
+
+[[nodiscard]] inline double squared_exponential(double squared_distance) noexcept {
+  return std::exp(-0.5 * squared_distance);
+}
+
+/// Of all pairs of places. A small part of the diagonal more keeps it positive definite where places coincide.
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(
+    const Eigen::Matrix<double, 4, Eigen::Dynamic>& places) {
+  constexpr double least_eigenvalue = 1e-7;
+  Eigen::MatrixXd all(places.cols(), places.cols());
+  for (Eigen::Index j = 0; j < all.cols(); ++j)
+    for (Eigen::Index i = j; i < all.rows(); ++i)
+      all(i, j) = all(j, i) =
+          squared_exponential((places.col(i) - places.col(j)).squaredNorm()) + (i == j ? least_eigenvalue : 0.0);
+  return all;
+}
+
+}  // namespace detail
+
+GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
+                                                          const correlation_lengths& lengths) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (centres.empty()) refuse("a discrepancy needs at least one centre");
+  if (!positive(amplitude)) refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
+  if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
+    refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
+            lengths.theta_d, " and ", lengths.azimuth});
+  place_columns places(4, std::ssize(centres));
+  Eigen::Index column = 0;
+  for (const half_difference& centre : centres) {
+    places.col(column) = detail::discrepancy_place(centre, lengths);
+    if (!places.col(column).allFinite()) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
+    ++column;
+  }
+  cholesky factors(detail::discrepancy_covariance(places));
+  if (!factors.positive_definite()) refuse("the covariance of a discrepancy's centres is not positive definite");
+  shared_ = std::make_shared<const stored>(stored{std::move(places), std::move(factors), amplitude, lengths});
+}
+
+GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, double* out) const noexcept {
+  const Eigen::Vector4d here = detail::discrepancy_place(angles, shared_->lengths);
+  const double scale = std::sqrt(shared_->amplitude);
+  for (Eigen::Index i = 0; i < size(); ++i)
+    out[i] = scale * detail::squared_exponential((shared_->places.col(i) - here).squaredNorm());
+  shared_->factors.solve_lower_in_place(out);
+}
+
+GONIO_INLINE double discrepancy_functions::unexplained(std::span<const double> row) const noexcept {
+  return std::max(shared_->amplitude - dot(row.data(), row.data(), std::ssize(row)), 0.0);
+}
+
+GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::MatrixXd& weights, const valid_cells& cells,
+                                                               thread_count threads) const {
+  const grid& over = cells.grid();
+  const auto [heights, rows, columns] = over.extents();
+  const correlation_lengths& lengths = shared_->lengths;
+  // What each centre's covariance is multiplied by.
+  const Eigen::MatrixXd centre_weights = std::sqrt(shared_->amplitude) * shared_->factors.solve_upper(weights);
+  // The part of theta_h times these: three columns for each theta_h of the grid.
+  Eigen::MatrixXd by_height(size(), 3 * heights);
+  for (int i = 0; i < heights; ++i) {
+    const double place = detail::discrepancy_place({over.theta_h(i), 0.0, 0.0}, lengths)[0];
+    for (Eigen::Index centre = 0; centre < size(); ++centre) {
+      const double along = shared_->places(0, centre) - place;
+      by_height.row(centre).segment<3>(3 * i) = detail::squared_exponential(along * along) * centre_weights.row(centre);
+    }
+  }
+  // The part of theta_d and phi_d, a slice of the grid at a time.
+  cell_fields<3> field(3, static_cast<Eigen::Index>(cells.size()));
+  for_each_index(
+      static_cast<std::size_t>(rows), 1,
+      [&](std::size_t row) {
+        const int j = static_cast<int>(row);
+        Eigen::MatrixXd slice(columns, size());
+        for (int k = 0; k < columns; ++k) {
+          const Eigen::Vector4d place = detail::discrepancy_place({0.0, over.theta_d(j), over.phi_d(k)}, lengths);
+          for (Eigen::Index centre = 0; centre < size(); ++centre)
+            slice(k, centre) =
+                detail::squared_exponential((shared_->places.col(centre).tail<3>() - place.tail<3>()).squaredNorm());
+        }
+        const Eigen::MatrixXd values = product(slice, by_height);
+        for (int i = 0; i < heights; ++i)
+          for (int k = 0; k < columns; ++k) {
+            const std::size_t linear = over.linear({i, j, k});
+            if (!cells.contains(linear)) continue;
+            field.col(static_cast<Eigen::Index>(cells.representative(linear))) =
+                values.row(k).segment<3>(3 * i).transpose().array().cast<float>();
+          }
+      },
+      threads);
+  return field;
+}
+
+}  // namespace gonio

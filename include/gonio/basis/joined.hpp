@@ -1,0 +1,52 @@
+#pragma once
+/// Two bases side by side, as one: components and a discrepancy, components and a constant.
+
+#include <gonio/basis/combine.hpp>
+#include <gonio/core/error.hpp>
+
+#include <Eigen/Core>
+
+#include <utility>
+
+namespace gonio {
+
+/// The functions of one basis and then those of another, over the same cells and in the domain of the first one's
+/// metric, with the sum of their offsets. A computed basis: rows are read from both.
+template <basis First, basis Second>
+class joined {
+ public:
+  static constexpr bool arbitrary_sign = has_arbitrary_sign<First> || has_arbitrary_sign<Second>;
+
+  /// Throws gonio::error if the two are over different cells.
+  joined(First first, Second second) : first_(std::move(first)), second_(std::move(second)) {
+    if (!(first_.cells() == second_.cells())) refuse("bases that are joined must be over the same cells");
+  }
+
+  [[nodiscard]] const First& first() const noexcept { return first_; }
+  [[nodiscard]] const Second& second() const noexcept { return second_; }
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return first_size() + static_cast<Eigen::Index>(second_.size()); }
+  [[nodiscard]] const auto& cells() const noexcept { return first_.cells(); }
+  [[nodiscard]] const auto& metric() const noexcept { return first_.metric(); }
+  [[nodiscard]] double offset(std::size_t cell) const noexcept { return first_.offset(cell) + second_.offset(cell); }
+
+  void read_row(const location& at, function_row out) const noexcept {
+    read_row_at(first_, at, out.head(first_size()));
+    read_row_at(second_, at, out.tail(out.size() - first_size()));
+  }
+
+  [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, thread_count threads = {}) const requires
+      combinable_basis<First> && combinable_basis<Second> {
+    cell_fields<3> sum = combine(first_, weights.topRows(first_size()), threads);
+    sum += combine(second_, weights.bottomRows(weights.rows() - first_size()), threads);
+    return sum;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Index first_size() const noexcept { return static_cast<Eigen::Index>(first_.size()); }
+
+  First first_;
+  Second second_;
+};
+
+}  // namespace gonio

@@ -1,0 +1,98 @@
+#pragma once
+/// A prior's components and what they cannot say, fitted together: principal components (Nielsen et al. 2015,
+/// doi:10.1145/2816795.2818085, Eq. 12) and a Gaussian process beside them (Kennedy and O'Hagan 2001,
+/// doi:10.1111/1467-9868.00294). Where few directions were measured the components decide, where many were the
+/// measurements themselves. Results on real materials, with families left out: docs/results/real-materials.md.
+
+#include <gonio/basis/discrepancy.hpp>
+#include <gonio/basis/joined.hpp>
+#include <gonio/basis/pca.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/mapped_noise.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// What is assumed of materials that a prior has not seen, in the squared units of its metric (natural logarithms of
+/// `log_relative`). The defaults are those of least error on twenty measured materials of the RGL database, each
+/// reconstructed by a prior without its family, at 5 to 500 measurements; choosing them anew for each material by the
+/// marginal likelihood was worse there.
+struct discrepancy_model {
+  double variance = 0.02;         ///< of the discrepancy
+  double error_variance = 0.007;  ///< of what is neither prior nor discrepancy, independent at each measurement
+  correlation_lengths lengths = {};
+  double noise = 0.0;  ///< of the measurements, relative to them: 0.02 is 2 %
+  /// Around so many measurements, chosen at random, there are functions: beside them a discrepancy is smoothed.
+  Eigen::Index most_centres = 1000;
+};
+
+/// Fits components and discrepancy together, in one system. An `estimator`.
+///
+/// With m observations in the prior, components have the coefficients c ~ N(0, I / m) and the discrepancy the variance
+/// `variance`: `tikhonov` with eta = m error_variance, of a basis that joins the components to a discrepancy of
+/// amplitude m variance around what was measured, finds the posterior mean. Noise takes weight from the samples in
+/// proportion.
+///
+/// ```cpp
+/// const auto paint = gonio::discrepancy_decomposition{prior}.fit(samples);
+/// ```
+template <error_metric Metric>
+class discrepancy_decomposition {
+ public:
+  using basis_type = joined<pca<Metric>, discrepancy<Metric>>;
+
+  /// Throws gonio::error for an impossible model.
+  explicit discrepancy_decomposition(pca<Metric> prior, const discrepancy_model& model = {}, thread_count threads = {})
+      : prior_(std::move(prior)), model_(model), threads_(threads) {
+    if (!(model.error_variance > 0.0 && std::isfinite(model.error_variance)))
+      refuse({"the error variance beside a discrepancy must be positive and finite, not ", model.error_variance});
+    if (model.most_centres < 1) refuse("a discrepancy needs at least one centre");
+  }
+
+  [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
+  [[nodiscard]] const discrepancy_model& model() const noexcept { return model_; }
+
+  /// n samples, k components and c centres: O(n^2 (k + c)) if they are all centres, O(n (k + c)^2) if not. Throws
+  /// gonio::error for unusable samples.
+  template <class Samples>
+  [[nodiscard]] fitted_brdf<basis_type> fit(const Samples& samples) const {
+    return fit_located(locate_samples(prior_.cells(), samples, threads_));
+  }
+
+  /// The same of samples that are located on the prior's cells.
+  [[nodiscard]] fitted_brdf<basis_type> fit_located(located_samples samples) const {
+    if (model_.noise != 0.0) {
+      const mapped_noise noise = map_noise(prior_, samples.locations, model_.noise, threads_);
+      samples.weights.array().colwise() *= model_.error_variance / (model_.error_variance + noise.variance.array());
+    }
+    const basis_type functions = functions_for(samples);
+    const basis_equations equations(functions, std::move(samples), threads_);
+    return {functions, equations.solve(tikhonov(observations() * model_.error_variance))};
+  }
+
+ private:
+  /// 3 a material.
+  [[nodiscard]] double observations() const noexcept { return static_cast<double>(prior_.coefficients().rows()); }
+
+  [[nodiscard]] basis_type functions_for(const located_samples& samples) const {
+    const auto most = static_cast<std::size_t>(model_.most_centres);
+    std::vector<half_difference> centres;
+    for (const std::size_t i : random_choice(samples.size(), most, 0)) centres.push_back(samples.locations[i].angles);
+    return {prior_, discrepancy<Metric>(prior_.cells(), prior_.metric(), centres, observations() * model_.variance,
+                                        model_.lengths)};
+  }
+
+  pca<Metric> prior_;
+  discrepancy_model model_;
+  thread_count threads_;
+};
+
+}  // namespace gonio

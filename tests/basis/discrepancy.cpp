@@ -1,0 +1,115 @@
+#include "../io/scratch.hpp"
+#include "../synthetic_materials.hpp"
+#include <gonio/basis/discrepancy.hpp>
+#include <gonio/metric/log.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+using gonio::discrepancy_functions;
+using gonio::half_difference;
+
+static_assert(gonio::computed_basis<gonio::discrepancy<gonio::log>>);
+
+namespace {
+
+std::vector<half_difference> some_centres(std::size_t count, unsigned seed = 4) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<half_difference> centres;
+  for (std::size_t i = 0; i < count; ++i)
+    centres.push_back({0.9 * uniform(random), 1.2 * uniform(random), std::numbers::pi * uniform(random)});
+  return centres;
+}
+
+std::vector<double> row_of(const discrepancy_functions& functions, const half_difference& angles) {
+  std::vector<double> row(static_cast<std::size_t>(functions.size()));
+  functions.read(angles, row.data());
+  return row;
+}
+
+double product_of(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// As the header says it.
+double covariance(const half_difference& a, const half_difference& b) {
+  const auto place = [](const half_difference& at) {
+    const double degrees = 180.0 / std::numbers::pi;
+    return Eigen::Vector4d(std::sqrt(at.theta_h * degrees / 90.0) / 0.1, at.theta_d * degrees / 90.0 / 0.2,
+                           std::sin(at.theta_d) * std::cos(2.0 * at.phi_d) / 2.0 / 0.4,
+                           std::sin(at.theta_d) * std::sin(2.0 * at.phi_d) / 2.0 / 0.4);
+  };
+  return std::exp(-0.5 * (place(a) - place(b)).squaredNorm());
+}
+
+}  // namespace
+
+TEST_CASE("weights of unit variance make a discrepancy of the covariance that was asked for") {
+  const auto centres = some_centres(30);
+  const discrepancy_functions functions(centres, 2.5);
+  const half_difference elsewhere{0.31, 0.62, 0.93};
+  const auto there = row_of(functions, elsewhere);
+  for (const half_difference& a : centres) {
+    const auto row = row_of(functions, a);
+    CHECK(product_of(row, there) == doctest::Approx(2.5 * covariance(a, elsewhere)).epsilon(1e-5));
+    CHECK(functions.unexplained(row) < 1e-5);
+    for (const half_difference& b : centres)
+      CHECK(std::abs(product_of(row, row_of(functions, b)) - 2.5 * covariance(a, b)) < 1e-5);
+  }
+  CHECK(functions.unexplained(row_of(functions, {1.5, 0.0, 0.0})) > 2.4);
+}
+
+TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero") {
+  const auto centres = some_centres(5);
+  const discrepancy_functions functions(centres, 1.0);
+  const auto same = [&](const half_difference& a, const half_difference& b) {
+    const auto x = row_of(functions, a), y = row_of(functions, b);
+    for (std::size_t i = 0; i < x.size(); ++i) CHECK(x[i] == doctest::Approx(y[i]).epsilon(1e-9));
+  };
+  same({0.3, 0.5, 0.1}, {0.3, 0.5, 0.1 + std::numbers::pi});
+  same({0.3, 0.0, 0.1}, {0.3, 0.0, 1.4});
+}
+
+TEST_CASE("a combination at all cells is that of the rows") {
+  const gonio::valid_cells& cells = small_cells();
+  const gonio::discrepancy functions{cells, gonio::log{}, some_centres(20), 0.7};
+  const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(20, 3);
+  const auto field = functions.combination(weights);
+  REQUIRE(field.cols() == static_cast<Eigen::Index>(cells.size()));
+  double largest = 0.0;
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    const Eigen::RowVectorXd row = gonio::row_at(functions, gonio::locate_cell(cells, cell));
+    for (Eigen::Index c = 0; c < 3; ++c)
+      largest =
+          std::max(largest, std::abs(double{field(c, static_cast<Eigen::Index>(cell))} - row.dot(weights.col(c))));
+  }
+  CHECK(largest < 1e-5);
+  const auto single = functions.combination(weights, gonio::thread_count(1));
+  CHECK((field == single).all());
+}
+
+TEST_CASE("centres that coincide do no harm") {
+  auto centres = some_centres(6);
+  centres.push_back(centres[2]);
+  const discrepancy_functions functions(centres, 1.0);
+  const auto row = row_of(functions, centres[2]);
+  CHECK(product_of(row, row) == doctest::Approx(1.0).epsilon(1e-5));
+}
+
+TEST_CASE("an impossible discrepancy is refused") {
+  const auto refused = [](std::vector<half_difference> centres, double amplitude, gonio::correlation_lengths lengths,
+                          std::initializer_list<std::string> words) {
+    scratch::check_refused([&] { return discrepancy_functions(centres, amplitude, lengths); }, words);
+  };
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  refused({}, 1.0, {}, {"at least one centre"});
+  refused({{0.1, nan, 0.2}}, 1.0, {}, {"centre 1", "not finite"});
+  refused(some_centres(2), 0.0, {}, {"amplitude", "positive", "0"});
+  refused(some_centres(2), nan, {}, {"amplitude", "nan"});
+  refused(some_centres(2), 1.0, {0.1, -0.2, 0.4}, {"correlation lengths", "-0.2"});
+}
