@@ -9,6 +9,7 @@
 #include <gonio/io/impl/merl.ipp>
 #include <gonio/io/impl/merl_directory.ipp>
 #include <gonio/io/impl/merl_gzip.ipp>
+#include <gonio/io/impl/named_files.ipp>
 #include <gonio/io/impl/near_field_setup.ipp>
 #include <gonio/io/impl/networks.ipp>
 #include <gonio/io/impl/npy.ipp>

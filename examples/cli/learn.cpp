@@ -25,10 +25,13 @@ struct learn_options {
   gonio::thread_count threads;
 };
 
+/// "117 materials of networks in merl_networks.npy, rgl-bsdf".
 std::string source_of(const material_source& source, std::size_t materials) {
   std::string text = std::to_string(materials) + " materials of ";
-  text += source.networks.empty() ? "tables in " + source.tables.filename().string()
-                                  : "networks in " + source.networks.filename().string();
+  const std::size_t start = text.size();
+  for (const auto* group : {&source.networks, &source.tables, &source.rgl})
+    for (const std::filesystem::path& path : *group)
+      text += (text.size() == start ? "" : ", ") + path.lexically_normal().filename().string();
   for (const std::string& name : source.exclude) text += (name == source.exclude.front() ? ", without " : ", ") + name;
   return text;
 }
@@ -38,7 +41,7 @@ std::string source_of(const material_source& source, std::size_t materials) {
 void add_learn(command& app) {
   auto command = app.add_subcommand("learn", "Learn a prior (principal components) from many materials");
   const auto options = std::make_shared<learn_options>();
-  add_material_options(command, options->materials).require_option(1);
+  add_material_options(command, options->materials).require_option(1, 3);
   command.add_option("--components", options->components, "Number of components to keep")
       .check(check::positive_number())
       .capture_default_str();

@@ -171,6 +171,10 @@ declared_files::paths paths_in(const std::filesystem::path& value) {
   return [&value] { return std::vector{value}; };
 }
 
+declared_files::paths paths_in(const std::vector<std::filesystem::path>& values) {
+  return [&values] { return values; };
+}
+
 std::vector<std::string> strings(std::initializer_list<const char*> words) { return {words.begin(), words.end()}; }
 
 }  // namespace
@@ -184,7 +188,7 @@ option command::add_input(const std::string& names, std::filesystem::path& value
 option command::add_input(const std::string& names, std::vector<std::filesystem::path>& values,
                           const std::string& description) {
   auto* added = known_->add_option(names, values, description);
-  files_->add_input(added->get_name(), [&values] { return values; });
+  files_->add_input(added->get_name(), paths_in(values));
   return option(*added);
 }
 
@@ -203,6 +207,13 @@ option command::add_input_folder(const std::string& names, std::filesystem::path
                                  std::initializer_list<const char*> extensions, const std::string& description) {
   auto* added = known_->add_option(names, value, description);
   files_->add_input_folder(added->get_name(), paths_in(value), strings(extensions));
+  return option(*added);
+}
+
+option command::add_input_folders(const std::string& names, std::vector<std::filesystem::path>& values,
+                                  std::initializer_list<const char*> extensions, const std::string& description) {
+  auto* added = known_->add_option(names, values, description);
+  files_->add_input_folder(added->get_name(), paths_in(values), strings(extensions));
   return option(*added);
 }
 

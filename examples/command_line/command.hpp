@@ -107,6 +107,8 @@ class command {
   /// A folder of which the files with these extensions are read.
   option add_input_folder(const std::string& names, std::filesystem::path& value,
                           std::initializer_list<const char*> extensions, const std::string& description);
+  option add_input_folders(const std::string& names, std::vector<std::filesystem::path>& values,
+                           std::initializer_list<const char*> extensions, const std::string& description);
   /// The name must end in one of the extensions; without any it may be any.
   option add_output(const std::string& names, std::filesystem::path& value,
                     std::initializer_list<const char*> extensions, const std::string& description);

@@ -2,26 +2,106 @@
 
 #include "chosen_networks.hpp"
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/core/error.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/rgl.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <span>
+#include <utility>
 
 namespace cli {
 
+namespace {
+
+/// A material by its name, and what writes its table over given cells to the columns of a set.
+struct named_table {
+  std::string name;
+  std::function<gonio::brdf_table(const gonio::valid_cells&)> tabulate;
+};
+
+/// Those of all sources, none of them read yet but the networks.
+std::vector<named_table> tables_of(const material_source& source, gonio::thread_count threads) {
+  std::vector<named_table> all;
+  for (const std::filesystem::path& file : source.networks) {
+    const gonio::model::named_networks known = gonio::io::read_networks(file);
+    for (std::size_t i = 0; i < known.names.size(); ++i)
+      all.push_back({known.names[i], [network = known.networks[i], threads](const gonio::valid_cells& cells) {
+                       const auto set = gonio::model::tabulate_networks({{"one"}, {network}}, cells, threads);
+                       return set.table(0);
+                     }});
+  }
+  for (const std::filesystem::path& folder : source.tables)
+    for (const auto& [name, path] : gonio::io::list_merl_directory(folder))
+      all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
+                       gonio::brdf_table table = gonio::io::read_merl_any(path);
+                       return table.cells() == cells ? table : gonio::resample(table, cells, threads);
+                     }});
+  for (const std::filesystem::path& folder : source.rgl)
+    for (const auto& [name, path] : gonio::io::list_rgl_directory(folder))
+      all.push_back({name, [path, threads](const gonio::valid_cells& cells) {
+                       return gonio::tabulate(gonio::io::read_rgl(path).material, cells, threads);
+                     }});
+  return all;
+}
+
+void exclude(std::vector<named_table>& all, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (std::erase_if(all, [&](const named_table& each) { return each.name == name; }) == 0)
+      gonio::refuse("--exclude: there is no material named '" + name + "' in the sources");
+}
+
+void require_different(const std::vector<named_table>& all) {
+  std::map<std::string, int> seen;
+  for (const named_table& each : all)
+    if (++seen[each.name] > 1) gonio::refuse("two materials of the sources are named '" + each.name + "'");
+}
+
+gonio::material_set read_mixed(const material_source& source, gonio::thread_count threads,
+                               const gonio::progress& listener) {
+  std::vector<named_table> all = tables_of(source, threads);
+  exclude(all, source.exclude);
+  if (all.empty()) gonio::refuse("the sources hold no material");
+  require_different(all);
+  gonio::material_set set{gonio::valid_cells(), {}, {}};
+  const auto cells = static_cast<Eigen::Index>(set.cells.size());
+  set.values.resize(cells, 3 * std::ssize(all));
+  for (const named_table& each : all) {
+    const auto done = std::ssize(set.names);
+    gonio::report(listener, "reading " + each.name, static_cast<double>(done) / static_cast<double>(all.size()));
+    const gonio::brdf_table table = each.tabulate(set.cells);
+    set.values.middleCols(3 * done, 3) = Eigen::Map<const gonio::cell_matrix>(table.values().data(), cells, 3);
+    set.names.push_back(each.name);
+  }
+  return set;
+}
+
+}  // namespace
+
 option_group add_material_options(command& to, material_source& source) {
-  option_group group = to.add_option_group("source", "Where the materials come from (one of)");
-  group.add_input("--networks", source.networks, "File of networks (.npy, names in merl_names.txt beside it)");
-  group.add_input_folder("--merl", source.tables, {".binary", ".gz"}, "Folder of MERL tables (.binary or .binary.gz)");
-  group.require_option(0, 1);
+  option_group group = to.add_option_group("source", "Where the materials come from (any of them, together)");
+  group.add_input("--networks", source.networks, "Files of networks (.npy, names in merl_names.txt beside each)");
+  group.add_input_folders("--merl", source.tables, {".binary", ".gz"},
+                          "Folders of MERL tables (.binary or .binary.gz)");
+  group.add_input_folders("--rgl", source.rgl, {".bsdf"}, "Folders of materials of the RGL database (.bsdf)");
   to.add_option("--exclude", source.exclude, "Name of a material to leave out (repeatable)").repeatable();
   return group;
 }
 
 gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                    const gonio::progress& listener) {
-  if (!source.tables.empty()) return gonio::io::read_merl_directory(source.tables, source.exclude, listener);
-  if (source.networks.empty()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
-  const auto chosen = networks_except(gonio::io::read_networks(source.networks), source.exclude);
-  return gonio::model::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
+  if (source.is_prior()) return gonio::expand(gonio::io::read_prior(source.prior), threads);
+  const std::size_t sources = source.networks.size() + source.tables.size() + source.rgl.size();
+  if (sources == 1 && !source.tables.empty())
+    return gonio::io::read_merl_directory(source.tables.front(), source.exclude, listener);
+  if (sources == 1 && !source.networks.empty()) {
+    const auto chosen = networks_except(gonio::io::read_networks(source.networks.front()), source.exclude);
+    return gonio::model::tabulate_networks(chosen, gonio::valid_cells(), threads, listener);
+  }
+  return read_mixed(source, threads, listener);
 }
 
 }  // namespace cli

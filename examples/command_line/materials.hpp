@@ -12,19 +12,24 @@
 
 namespace cli {
 
-/// Networks, MERL tables, or else the materials that a prior remembers.
+/// Files of networks, folders of MERL tables and folders of RGL materials, any number of each; or else the materials
+/// that a prior remembers.
 struct material_source {
-  std::filesystem::path networks, tables, prior;
+  std::vector<std::filesystem::path> networks, tables, rgl;
+  std::filesystem::path prior;
   std::vector<std::string> exclude;
 
-  [[nodiscard]] bool is_prior() const { return networks.empty() && tables.empty(); }
+  [[nodiscard]] bool is_prior() const { return networks.empty() && tables.empty() && rgl.empty(); }
 };
 
-/// Adds `--networks`, `--merl` and `--exclude`. Returns the first two, of which at most one may be given.
+/// Adds `--networks`, `--merl`, `--rgl` and `--exclude`. Returns the first three.
 option_group add_material_options(command& to, material_source& source);
 
-/// The materials of a source. Networks and tables that are excluded are not read, and a name that does not exist throws
-/// gonio::error; of a prior all materials come, for a basis to leave out.
+/// The materials of all sources together. Those that are excluded are not read, and a name that does not exist, or that
+/// two materials have, throws gonio::error; of a prior all materials come, for a basis to leave out.
+///
+/// A single folder of MERL tables keeps its own cells. Otherwise all materials are over MERL's grid with values at the
+/// cells' centres, tables of another convention interpolated, RGL materials evaluated there.
 [[nodiscard]] gonio::material_set read_materials(const material_source& source, gonio::thread_count threads,
                                                  const gonio::progress& listener = {});
 

@@ -11,6 +11,7 @@
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/named_files.hpp>
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>

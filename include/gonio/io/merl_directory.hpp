@@ -3,20 +3,15 @@
 
 #include <gonio/core/progress.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/named_files.hpp>
 #include <gonio/table/material_set.hpp>
 
 #include <algorithm>
 
 namespace gonio::io {
 
-/// The MERL tables (`.binary` or `.binary.gz`) in a folder, by name; the rest of the folder is ignored.
-struct merl_file {
-  std::string name;
-  std::filesystem::path path;
-};
-
-/// Sorted by name. Throws gonio::error if the folder cannot be read or two files give the same name.
-[[nodiscard]] std::vector<merl_file> list_merl_directory(const std::filesystem::path& folder);
+/// The MERL tables (`.binary` or `.binary.gz`) in a folder; see `list_named_files`.
+[[nodiscard]] std::vector<named_file> list_merl_directory(const std::filesystem::path& folder);
 
 /// Reads all tables of a folder but the excluded ones, which must exist. All must be over the same cells.
 /// Takes 4 bytes a value; negative values are kept. Throws gonio::error naming the file otherwise.

@@ -8,6 +8,7 @@
 /// elements in the file and a uint64 extent for each dimension; all little-endian.
 
 #include <gonio/io/file.hpp>
+#include <gonio/io/named_files.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
 
 #include <cstddef>
@@ -49,6 +50,9 @@ struct rgl_material {
 [[nodiscard]] inline rgl_material read_rgl(const std::filesystem::path& path) {
   return parse_rgl(read_bytes(path), path.string());
 }
+
+/// The materials (`.bsdf`) in a folder; see `list_named_files`.
+[[nodiscard]] std::vector<named_file> list_rgl_directory(const std::filesystem::path& folder);
 
 }  // namespace gonio::io
 

@@ -8,30 +8,21 @@
 #include <gonio/table/material_set.hpp>
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<merl_file> list_merl_directory(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::vector<merl_file> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {
-    const std::string file = entry.path().filename().string();
-    for (const std::string_view ending : {".binary", ".binary.gz"})
-      if (file.ends_with(ending) && file.size() > ending.size())
-        files.push_back({file.substr(0, file.size() - ending.size()), entry.path()});
-  }
-  if (failure) gonio::refuse({folder.string(), ": cannot be read as a folder: ", failure.message()});
-  std::ranges::sort(files, {}, &merl_file::name);
-  const auto twice = std::ranges::adjacent_find(files, {}, &merl_file::name);
-  if (twice != files.end()) gonio::refuse({folder.string(), ": two tables are named '", twice->name, "'"});
-  return files;
+GONIO_INLINE std::vector<named_file> list_merl_directory(const std::filesystem::path& folder) {
+  static constexpr std::array<std::string_view, 2> extensions{".binary", ".binary.gz"};
+  return list_named_files(folder, extensions, "table");
 }
 
 GONIO_INLINE material_set read_merl_directory(const std::filesystem::path& folder,
                                               const std::vector<std::string>& excluded, const progress& listener) {
-  std::vector<merl_file> files = list_merl_directory(folder);
+  std::vector<named_file> files = list_merl_directory(folder);
   for (const std::string& name : excluded)
-    if (std::erase_if(files, [&](const merl_file& file) { return file.name == name; }) == 0)
+    if (std::erase_if(files, [&](const named_file& file) { return file.name == name; }) == 0)
       gonio::refuse({folder.string(), ": there is no table named '", name, "' to exclude"});
   if (files.empty()) gonio::refuse({folder.string(), ": holds no table (*.binary or *.binary.gz)"});
 

@@ -1,0 +1,304 @@
+/// gonio-papers real-materials: measured materials, each reconstructed by a prior that has not seen its family.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/evaluate/test_materials.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/rgl.hpp>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+
+namespace papers {
+
+namespace {
+
+struct real_materials_options {
+  std::vector<std::filesystem::path> networks;
+  std::filesystem::path materials, folder = shipped_directions(), state;
+  std::string set = "perceived";
+  std::vector<std::size_t> designed{5, 10, 20}, random{20, 100, 500, 2000};
+  std::vector<std::string> methods{"first", "all", "discrepancy"};
+  std::size_t components = 100, repetitions = 2;
+  double noise = 0.0;
+  bool surrogates = false;
+  thinning thin{{3, 5}};
+  gonio::thread_count threads;
+};
+
+/// Materials of one maker: names before the first underscore are alike.
+std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
+
+/// Materials that are judged, or learned from, as tables.
+class material_library {
+ public:
+  material_library(const real_materials_options& given, const gonio::progress& listener)
+      : cells_(given.thin.of(gonio::valid_cells())), threads_(given.threads) {
+    for (const std::filesystem::path& file : given.networks)
+      sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, given.threads, listener));
+    gonio::material_set measured{cells_, {}, {}};
+    const auto files = gonio::io::list_rgl_directory(given.materials);
+    if (files.empty()) gonio::refuse(given.materials.string() + ": holds no material (*.bsdf)");
+    measured.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
+    for (const auto& [name, path] : files) {
+      const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, given.threads);
+      measured.values.middleCols(3 * std::ssize(measured.names), 3) =
+          Eigen::Map<const gonio::cell_matrix>(table.values().data(), measured.values.rows(), 3);
+      measured.names.push_back(name);
+    }
+    sets_.push_back(std::move(measured));
+  }
+
+  [[nodiscard]] const gonio::valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
+  [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
+
+  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
+  template <class Keep>
+  [[nodiscard]] gonio::material_set materials(std::size_t sets, const Keep& keep) const {
+    gonio::material_set chosen{cells_, {}, {}};
+    Eigen::Index columns = 0;
+    for (std::size_t s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
+    chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
+    for (std::size_t s = 0; s < sets; ++s)
+      for (std::size_t i = 0; i < sets_[s].names.size(); ++i) {
+        if (!keep(sets_[s].names[i])) continue;
+        chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
+            sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
+        chosen.names.push_back(sets_[s].names[i]);
+      }
+    return chosen;
+  }
+  [[nodiscard]] std::size_t all() const noexcept { return sets_.size(); }
+
+ private:
+  gonio::valid_cells cells_;
+  gonio::thread_count threads_;
+  std::vector<gonio::material_set> sets_;
+};
+
+/// Which materials are judged, and what is left out of the prior for each.
+struct judged_material {
+  std::string name, family;
+  gonio::brdf_table truth;
+};
+
+/// Where is measured: its name, and a set of directions for each repetition.
+struct sampling {
+  std::string name;
+  std::vector<std::vector<gonio::half_difference>> sets;
+};
+
+std::vector<sampling> samplings(const real_materials_options& given) {
+  std::vector<sampling> all;
+  for (const std::size_t count : given.designed) {
+    const auto points = written_points(given.folder, given.set, count);
+    if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
+    all.push_back({std::to_string(count) + " designed", {*points}});
+  }
+  const gonio::valid_cells cells;
+  for (const std::size_t count : given.random) {
+    sampling drawn{std::to_string(count) + " random", {}};
+    for (std::size_t r = 0; r < given.repetitions; ++r) {
+      std::vector<gonio::half_difference> directions;
+      for (const std::size_t cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
+      drawn.sets.push_back(std::move(directions));
+    }
+    all.push_back(std::move(drawn));
+  }
+  return all;
+}
+
+/// Values of a table in some directions, each channel with noise relative to it.
+gonio::sample_set measure(const gonio::brdf_table& truth, const std::vector<gonio::half_difference>& directions,
+                          double noise, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  gonio::sample_set samples;
+  for (const gonio::half_difference& angles : directions) {
+    gonio::rgb value = truth.at(gonio::locate(truth.cells(), angles));
+    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
+    samples.push_back({angles, value, 1.0});
+  }
+  return samples;
+}
+
+class experiment {
+ public:
+  experiment(const real_materials_options& given, progress_bar& bar)
+      : given_(given),
+        bar_(bar),
+        library_(given, bar.listener()),
+        judge_(library_.cells(), 36, given.threads),
+        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
+        results_(given.state) {}
+
+  /// A row for each sampling and method: errors of each material, means over the repetitions.
+  [[nodiscard]] json run() {
+    const std::vector<judged_material> materials = judged();
+    json rows = json::array();
+    for (const sampling& where : samplings(given_))
+      for (const std::string& method : given_.methods) {
+        json by_material = json::object();
+        for (const judged_material& material : materials) {
+          const json key{method,       where.name,         material.name, given_.components,
+                         given_.noise, given_.repetitions, given_.set,    given_.surrogates};
+          if (!results_.find(key)) {
+            bar_.draw(where.name + " " + method + " " + material.name, 0.0);
+            results_.add(key, errors_of(material, where, method));
+          }
+          by_material[material.name] = *results_.find(key);
+        }
+        rows.push_back({{"sampling", where.name}, {"method", method}, {"materials", by_material}});
+      }
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] std::vector<judged_material> judged() const {
+    std::vector<judged_material> all;
+    const gonio::material_set& set = given_.surrogates ? library_.first() : library_.measured();
+    const auto& tests = gonio::nielsen_test_materials();
+    for (std::size_t i = 0; i < set.names.size(); ++i) {
+      if (given_.surrogates && std::ranges::find(tests, set.names[i]) == tests.end()) continue;
+      all.push_back({set.names[i], given_.surrogates ? "" : family_of(set.names[i]), set.table(i)});
+    }
+    return all;
+  }
+
+  /// By networks of the first file alone, or by everything; of surrogates the ten test materials are left out.
+  const gonio::log_relative_pca& prior(bool everything, const std::string& family) {
+    const std::string key = everything ? "all " + family : "first";
+    if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
+    const auto& tests = gonio::nielsen_test_materials();
+    auto set = library_.materials(everything ? library_.all() : 1, [&](const std::string& name) {
+      return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;
+    });
+    const auto metric = gonio::log_relative::to_median_of(set, given_.threads);
+    return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, given_.components, given_.threads))
+        .first->second;
+  }
+
+  gonio::brdf_table estimate(const std::string& method, const gonio::sample_set& samples, const std::string& family) {
+    const gonio::log_relative_pca& known = prior(method != "first", family);
+    if (method == "discrepancy")
+      return gonio::discrepancy_decomposition{known, {.noise = given_.noise}, given_.threads}.fit(samples).tabulate(
+          library_.cells(), given_.threads);
+    const double eta = given_.noise > 0.0 ? gonio::eta_of_noise(known, samples, given_.noise, given_.threads)
+                                          : gonio::eta_of_unknown_noise(known, samples, 0.3, given_.threads);
+    return gonio::decomposition{known, gonio::tikhonov{eta}, given_.threads}.fit(samples).tabulate(library_.cells(),
+                                                                                                   given_.threads);
+  }
+
+  json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
+    double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0;
+    const auto times = static_cast<double>(where.sets.size());
+    for (std::size_t r = 0; r < where.sets.size(); ++r) {
+      const gonio::sample_set samples = measure(material.truth, where.sets[r], given_.noise, r);
+      const gonio::comparison found =
+          gonio::compare(estimate(method, samples, material.family), material.truth, metric_, judge_, given_.threads);
+      rms += found.mapped_rms.mean() / times;
+      environment += found.delta_e_env / times;
+      lights += found.delta_e_lights / times;
+      low = std::min(low, found.peak_ratio.minCoeff());
+      high = std::max(high, found.peak_ratio.maxCoeff());
+    }
+    return {{"mapped_rms", rms},
+            {"delta_e_env", environment},
+            {"delta_e_lights", lights},
+            {"least_peak", low},
+            {"largest_peak", high}};
+  }
+
+  const real_materials_options& given_;
+  progress_bar& bar_;
+  material_library library_;
+  gonio::appearance_metric judge_;
+  gonio::log_relative metric_;
+  std::map<std::string, gonio::log_relative_pca> priors_;
+  resumable_results results_;
+};
+
+void print(const real_materials_options& given, const json& rows) {
+  std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials, " << given.repetitions
+            << " random sets each";
+  if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
+  std::cout << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest |\n"
+               "|---|---|---|---|---|---|\n";
+  for (const json& row : rows.elements()) {
+    std::map<std::string, std::vector<double>> values;
+    for (const auto& [name, errors] : row["materials"].items())
+      for (const auto& [key, value] : errors.items()) values[key].push_back(value.number());
+    const auto mean_and_median = [&](const char* key, int digits) {
+      const auto found = distribution(values[key]);
+      return fixed(found.mean, digits) + " (" + fixed(found.median, digits) + ")";
+    };
+    std::cout << "| " << row["sampling"].text() << " | " << row["method"].text() << " | "
+              << mean_and_median("mapped_rms", 3) << " | " << mean_and_median("delta_e_env", 2) << " | "
+              << mean_and_median("delta_e_lights", 2) << " | " << fixed(std::ranges::min(values["least_peak"]), 2)
+              << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " |\n";
+  }
+}
+
+}  // namespace
+
+void add_real_materials(command& app) {
+  auto command = app.add_subcommand("real-materials",
+                                    "Reconstruct measured materials by priors that have not seen their families");
+  const auto options = std::make_shared<real_materials_options>();
+  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
+  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
+      .required();
+  command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
+  command.add_option("--set", options->set, "Which designed sets: of point-20-perceived.csv, perceived")
+      .capture_default_str();
+  command.add_option("--designed", options->designed, "Numbers of designed directions").capture_default_str();
+  command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
+  command
+      .add_option("--methods", options->methods,
+                  "first: components of the first file of networks; all: of all networks and the other measured "
+                  "materials; discrepancy: the same and a discrepancy")
+      .check(check::one_of({"first", "all", "discrepancy"}))
+      .capture_default_str();
+  command.add_option("--components", options->components, "Components of the priors")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--noise", options->noise, "Relative deviation of the measurements, which the methods know")
+      .capture_default_str();
+  command.add_flag("--surrogates", options->surrogates,
+                   "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
+  add_thin_option(command, options->thin);
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    progress_bar bar;
+    experiment work(*options, bar);
+    const json rows = work.run();
+    bar.wipe();
+    print(*options, rows);
+  });
+}
+
+}  // namespace papers
