@@ -8,5 +8,6 @@
 #include <gonio/estimate/impl/nearest_material.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
 #include <gonio/estimate/impl/outlier_weights.ipp>
+#include <gonio/estimate/impl/outlying_samples.ipp>
 #include <gonio/estimate/impl/pull_push.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>

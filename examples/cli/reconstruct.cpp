@@ -38,7 +38,8 @@ const std::vector<method>& methods() {
        "principal components (Nielsen et al. 2015)",
        reconstruct_by_components,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
-        "--lambda", "--variance", "--misplaced"}},  // refuses some of them itself, and says why
+        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject",
+        "--residuals"}},  // refuses some of them itself, and says why
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,
@@ -100,7 +101,8 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
+  std::cout << result.warnings << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
+            << '\n';
 }
 
 void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
@@ -183,6 +185,16 @@ void add_reconstruct(command& app) {
   command.add_option(
       "--noise", options->noise,
       "Relative deviation of the measured values (0.02 is 2 %), which chooses tikhonov's penalty for pca");
+  command
+      .add_option("--discrepancy", options->discrepancy,
+                  "Variance, in the metric's domain, of what the components of pca cannot say and many samples can; 0: "
+                  "components alone, with a penalty chosen by cross-validation")
+      .check(check::range(0.0, 10.0))
+      .capture_default_str();
+  command.add_flag("--no-reject", options->keeps_all,
+                   "Keep samples that all others contradict (of up to 1,000, pca leaves them out and names them)");
+  command.add_output("--residuals", options->residuals, {".csv"},
+                     "What all other samples say of each sample, to write (.csv)");
   // Declare the corrections.
   add_correction_options(command, *options);
   command

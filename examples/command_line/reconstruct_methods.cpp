@@ -85,6 +85,12 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
   const auto prior = gonio::io::read_prior(options.materials.prior);
+  if (options.discrepancy != 0.0 && penalised && options.solver.eta.empty() && options.angular_error == 0.0)
+    return reconstruct_with_discrepancy(options, prior, samples);
+  if (options.keeps_all || !options.residuals.empty())
+    gonio::refuse(
+        "--no-reject and --residuals need a discrepancy: they go with none of --discrepancy 0, --misplaced, "
+        "--eta and other solvers than tikhonov");
   if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
   if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);
   const double eta = options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)

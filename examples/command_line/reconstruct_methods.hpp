@@ -5,6 +5,7 @@
 #include "materials.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/metric/any_metric.hpp>
 #include <gonio/render/image.hpp>
@@ -20,6 +21,9 @@ struct reconstruct_options {
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;
+  double discrepancy = 0.02;
+  bool keeps_all = false;
+  std::filesystem::path residuals;
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;
@@ -33,6 +37,7 @@ struct reconstruction {
   gonio::brdf_table table;
   json details = json::object();  ///< what --json prints beside the number of samples
   std::string sentence{};         ///< the same for people
+  std::string warnings{};         ///< whole lines, for people
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
 };
@@ -40,6 +45,11 @@ struct reconstruction {
 /// Principal components under the metric that they were learned with.
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
+
+/// The same components and a discrepancy beside them, without samples that the others contradict.
+[[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
+                                                          const gonio::log_relative_pca& prior,
+                                                          const gonio::sample_set& samples);
 
 /// The materials themselves under any metric (Noell et al. 2014, section 2.2).
 [[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,

@@ -11,10 +11,10 @@
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
-#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
@@ -22,6 +22,7 @@
 #include <gonio/io/rgl.hpp>
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -37,8 +38,8 @@ struct real_materials_options {
   std::filesystem::path materials, folder = shipped_directions(), state;
   std::string set = "perceived";
   std::vector<std::size_t> designed{5, 10, 20}, random{20, 100, 500, 2000};
-  std::vector<std::string> methods{"first", "all", "discrepancy"};
-  std::size_t components = 100, repetitions = 2;
+  std::vector<std::string> methods{"first", "all", "discrepancy", "rejecting"};
+  std::size_t components = 100, first_components = 60, repetitions = 2, wrong = 0;
   double noise = 0.0;
   bool surrogates = false;
   thinning thin{{3, 5}};
@@ -100,6 +101,7 @@ class material_library {
 struct judged_material {
   std::string name, family;
   gonio::brdf_table truth;
+  std::function<gonio::rgb(const gonio::direction_pair&)> measured;
 };
 
 /// Where is measured: its name, and a set of directions for each repetition.
@@ -128,18 +130,25 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   return all;
 }
 
-/// Values of a table in some directions, each channel with noise relative to it.
-gonio::sample_set measure(const gonio::brdf_table& truth, const std::vector<gonio::half_difference>& directions,
+/// Values in some directions, each channel with noise relative to it.
+gonio::sample_set measure(const judged_material& material, const std::vector<gonio::half_difference>& directions,
                           double noise, std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   gonio::sample_set samples;
   for (const gonio::half_difference& angles : directions) {
-    gonio::rgb value = truth.at(gonio::locate(truth.cells(), angles));
+    gonio::rgb value = material.measured(gonio::to_directions(angles));
     for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
     samples.push_back({angles, value, 1.0});
   }
   return samples;
+}
+
+/// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
+std::vector<std::size_t> corrupt_some(gonio::sample_set& samples, std::size_t count, std::uint64_t seed) {
+  const std::vector<std::size_t> chosen = gonio::random_choice(samples.size(), count, seed);
+  for (std::size_t i = 0; i < chosen.size(); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
+  return chosen;
 }
 
 class experiment {
@@ -161,7 +170,8 @@ class experiment {
         json by_material = json::object();
         for (const judged_material& material : materials) {
           const json key{method,       where.name,         material.name, given_.components,
-                         given_.noise, given_.repetitions, given_.set,    given_.surrogates};
+                         given_.noise, given_.repetitions, given_.set,    given_.surrogates,
+                         given_.wrong};
           if (!results_.find(key)) {
             bar_.draw(where.name + " " + method + " " + material.name, 0.0);
             results_.add(key, errors_of(material, where, method));
@@ -176,11 +186,21 @@ class experiment {
  private:
   [[nodiscard]] std::vector<judged_material> judged() const {
     std::vector<judged_material> all;
-    const gonio::material_set& set = given_.surrogates ? library_.first() : library_.measured();
-    const auto& tests = gonio::nielsen_test_materials();
-    for (std::size_t i = 0; i < set.names.size(); ++i) {
-      if (given_.surrogates && std::ranges::find(tests, set.names[i]) == tests.end()) continue;
-      all.push_back({set.names[i], given_.surrogates ? "" : family_of(set.names[i]), set.table(i)});
+    const auto measured_by = [](auto f) {
+      return [f](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
+    };
+    if (given_.surrogates) {
+      const auto known = gonio::io::read_networks(given_.networks.front());
+      for (const std::string& name : gonio::nielsen_test_materials()) {
+        const std::size_t i = library_.first().find(name);
+        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i])});
+      }
+      return all;
+    }
+    for (const auto& [name, path] : gonio::io::list_rgl_directory(given_.materials)) {
+      const gonio::material_set& set = library_.measured();
+      all.push_back(
+          {name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material)});
     }
     return all;
   }
@@ -194,39 +214,58 @@ class experiment {
       return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;
     });
     const auto metric = gonio::log_relative::to_median_of(set, given_.threads);
-    return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, given_.components, given_.threads))
-        .first->second;
+    const std::size_t components = everything ? given_.components : given_.first_components;
+    return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, components, given_.threads)).first->second;
   }
 
-  gonio::brdf_table estimate(const std::string& method, const gonio::sample_set& samples, const std::string& family) {
+  /// A table, and which samples were left out, the worst first.
+  struct estimated {
+    gonio::brdf_table table;
+    std::vector<std::size_t> left_out = {};
+  };
+
+  estimated estimate(const std::string& method, const gonio::sample_set& samples, const std::string& family) {
     const gonio::log_relative_pca& known = prior(method != "first", family);
-    if (method == "discrepancy")
-      return gonio::discrepancy_decomposition{known, {.noise = given_.noise}, given_.threads}.fit(samples).tabulate(
-          library_.cells(), given_.threads);
-    const double eta = given_.noise > 0.0 ? gonio::eta_of_noise(known, samples, given_.noise, given_.threads)
-                                          : gonio::eta_of_unknown_noise(known, samples, 0.3, given_.threads);
-    return gonio::decomposition{known, gonio::tikhonov{eta}, given_.threads}.fit(samples).tabulate(library_.cells(),
-                                                                                                   given_.threads);
+    if (method == "first" || method == "all") {
+      const double eta = given_.noise > 0.0 ? gonio::eta_of_noise(known, samples, given_.noise, given_.threads)
+                                            : gonio::eta_of_unknown_noise(known, samples, 0.3, given_.threads);
+      const gonio::decomposition components{known, gonio::tikhonov{eta}, given_.threads};
+      return {components.fit(samples).tabulate(library_.cells(), given_.threads)};
+    }
+    const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
+    gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
+    std::vector<std::size_t> left_out;
+    if (method == "rejecting" && located.size() <= 1000) {
+      const gonio::sorted_samples sorted = gonio::reject_outlying(both, located);
+      for (const gonio::outlying_sample& out : sorted.left_out) left_out.push_back(out.number);
+      located = located.subset(sorted.kept);
+    }
+    return {both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
   }
 
   json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
-    double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0;
+    double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
     const auto times = static_cast<double>(where.sets.size());
     for (std::size_t r = 0; r < where.sets.size(); ++r) {
-      const gonio::sample_set samples = measure(material.truth, where.sets[r], given_.noise, r);
-      const gonio::comparison found =
-          gonio::compare(estimate(method, samples, material.family), material.truth, metric_, judge_, given_.threads);
-      rms += found.mapped_rms.mean() / times;
-      environment += found.delta_e_env / times;
-      lights += found.delta_e_lights / times;
-      low = std::min(low, found.peak_ratio.minCoeff());
-      high = std::max(high, found.peak_ratio.maxCoeff());
+      gonio::sample_set samples = measure(material, where.sets[r], given_.noise, r);
+      const std::vector<std::size_t> wrong = corrupt_some(samples, given_.wrong, r + 100);
+      const estimated found = estimate(method, samples, material.family);
+      const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);
+      rms += errors.mapped_rms.mean() / times;
+      environment += errors.delta_e_env / times;
+      lights += errors.delta_e_lights / times;
+      low = std::min(low, errors.peak_ratio.minCoeff());
+      high = std::max(high, errors.peak_ratio.maxCoeff());
+      left_out += static_cast<double>(found.left_out.size()) / times;
+      const auto is_first = [&](std::size_t i) {
+        const auto end = found.left_out.begin() + std::min(std::ssize(found.left_out), std::ssize(wrong));
+        return std::find(found.left_out.begin(), end, i) != end;
+      };
+      named += std::ranges::all_of(wrong, is_first) ? 1.0 / times : 0.0;
     }
-    return {{"mapped_rms", rms},
-            {"delta_e_env", environment},
-            {"delta_e_lights", lights},
-            {"least_peak", low},
-            {"largest_peak", high}};
+    return {{"mapped_rms", rms},   {"delta_e_env", environment}, {"delta_e_lights", lights},
+            {"least_peak", low},   {"largest_peak", high},       {"named", named},
+            {"left_out", left_out}};
   }
 
   const real_materials_options& given_;
@@ -242,8 +281,10 @@ void print(const real_materials_options& given, const json& rows) {
   std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials, " << given.repetitions
             << " random sets each";
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
-  std::cout << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest |\n"
-               "|---|---|---|---|---|---|\n";
+  if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
+  std::cout
+      << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | left out | "
+         "wrong ones first |\n|---|---|---|---|---|---|---|---|\n";
   for (const json& row : rows.elements()) {
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, errors] : row["materials"].items())
@@ -255,7 +296,9 @@ void print(const real_materials_options& given, const json& rows) {
     std::cout << "| " << row["sampling"].text() << " | " << row["method"].text() << " | "
               << mean_and_median("mapped_rms", 3) << " | " << mean_and_median("delta_e_env", 2) << " | "
               << mean_and_median("delta_e_lights", 2) << " | " << fixed(std::ranges::min(values["least_peak"]), 2)
-              << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " |\n";
+              << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " | "
+              << fixed(distribution(values["left_out"]).mean, 2) << " | "
+              << (given.wrong == 0 ? "-" : fixed(100.0 * distribution(values["named"]).mean, 0) + " %") << " |\n";
   }
 }
 
@@ -276,11 +319,17 @@ void add_real_materials(command& app) {
   command
       .add_option("--methods", options->methods,
                   "first: components of the first file of networks; all: of all networks and the other measured "
-                  "materials; discrepancy: the same and a discrepancy")
-      .check(check::one_of({"first", "all", "discrepancy"}))
+                  "materials; discrepancy: the same and a discrepancy; rejecting: and without samples that the others "
+                  "contradict, which is gonio reconstruct's default")
+      .check(check::one_of({"first", "all", "discrepancy", "rejecting"}))
       .capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors")
+  command.add_option("--components", options->components, "Components of the priors of all materials")
       .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--first-components", options->first_components, "Components of the prior of the first file")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--wrong", options->wrong, "So many samples, at random, are ten times too bright or too dark")
       .capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())

@@ -26,6 +26,11 @@ struct correlation_lengths {
   double azimuth = 0.4;
 };
 
+/// k of all pairs of angles, for an amplitude of 1: n x n. Throws gonio::error if an angle is not finite or a length is
+/// not positive. O(n^2).
+[[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                     const correlation_lengths& lengths = {});
+
 /// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type whose copies
 /// share their centres.
 ///

@@ -11,6 +11,7 @@
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
+#include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <Eigen/Core>
@@ -69,18 +70,51 @@ class discrepancy_decomposition {
 
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] fitted_brdf<basis_type> fit_located(located_samples samples) const {
-    if (model_.noise != 0.0) {
-      const mapped_noise noise = map_noise(prior_, samples.locations, model_.noise, threads_);
-      samples.weights.array().colwise() *= model_.error_variance / (model_.error_variance + noise.variance.array());
-    }
+    samples.weights.array().colwise() *= model_.error_variance / error_variances(samples);
     const basis_type functions = functions_for(samples);
     const basis_equations equations(functions, std::move(samples), threads_);
     return {functions, equations.solve(tikhonov(observations() * model_.error_variance))};
   }
 
+  /// The covariance of the samples, errors included, in the metric's domain: n x n. A sample's weight, the mean of its
+  /// channels', divides the variance of its error. O(n^2 k).
+  [[nodiscard]] Eigen::MatrixXd covariance(const located_samples& samples) const {
+    const auto n = static_cast<Eigen::Index>(samples.size());
+    Eigen::MatrixXd rows(n, static_cast<Eigen::Index>(prior_.size()));
+    for (Eigen::Index i = 0; i < n; ++i) rows.row(i) = row_at(prior_, samples.locations.begin()[i]);
+    Eigen::MatrixXd all = product_with_transpose(rows) / observations();
+    all += model_.variance * discrepancy_covariance(angles_of(samples), model_.lengths);
+    const Eigen::ArrayXd errors = error_variances(samples) / samples.weights.rowwise().mean().array();
+    for (Eigen::Index i = 0; i < n; ++i) all(i, i) += errors[i];
+    return all;
+  }
+
+  /// The samples in the metric's domain, less the prior's mean: n x 3.
+  [[nodiscard]] Eigen::MatrixXd mapped_values(const located_samples& samples) const {
+    Eigen::MatrixXd mapped = samples.values;
+    for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+      const location& at = samples.locations.begin()[i];
+      const double offset = offset_at(prior_, at);
+      for (Eigen::Index c = 0; c < mapped.cols(); ++c)
+        mapped(i, c) = prior_.metric().forward(mapped(i, c), at) - offset;
+    }
+    return mapped;
+  }
+
  private:
   /// 3 a material.
   [[nodiscard]] double observations() const noexcept { return static_cast<double>(prior_.coefficients().rows()); }
+
+  [[nodiscard]] static std::vector<half_difference> angles_of(const located_samples& samples) {
+    std::vector<half_difference> angles;
+    for (const location& at : samples.locations) angles.push_back(at.angles);
+    return angles;
+  }
+
+  /// Of each sample's error: the model's, and what its noise is in the metric's domain.
+  [[nodiscard]] Eigen::ArrayXd error_variances(const located_samples& samples) const {
+    return model_.error_variance + map_noise(prior_, samples.locations, model_.noise, threads_).variance.array();
+  }
 
   [[nodiscard]] basis_type functions_for(const located_samples& samples) const {
     const auto most = static_cast<std::size_t>(model_.most_centres);

@@ -29,36 +29,51 @@ namespace detail {
   return std::exp(-0.5 * squared_distance);
 }
 
-/// Of all pairs of places. A small part of the diagonal more keeps it positive definite where places coincide.
-[[nodiscard]] GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(
-    const Eigen::Matrix<double, 4, Eigen::Dynamic>& places) {
-  constexpr double least_eigenvalue = 1e-7;
+using discrepancy_places = Eigen::Matrix<double, 4, Eigen::Dynamic>;
+
+/// Where angles are, a column each. Throws gonio::error if one is not finite, or for impossible lengths.
+[[nodiscard]] GONIO_INLINE discrepancy_places places_of(std::span<const half_difference> angles,
+                                                        const correlation_lengths& lengths) {
+  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
+  if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
+    refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
+            lengths.theta_d, " and ", lengths.azimuth});
+  discrepancy_places places(4, std::ssize(angles));
+  Eigen::Index column = 0;
+  for (const half_difference& each : angles) {
+    places.col(column) = discrepancy_place(each, lengths);
+    if (!places.col(column).allFinite()) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
+    ++column;
+  }
+  return places;
+}
+
+[[nodiscard]] GONIO_INLINE Eigen::MatrixXd covariance_of(const discrepancy_places& places) {
   Eigen::MatrixXd all(places.cols(), places.cols());
   for (Eigen::Index j = 0; j < all.cols(); ++j)
     for (Eigen::Index i = j; i < all.rows(); ++i)
-      all(i, j) = all(j, i) =
-          squared_exponential((places.col(i) - places.col(j)).squaredNorm()) + (i == j ? least_eigenvalue : 0.0);
+      all(i, j) = all(j, i) = squared_exponential((places.col(i) - places.col(j)).squaredNorm());
   return all;
 }
 
 }  // namespace detail
 
+GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                    const correlation_lengths& lengths) {
+  return detail::covariance_of(detail::places_of(angles, lengths));
+}
+
 GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
                                                           const correlation_lengths& lengths) {
-  const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   if (centres.empty()) refuse("a discrepancy needs at least one centre");
-  if (!positive(amplitude)) refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
-  if (!positive(lengths.theta_h) || !positive(lengths.theta_d) || !positive(lengths.azimuth))
-    refuse({"the correlation lengths of a discrepancy must be positive and finite, not ", lengths.theta_h, ", ",
-            lengths.theta_d, " and ", lengths.azimuth});
-  place_columns places(4, std::ssize(centres));
-  Eigen::Index column = 0;
-  for (const half_difference& centre : centres) {
-    places.col(column) = detail::discrepancy_place(centre, lengths);
-    if (!places.col(column).allFinite()) refuse({"centre ", column + 1, " of a discrepancy is not finite"});
-    ++column;
-  }
-  cholesky factors(detail::discrepancy_covariance(places));
+  if (!(amplitude > 0.0 && std::isfinite(amplitude)))
+    refuse({"the amplitude of a discrepancy must be positive and finite, not ", amplitude});
+  place_columns places = detail::places_of(centres, lengths);
+  Eigen::MatrixXd among = detail::covariance_of(places);
+  // A small part more keeps it positive definite where places coincide.
+  constexpr double least_eigenvalue = 1e-7;
+  for (Eigen::Index i = 0; i < among.cols(); ++i) among(i, i) += least_eigenvalue;
+  cholesky factors(among);
   if (!factors.positive_definite()) refuse("the covariance of a discrepancy's centres is not positive definite");
   shared_ = std::make_shared<const stored>(stored{std::move(places), std::move(factors), amplitude, lengths});
 }

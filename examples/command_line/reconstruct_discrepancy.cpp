@@ -1,0 +1,116 @@
+/// gonio reconstruct --method pca: components and a discrepancy, and samples that the others contradict.
+
+#include "fixed.hpp"
+#include "measures_as_json.hpp"
+#include "reconstruct_methods.hpp"
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/outlying_samples.hpp>
+#include <gonio/io/file.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+
+namespace cli {
+
+namespace {
+
+/// Samples are looked through for wrong ones up to here: beyond, a few wrong ones hardly matter, and many are
+/// --method correction's.
+constexpr std::size_t most_looked_through = 1000;
+
+/// Which samples of the file count, by their positions.
+std::vector<std::size_t> counting(const gonio::sample_set& samples) {
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].weight.counts()) numbers.push_back(i);
+  return numbers;
+}
+
+/// Green, which most of the luminance is, with as many digits as are known.
+std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
+
+/// "sample 6 disagrees, left out: measured 2.09, the others say 0.140 (0.110 to 0.170)".
+std::string told(const gonio::outlying_sample& out, std::size_t number) {
+  const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
+  return "sample " + std::to_string(number + 1) + " disagrees, left out: measured " + reflectance(out.measured.y()) +
+         ", the others say " + reflectance(out.predicted.y()) + " (" + reflectance(low) + " to " + reflectance(high) +
+         ", green)\n";
+}
+
+/// Of all samples that count: what was measured, what all others say, and by how much it is off.
+void write_residuals(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
+                     const gonio::located_samples& located, const gonio::left_out_predictions& others,
+                     const std::vector<std::size_t>& numbers, const std::vector<bool>& left_out) {
+  std::string text = "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
+  const Eigen::VectorXd disagreement = others.disagreement();
+  for (std::size_t i = 0; i < located.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    const gonio::location& at = located.locations[i];
+    const double offset = gonio::offset_at(prior, at);
+    text += std::to_string(numbers[i] + 1);
+    const auto append = [&](double value) {
+      std::array<char, 40> digits{};
+      std::snprintf(digits.data(), digits.size(), ",%.6g", value);
+      text += digits.data();
+    };
+    for (Eigen::Index c = 0; c < 3; ++c) append(located.values(row, c));
+    for (Eigen::Index c = 0; c < 3; ++c)
+      append(std::max(prior.metric().inverse(others.mean(row, c) + offset, at), 0.0));
+    append(std::expm1(others.deviation[row]));
+    append(disagreement[row]);
+    text += left_out[i] ? ",1\n" : ",0\n";
+  }
+  gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
+}
+
+}  // namespace
+
+reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                            const gonio::sample_set& samples) {
+  const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
+  const gonio::discrepancy_decomposition estimator{prior, model, options.threads};
+  gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
+  const std::vector<std::size_t> numbers = counting(samples);
+  const bool looks = located.size() <= most_looked_through;
+  if (!options.residuals.empty() && !looks)
+    gonio::refuse("--residuals needs at most " + std::to_string(most_looked_through) + " samples, not " +
+                  std::to_string(located.size()));
+
+  // Leave out what the others contradict.
+  gonio::sorted_samples sorted;
+  std::string warnings;
+  json left_out = json::array();
+  std::vector<bool> is_left_out(located.size(), false);
+  if (looks && !options.keeps_all) sorted = gonio::reject_outlying(estimator, located);
+  for (const gonio::outlying_sample& out : sorted.left_out) {
+    is_left_out[out.number] = true;
+    warnings += told(out, numbers[out.number]);
+    left_out.push_back({{"sample", numbers[out.number] + 1},
+                        {"measured", per_channel(out.measured)},
+                        {"others", per_channel(out.predicted)},
+                        {"mapped_deviation", out.deviation},
+                        {"disagreement", out.disagreement}});
+  }
+  if (!options.residuals.empty())
+    write_residuals(options.residuals, prior, located,
+                    gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)), numbers,
+                    is_left_out);
+  if (!sorted.left_out.empty()) located = located.subset(sorted.kept);
+
+  // Fit the rest.
+  const auto fitted = estimator.fit_located(located);
+  reconstruction result{fitted.tabulate(gonio::valid_cells(), options.threads)};
+  const gonio::rgb residual = fitted.report()->residual.array() / std::sqrt(static_cast<double>(located.size()));
+  result.details = {{"mapped_residual_rms", per_channel(residual)},
+                    {"kkt_residual", per_channel(fitted.report()->kkt_residual.array())},
+                    {"discrepancy", options.discrepancy},
+                    {"left_out", left_out}};
+  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
+                    ' ' + fixed(residual.z(), 3);
+  result.warnings = std::move(warnings);
+  return result;
+}
+
+}  // namespace cli

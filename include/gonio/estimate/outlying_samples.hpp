@@ -1,0 +1,126 @@
+#pragma once
+/// Samples that disagree with the others: each is predicted from all others, by the prior and its discrepancy, in
+/// closed form. Leave-one-out of a Gaussian process: Rasmussen and Williams, "Gaussian Processes for Machine Learning",
+/// 2006, section 5.4.2, Eq. 5.10-5.12. For few samples; of thousands `robust_reconstruction` weighs each.
+
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/located_samples.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace gonio {
+
+/// What the other samples say of each of n, in the metric's domain.
+struct left_out_predictions {
+  Eigen::MatrixXd mapped;     ///< n x 3: the samples themselves
+  Eigen::MatrixXd mean;       ///< n x 3: each as predicted from all others
+  Eigen::VectorXd deviation;  ///< n: standard deviation of the prediction and of the sample together
+
+  /// The mean square, over the channels, of what a sample is off in deviations: about 1 if the model is right.
+  [[nodiscard]] Eigen::VectorXd disagreement() const {
+    return (mapped - mean).rowwise().squaredNorm().array() / deviation.array().square() /
+           static_cast<double>(mapped.cols());
+  }
+};
+
+/// Given the covariance of the samples, errors included, n x n, and their mapped values less the prior's mean, n x 3.
+/// Throws gonio::error if the covariance is not positive definite. O(n^3).
+[[nodiscard]] left_out_predictions predict_left_out(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values);
+
+/// A sample that was left out, for people: which of the samples that count, and the others' prediction.
+struct outlying_sample {
+  std::size_t number = 0;   ///< its position among the located samples
+  rgb measured;             ///< sr^-1
+  rgb predicted;            ///< sr^-1, from those that were kept
+  double deviation = 0.0;   ///< of the prediction, in the metric's domain: relative where that is a logarithm
+  double disagreement = 0;  ///< see `left_out_predictions`, over that of the bulk of the samples
+};
+
+/// When a sample is left out.
+struct rejection_rule {
+  /// Of the disagreement, over that of the bulk: 12 is where two wrong of 20 samples of real materials do least harm
+  /// and clean ones lose nothing (docs/results/real-materials.md).
+  double threshold = 12.0;
+  /// At most this share of the samples, and at least one.
+  double largest_share = 0.2;
+};
+
+/// Which of the samples that count were kept, and which were left out, the worst first.
+struct sorted_samples {
+  std::vector<std::size_t> kept;
+  std::vector<outlying_sample> left_out;
+};
+
+namespace detail {
+
+/// The worst first: leaves out one sample at a time, while the worst of those that are left disagrees by more than the
+/// threshold. `covariance` is that of all samples.
+struct rejection_step {
+  std::size_t number = 0;
+  double disagreement = 0.0;
+};
+[[nodiscard]] std::vector<rejection_step> reject(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
+                                                 const rejection_rule& rule);
+
+/// A row of predictions for each of some samples from all others than these.
+[[nodiscard]] left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
+                                                       const std::vector<std::size_t>& left_out);
+
+}  // namespace detail
+
+/// Sorts samples, one after the other, by whether the rest of them, the prior and its discrepancy can explain them.
+/// Disagreements are told in units of the bulk's (their median, if it is above what is expected): where the model is
+/// poor all samples disagree a little, and none is an outlier. O(n^3 + n^2 (k + rejected n)). Throws gonio::error for
+/// more than 5,000 samples.
+///
+/// ```cpp
+/// const auto located = gonio::locate_samples(prior.cells(), samples);
+/// const auto sorted = gonio::reject_outlying(gonio::discrepancy_decomposition{prior}, located);
+/// const auto paint = gonio::discrepancy_decomposition{prior}.fit_located(located.subset(sorted.kept));
+/// ```
+template <error_metric Metric>
+[[nodiscard]] sorted_samples reject_outlying(const discrepancy_decomposition<Metric>& estimator,
+                                             const located_samples& samples, const rejection_rule& rule = {}) {
+  constexpr std::size_t most_samples = 5000;
+  if (samples.size() > most_samples)
+    refuse({"outlying samples are sought among at most ", most_samples, ", not among ", samples.size()});
+  const auto& metric = estimator.prior().metric();
+  const Eigen::MatrixXd covariance = estimator.covariance(samples);
+  const Eigen::MatrixXd values = estimator.mapped_values(samples);
+  const std::vector<detail::rejection_step> steps = detail::reject(covariance, values, rule);
+
+  // Say what those that were kept make of those that were not.
+  std::vector<bool> rejected(samples.size(), false);
+  std::vector<std::size_t> numbers;
+  for (const detail::rejection_step& step : steps) {
+    rejected[step.number] = true;
+    numbers.push_back(step.number);
+  }
+  const left_out_predictions others = detail::predict_from_others(covariance, values, numbers);
+  sorted_samples sorted;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (!rejected[i]) sorted.kept.push_back(i);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const location& at = samples.locations[steps[i].number];
+    const auto row = static_cast<Eigen::Index>(i), sample = static_cast<Eigen::Index>(steps[i].number);
+    const double offset = offset_at(estimator.prior(), at);
+    outlying_sample out{.number = steps[i].number,
+                        .measured = samples.values.row(sample).head<3>().transpose().array(),
+                        .predicted = rgb::Zero(),
+                        .deviation = others.deviation[row],
+                        .disagreement = steps[i].disagreement};
+    for (Eigen::Index c = 0; c < 3; ++c)
+      out.predicted[c] = std::max(metric.inverse(others.mean(row, c) + offset, at), 0.0);
+    sorted.left_out.push_back(out);
+  }
+  return sorted;
+}
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/outlying_samples.ipp>
+#endif
