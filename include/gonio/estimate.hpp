@@ -24,6 +24,7 @@
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
+#include <gonio/estimate/posterior.hpp>
 #include <gonio/estimate/pull_push.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>

@@ -31,6 +31,11 @@ struct correlation_lengths {
 [[nodiscard]] Eigen::MatrixXd discrepancy_covariance(std::span<const half_difference> angles,
                                                      const correlation_lengths& lengths = {});
 
+/// k of angles with those of one place.
+[[nodiscard]] Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                     const half_difference& place,
+                                                     const correlation_lengths& lengths = {});
+
 /// The covariance and the functions of a discrepancy, over any cells and for any metric. A value type whose copies
 /// share their centres.
 ///

@@ -60,6 +60,8 @@ class discrepancy_decomposition {
 
   [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
   [[nodiscard]] const discrepancy_model& model() const noexcept { return model_; }
+  /// m: 3 for each material of the prior.
+  [[nodiscard]] double observations() const noexcept { return static_cast<double>(prior_.coefficients().rows()); }
 
   /// n samples, k components and c centres: O(n^2 (k + c)) if they are all centres, O(n (k + c)^2) if not. Throws
   /// gonio::error for unusable samples.
@@ -102,9 +104,6 @@ class discrepancy_decomposition {
   }
 
  private:
-  /// 3 a material.
-  [[nodiscard]] double observations() const noexcept { return static_cast<double>(prior_.coefficients().rows()); }
-
   [[nodiscard]] static std::vector<half_difference> angles_of(const located_samples& samples) {
     std::vector<half_difference> angles;
     for (const location& at : samples.locations) angles.push_back(at.angles);

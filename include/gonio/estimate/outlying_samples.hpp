@@ -41,9 +41,9 @@ struct outlying_sample {
 
 /// When a sample is left out.
 struct rejection_rule {
-  /// Of the disagreement, over that of the bulk: 12 is where two wrong of 20 samples of real materials do least harm
-  /// and clean ones lose nothing (docs/results/real-materials.md).
-  double threshold = 12.0;
+  /// Of the disagreement, over that of the bulk, for 20 samples; it grows with the root of their number, as the largest
+  /// disagreement of clean samples does on real materials (docs/results/real-materials.md).
+  double threshold = 16.0;
   /// At most this share of the samples, and at least one.
   double largest_share = 0.2;
 };

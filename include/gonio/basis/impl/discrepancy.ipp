@@ -63,6 +63,15 @@ GONIO_INLINE Eigen::MatrixXd discrepancy_covariance(std::span<const half_differe
   return detail::covariance_of(detail::places_of(angles, lengths));
 }
 
+GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_difference> angles,
+                                                    const half_difference& place, const correlation_lengths& lengths) {
+  const Eigen::Vector4d here = detail::discrepancy_place(place, lengths);
+  Eigen::VectorXd with(std::ssize(angles));
+  for (Eigen::Index i = 0; i < with.size(); ++i)
+    with[i] = detail::squared_exponential((detail::discrepancy_place(angles.begin()[i], lengths) - here).squaredNorm());
+  return with;
+}
+
 GONIO_INLINE discrepancy_functions::discrepancy_functions(std::span<const half_difference> centres, double amplitude,
                                                           const correlation_lengths& lengths) {
   if (centres.empty()) refuse("a discrepancy needs at least one centre");

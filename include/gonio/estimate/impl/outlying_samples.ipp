@@ -75,13 +75,14 @@ GONIO_INLINE std::vector<rejection_step> reject(const Eigen::MatrixXd& covarianc
   const std::vector<Eigen::Index> channels = numbers_up_to(values.cols());
   const auto most =
       std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rule.largest_share * static_cast<double>(kept.size())), 1);
+  const double threshold = rule.threshold * std::sqrt(std::max(static_cast<double>(kept.size()) / 20.0, 1.0));
   Eigen::MatrixXd inverse = inverse_of(covariance);
   std::vector<rejection_step> steps;
   while (std::ssize(steps) < most && kept.size() > 2) {
     const Eigen::VectorXd disagreement = predict_by_inverse(inverse, part_of(values, kept, channels)).disagreement();
     Eigen::Index worst = 0;
     const double largest = disagreement.maxCoeff(&worst) / bulk_disagreement(disagreement);
-    if (!(largest > rule.threshold)) break;
+    if (!(largest > threshold)) break;
     steps.push_back({static_cast<std::size_t>(kept.begin()[worst]), largest});
     // The inverse of the covariance without a row and column is the Schur complement of the whole inverse.
     std::vector<Eigen::Index> others = numbers_up_to(inverse.rows());

@@ -1,0 +1,128 @@
+#pragma once
+/// How sure an estimate by prior and discrepancy is: the posterior of the Gaussian process that it is the mean of.
+/// Rasmussen and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.24. Its scale is learned from the
+/// samples, as the variance of normal numbers is; how often the intervals hold on measured materials whose families the
+/// prior has not seen: docs/results/real-materials.md.
+
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/solve/cholesky.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A reflectance with this probability lies between two values, sr^-1.
+struct reflectance_interval {
+  rgb low, high;
+};
+
+/// Probabilities that intervals are offered for, and how many deviations they reach to either side: found on measured
+/// materials, whose errors have heavier tails than normal ones.
+enum class confidence_level { sixty_eight_percent, ninety_five_percent };
+
+[[nodiscard]] constexpr double deviations_of(confidence_level level) noexcept {
+  return level == confidence_level::sixty_eight_percent ? 0.7 : 1.96;
+}
+
+/// The deviations of an estimate, given where was measured and what. A value type whose copies share what they hold.
+///
+/// With the covariance K of the samples and k(x) of a place with them, the variance of the mapped value there is
+/// s (k(x, x) + error_variance - k(x)' K^-1 k(x)). The scale s tells how badly the model explains the samples y,
+/// s = (10 + y' K^-1 y) / (10 + n), the mean over channels: the ten are what is known before.
+template <error_metric Metric>
+class posterior {
+ public:
+  /// Of more samples, so many at random are looked at: what more of them know is left out, deviations are too large.
+  static constexpr std::size_t most_samples = 500;
+
+  /// O(n^2 (n + k)) for n samples and k components. Throws gonio::error for samples that cannot be.
+  posterior(discrepancy_decomposition<Metric> estimator, const located_samples& samples)
+      : estimator_(std::move(estimator)), shared_(std::make_shared<const stored>(estimator_, some_of(samples))) {}
+
+  /// Of all mapped values relative to what the prior, the discrepancy and the errors were expected to be.
+  [[nodiscard]] double scale() const noexcept { return shared_->scale; }
+
+  /// The standard deviation of a value in the metric's domain; where that is a logarithm, relative to the value. O(n (n
+  /// + k)).
+  [[nodiscard]] double deviation(const location& at) const {
+    const Eigen::RowVectorXd row = row_at(estimator_.prior(), at);
+    const double observations = estimator_.observations();
+    Eigen::VectorXd with = thin_product(shared_->rows, row.transpose()) / observations;
+    with +=
+        estimator_.model().variance * discrepancy_covariance(shared_->places, at.angles, estimator_.model().lengths);
+    const double before =
+        row.squaredNorm() / observations + estimator_.model().variance + estimator_.model().error_variance;
+    shared_->factors.solve_lower_in_place(with.data());
+    return std::sqrt(shared_->scale * std::max(before - with.squaredNorm(), 0.0));
+  }
+
+  /// Around an estimate, each channel on its own; never below zero.
+  [[nodiscard]] reflectance_interval interval(const rgb& estimate, const location& at, confidence_level level) const {
+    const double reach = deviations_of(level) * deviation(at);
+    const auto moved = [&](double by) {
+      const auto& metric = estimator_.prior().metric();
+      rgb value;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        value[c] = std::max(metric.inverse(metric.forward(estimate[c], at) + by, at), 0.0);
+      return value;
+    };
+    return {moved(-reach), moved(reach)};
+  }
+
+  /// Around the value of a fit in two directions, which are above the horizon.
+  template <brdf Fit>
+  [[nodiscard]] reflectance_interval interval(const Fit& fit, const direction& wi, const direction& wo,
+                                              confidence_level level) const {
+    return interval(fit(wi, wo), locate(estimator_.prior().cells(), to_half_difference(wi, wo)), level);
+  }
+
+  /// The deviations at all of some cells. O(n (n + k)) for each: choose a coarse grid, deviations are smooth.
+  [[nodiscard]] std::vector<double> deviations(const valid_cells& cells, thread_count threads = {}) const {
+    std::vector<double> all(cells.size());
+    for_each_index(
+        cells.size(), 64,
+        [&](std::size_t cell) { all[cell] = deviation(locate(estimator_.prior().cells(), cells.angles(cell))); },
+        threads);
+    return all;
+  }
+
+ private:
+  struct stored {
+    stored(const discrepancy_decomposition<Metric>& estimator, const located_samples& samples)
+        : rows(samples.size(), estimator.prior().size()), factors(estimator.covariance(samples)) {
+      if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        rows.row(i) = row_at(estimator.prior(), samples.locations.begin()[i]);
+        places.push_back(samples.locations.begin()[i].angles);
+      }
+      const Eigen::MatrixXd whitened = factors.solve_lower(estimator.mapped_values(samples));
+      constexpr double before = 10.0;
+      const auto n = static_cast<double>(rows.rows()), channels = static_cast<double>(whitened.cols());
+      scale = (before + whitened.squaredNorm() / channels) / (before + n);
+    }
+
+    Eigen::MatrixXd rows;  ///< the prior's functions at the samples, n x k
+    std::vector<half_difference> places;
+    cholesky factors;
+    double scale = 1.0;
+  };
+
+  [[nodiscard]] static located_samples some_of(const located_samples& samples) {
+    if (samples.size() <= most_samples) return samples;
+    return samples.subset(random_choice(samples.size(), most_samples, 0));
+  }
+
+  discrepancy_decomposition<Metric> estimator_;
+  std::shared_ptr<const stored> shared_;
+};
+
+template <error_metric Metric>
+posterior(discrepancy_decomposition<Metric>, const located_samples&) -> posterior<Metric>;
+
+}  // namespace gonio
