@@ -77,6 +77,11 @@ template <sample_range Samples>
   return found;
 }
 
+#if defined(GONIO_COMPILED)
+extern template located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
+                                               thread_count threads);
+#endif
+
 /// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
                                              thread_count threads = {});

@@ -24,9 +24,7 @@ struct appearance_difference {
 class appearance_metric {
  public:
   /// Prepares the spheres; takes the time and memory of two `sphere_operator`s.
-  explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {})
-      : lights_(cells, render::two_lights(), size, sphere_delta_e::middle_grey, threads),
-        environment_(cells, render::environment_lighting(), size, sphere_delta_e::middle_grey, threads) {}
+  explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 

@@ -6,6 +6,7 @@
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
+#include <gonio/metric/log_relative.hpp>
 
 #include <limits>
 
@@ -111,6 +112,11 @@ template <error_metric Metric>
   }
   return result;
 }
+
+#if defined(GONIO_COMPILED)
+extern template comparison compare(const brdf_table& estimate, const brdf_table& truth, const log_relative& metric,
+                                   const appearance_metric& judge, thread_count threads);
+#endif
 
 }  // namespace gonio
 

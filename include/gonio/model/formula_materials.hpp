@@ -50,6 +50,10 @@ namespace detail {
 
 }  // namespace gonio::model
 
-#if !defined(GONIO_COMPILED)
+#if defined(GONIO_COMPILED)
+namespace gonio {
+extern template brdf_table tabulate(const model::formula_brdf& f, const valid_cells& cells, thread_count threads);
+}  // namespace gonio
+#else
 #include <gonio/model/impl/formula_materials.ipp>
 #endif
