@@ -4,10 +4,10 @@
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
 #include <gonio/io/image.hpp>
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/shape_model.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
