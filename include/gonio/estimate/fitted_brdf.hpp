@@ -109,7 +109,7 @@ class fitted_brdf {
   }
 
   /// The three channels at a location, from one row if they share their basis.
-  [[nodiscard]] rgb computed_value(const location& at) const noexcept {
+  [[nodiscard]] rgb computed_value(const location& at) const noexcept requires computed {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
