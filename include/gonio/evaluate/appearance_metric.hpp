@@ -35,7 +35,7 @@ class appearance_metric {
   /// What an observer sees of a table. Throws gonio::error if it is over other cells.
   [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;
 
-  /// Mean difference of two appearances of the same judge: keep a truth's to compare many estimates with it.
+  /// Mean difference of two appearances of the same metric: keep a truth's to compare many estimates with it.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
     return {sphere_delta_e::difference(a.lights, b.lights), sphere_delta_e::difference(a.environment, b.environment)};
   }
