@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <ranges>
+#include <type_traits>
 #include <vector>
 
 namespace gonio {
@@ -84,6 +85,17 @@ void require_usable(const Samples& samples) {
   std::size_t number = 0;
   for (const sample& s : samples) detail::require_usable_sample(s, ++number);
   if (number == 0) detail::refuse_no_samples();
+}
+
+/// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
+/// `weight` of type `channel_weights`.
+template <std::ranges::forward_range Measurements>
+[[nodiscard]] bool weigh_channels_apart(const Measurements& measurements) {
+  using value = std::ranges::range_value_t<Measurements>;
+  using measurement = std::conditional_t<sample_range<Measurements>, sample, value>;
+  for (const measurement& each : measurements)
+    if (!each.weight.is_uniform()) return true;
+  return false;
 }
 
 }  // namespace gonio
