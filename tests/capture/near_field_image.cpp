@@ -92,49 +92,49 @@ TEST_CASE("samples are the disc's pixels in their order, with the light that was
 TEST_CASE("a grey Lambertian of albedo 0.5 under irradiance 2 has radiance 2 cos / (2 pi)") {
   auto setup = setup_at(60.0, 0.0, 0.0);
   setup.light.irradiance = rgb::Constant(2.0);
-  const image image = gonio::uniform_image(60, 80, rgb::Constant(0.5 / std::numbers::pi));
-  for (const gonio::sample& s : near_field_samples(image, setup))
+  const image picture = gonio::uniform_image(60, 80, rgb::Constant(0.5 / std::numbers::pi));
+  for (const gonio::sample& s : near_field_samples(picture, setup))
     for (const double channel : s.value) REQUIRE(channel == doctest::Approx(0.5 / std::numbers::pi));
 }
 
 TEST_CASE("the region is the disc, the window, or both") {
   auto setup = ordinary_setup();
-  const image image = lab::photograph(paint, {.radius = 3.0}, setup);
-  const std::size_t disc = near_field_samples(image, setup).size();
+  const image picture = lab::photograph(paint, {.radius = 3.0}, setup);
+  const std::size_t disc = near_field_samples(picture, setup).size();
   setup.window = gonio::capture::pixel_window{30, 20, 7, 5};
-  CHECK(near_field_samples(image, setup).size() == 35);
+  CHECK(near_field_samples(picture, setup).size() == 35);
   setup.disc = {};
-  CHECK(near_field_samples(image, setup).size() == 35);
+  CHECK(near_field_samples(picture, setup).size() == 35);
   setup.window = {};
-  CHECK(near_field_samples(image, setup).size() == 60 * 80);
+  CHECK(near_field_samples(picture, setup).size() == 60 * 80);
   setup.disc = gonio::capture::sample_disc{.radius = std::tan(radians(12.5)), .centre = {0.02, 0.0}};
-  const std::size_t beside = near_field_samples(image, setup).size();
+  const std::size_t beside = near_field_samples(picture, setup).size();
   CHECK(beside != disc);
   CHECK(static_cast<double>(beside) == doctest::Approx(static_cast<double>(disc)).epsilon(0.05));
 }
 
 TEST_CASE("a mask leaves pixels out, and the region's pixels are those that bring samples") {
   auto setup = ordinary_setup();
-  const image image = lab::photograph(paint, *setup.disc, setup);
+  const image picture = lab::photograph(paint, *setup.disc, setup);
   const auto region = gonio::capture::pixels_of_region(setup);
-  const auto all = near_field_samples(image, setup);
+  const auto all = near_field_samples(picture, setup);
   REQUIRE(region.size() == all.size());
   setup.mask.assign(60 * 80, false);
   for (std::size_t i = 0; i < region.size(); i += 2) setup.mask[region[i]] = true;
-  const auto half = near_field_samples(image, setup);
+  const auto half = near_field_samples(picture, setup);
   REQUIRE(half.size() == (all.size() + 1) / 2);
   for (std::size_t i = 0; i < half.size(); ++i) CHECK(half[i].angles().theta_h == all[2 * i].angles().theta_h);
   CHECK(gonio::capture::pixels_of_region(setup).size() == half.size());
   setup.mask.pop_back();
-  CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(image, setup)), doctest::Contains("mask"), gonio::error);
+  CHECK_THROWS_WITH_AS(static_cast<void>(near_field_samples(picture, setup)), doctest::Contains("mask"), gonio::error);
 }
 
 TEST_CASE("blocks average their pixels, and count by their share") {
   auto setup = ordinary_setup();
-  const image image = lab::photograph(paint, *setup.disc, setup);
-  const auto pixels = near_field_samples(image, setup);
+  const image picture = lab::photograph(paint, *setup.disc, setup);
+  const auto pixels = near_field_samples(picture, setup);
   setup.block = 7;  // does not divide the image
-  const auto blocks = near_field_samples(image, setup);
+  const auto blocks = near_field_samples(picture, setup);
   CHECK(blocks.size() < pixels.size() / 30);
   rgb sum_of_pixels = rgb::Zero(), sum_of_blocks = rgb::Zero();
   double weights = 0.0;
@@ -155,12 +155,12 @@ TEST_CASE("blocks average their pixels, and count by their share") {
 TEST_CASE("noise is that of the pixels, less for blocks, and the seed's alone") {
   auto setup = ordinary_setup();
   const lab::near_field_defects noisy{.noise = 0.05};
-  const image image = lab::photograph(paint, *setup.disc, setup, noisy, 7);
-  CHECK(root_mean_square_error(near_field_samples(image, setup)) == doctest::Approx(0.05).epsilon(0.05));
-  CHECK(image == lab::photograph(paint, *setup.disc, setup, noisy, 7));
-  CHECK(image != lab::photograph(paint, *setup.disc, setup, noisy, 8));
+  const image picture = lab::photograph(paint, *setup.disc, setup, noisy, 7);
+  CHECK(root_mean_square_error(near_field_samples(picture, setup)) == doctest::Approx(0.05).epsilon(0.05));
+  CHECK(picture == lab::photograph(paint, *setup.disc, setup, noisy, 7));
+  CHECK(picture != lab::photograph(paint, *setup.disc, setup, noisy, 8));
   setup.block = 3;
-  CHECK(root_mean_square_error(near_field_samples(image, setup)) < 0.02);  // measured: 0.0171
+  CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.02);  // measured: 0.0171
 }
 
 TEST_CASE("a slight misalignment of light and camera costs what the paint's slope says") {
@@ -169,8 +169,8 @@ TEST_CASE("a slight misalignment of light and camera costs what the paint's slop
     CAPTURE(seed);
     const lab::near_field_defects shifted{.misalignment = radians(1.0)};
     // The rim of the disc may move out of what is believed to be the disc: the material is larger.
-    const image image = lab::photograph(paint, {.radius = 0.4}, setup, shifted, seed);
-    CHECK(root_mean_square_error(near_field_samples(image, setup)) < 0.2);  // measured: up to 0.135
+    const image picture = lab::photograph(paint, {.radius = 0.4}, setup, shifted, seed);
+    CHECK(root_mean_square_error(near_field_samples(picture, setup)) < 0.2);  // measured: up to 0.135
     // A Lambertian knows the light's cosine alone: cos(theta + 1 degree) / cos(theta).
     const gonio::model::lambertian grey{rgb::Constant(0.18)};
     const double bound = std::tan(radians(50.0)) * radians(1.0) * 1.02;
@@ -182,36 +182,36 @@ TEST_CASE("a slight misalignment of light and camera costs what the paint's slop
 
 TEST_CASE("saturated pixels are skipped with their blocks, and infinite ones if they are saturated") {
   auto setup = ordinary_setup();
-  image image = lab::photograph(paint, *setup.disc, setup);
-  const std::size_t all = near_field_samples(image, setup).size();
-  gonio::set_pixel(image, 29, 41, {0.1, 0.9, 0.1});
-  gonio::set_pixel(image, 29, 42, {0.1, 0.1, infinity});
+  image picture = lab::photograph(paint, *setup.disc, setup);
+  const std::size_t all = near_field_samples(picture, setup).size();
+  gonio::set_pixel(picture, 29, 41, {0.1, 0.9, 0.1});
+  gonio::set_pixel(picture, 29, 42, {0.1, 0.1, infinity});
   setup.saturation = 0.9;  // which is more than what the image holds, 0.9f
   const auto is_saturated = [&](std::size_t row, std::size_t column) -> std::size_t {
-    return (gonio::pixel(image, row, column) > 0.8999999).any() ? 1 : 0;
+    return (gonio::pixel(picture, row, column) > 0.8999999).any() ? 1 : 0;
   };
   std::size_t saturated = 0;
   for (std::size_t row = 0; row < 60; ++row)
     for (std::size_t column = 0; column < 80; ++column) saturated += is_saturated(row, column);
   CHECK(saturated >= 2);
   CHECK(saturated < all / 10);
-  CHECK(near_field_samples(image, setup).size() == all - saturated);
+  CHECK(near_field_samples(picture, setup).size() == all - saturated);
   // Of a block of three by three whose middle is saturated nothing is left.
   setup.window = gonio::capture::pixel_window{40, 28, 3, 3};
-  CHECK(near_field_samples(image, setup).size() < 9);
+  CHECK(near_field_samples(picture, setup).size() < 9);
   setup.block = 3;
-  CHECK_THROWS_AS(near_field_samples(image, setup), gonio::error);
+  CHECK_THROWS_AS(near_field_samples(picture, setup), gonio::error);
   setup.block = 60;
   setup.window = gonio::capture::pixel_window{10, 0, 60, 60};
-  CHECK_THROWS_WITH_AS(near_field_samples(image, setup), doctest::Contains("saturated"), gonio::error);
+  CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains("saturated"), gonio::error);
 }
 
 TEST_CASE("pixels that are not finite are refused by their place if they see the region; negative ones are kept") {
   const auto setup = ordinary_setup();
   const auto image_with = [&](std::size_t row, std::size_t column, double value) {
-    image image = lab::photograph(paint, *setup.disc, setup);
-    gonio::set_pixel(image, row, column, {0.1, value, 0.1});
-    return image;
+    image picture = lab::photograph(paint, *setup.disc, setup);
+    gonio::set_pixel(picture, row, column, {0.1, value, 0.1});
+    return picture;
   };
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
     CHECK_THROWS_WITH_AS(near_field_samples(image_with(28, 40, bad), setup),
@@ -225,9 +225,9 @@ TEST_CASE("pixels that are not finite are refused by their place if they see the
 TEST_CASE("what cannot be measured is refused") {
   const auto refused = [](const std::function<void(near_field_setup&)>& change, const char* why) {
     near_field_setup setup = ordinary_setup();
-    const image image = lab::photograph(paint, *setup.disc, setup);
+    const image picture = lab::photograph(paint, *setup.disc, setup);
     change(setup);
-    CHECK_THROWS_WITH_AS(near_field_samples(image, setup), doctest::Contains(why), gonio::error);
+    CHECK_THROWS_WITH_AS(near_field_samples(picture, setup), doctest::Contains(why), gonio::error);
   };
   const auto camera_from = [](const Eigen::Vector3d& position, const Eigen::Vector3d& target) {
     return gonio::pinhole_camera::look_at(ordinary_setup().camera.intrinsics(), position, target, {0.0, 1.0, 0.1});

@@ -14,10 +14,10 @@ namespace {
 
 /// Every channel of every pixel differs.
 image gradient(std::size_t rows, std::size_t columns, float scale = 1.0f) {
-  image image({rows, columns, std::size_t{3}});
-  for (std::size_t i = 0; i < image.size(); ++i)
-    image.data()[i] = scale * static_cast<float>(i) / static_cast<float>(image.size());
-  return image;
+  image picture({rows, columns, std::size_t{3}});
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture.data()[i] = scale * static_cast<float>(i) / static_cast<float>(picture.size());
+  return picture;
 }
 
 float largest_difference(const image& a, const image& b) {
@@ -56,16 +56,16 @@ std::string png(const std::string& header, const std::string& rows) {
 
 TEST_CASE("PNG holds sRGB, rounded and clipped") {
   const scratch::folder here;
-  image image({std::size_t{1}, std::size_t{4}, std::size_t{3}}, 0.0f);
+  image picture({std::size_t{1}, std::size_t{4}, std::size_t{3}}, 0.0f);
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    image(0, 1, channel) = 0.2140411f;  // code 127.5 / 255 is 0.21404; this is just above 127
-    image(0, 2, channel) = 7.0f;
-    image(0, 3, channel) = -1.0f;
+    picture(0, 1, channel) = 0.2140411f;  // code 127.5 / 255 is 0.21404; this is just above 127
+    picture(0, 2, channel) = 7.0f;
+    picture(0, 3, channel) = -1.0f;
   }
-  image(0, 1, 0) = 0.5f;
-  write_png(here / "a.png", image);
+  picture(0, 1, 0) = 0.5f;
+  write_png(here / "a.png", picture);
   const image again = read_png(here / "a.png");
-  CHECK(again.shape() == image.shape());
+  CHECK(again.shape() == picture.shape());
   CHECK(again(0, 0, 0) == 0.0f);
   // 0.5 encodes to 187.516 of 255.
   CHECK(255.0 * gonio::encode_srgb(double{again(0, 1, 0)}) == doctest::Approx(188.0));
@@ -80,11 +80,11 @@ TEST_CASE("PNG holds sRGB, rounded and clipped") {
 TEST_CASE("what a PNG holds is written again in the same bytes") {
   const scratch::folder here;
   CHECK(rc::check("png round trip", [&] {
-    image image({static_cast<std::size_t>(*rc::gen::inRange(1, 12)), static_cast<std::size_t>(*rc::gen::inRange(1, 12)),
-                 std::size_t{3}});
-    for (std::size_t i = 0; i < image.size(); ++i)
-      image.data()[i] = 0.001f * static_cast<float>(*rc::gen::inRange(-100, 1200));
-    write_png(here / "a.png", image);
+    image picture({static_cast<std::size_t>(*rc::gen::inRange(1, 12)),
+                   static_cast<std::size_t>(*rc::gen::inRange(1, 12)), std::size_t{3}});
+    for (std::size_t i = 0; i < picture.size(); ++i)
+      picture.data()[i] = 0.001f * static_cast<float>(*rc::gen::inRange(-100, 1200));
+    write_png(here / "a.png", picture);
     write_png(here / "b.png", read_png(here / "a.png"));
     RC_ASSERT(scratch::get(here / "a.png") == scratch::get(here / "b.png"));
   }));
@@ -97,7 +97,7 @@ TEST_CASE("grey, palette, alpha, 16 bits and interlaced PNGs are read") {
     return read_png(here / "a.png");
   };
   using namespace std::string_literals;
-  const auto is_white = [](const image& image) { return image.size() == 12 && xt::allclose(image, 1.0f); };
+  const auto is_white = [](const image& picture) { return picture.size() == 12 && xt::allclose(picture, 1.0f); };
   CHECK(is_white(read(png(png_header(2, 2, 8, 0), "\0\xFF\xFF\0\xFF\xFF"s))));
   CHECK(is_white(read(png(png_header(2, 2, 1, 0), "\0\xC0\0\xC0"s))));
   CHECK(is_white(read(png(png_header(2, 2, 8, 4), "\0\xFF\x80\xFF\x80\0\xFF\x80\xFF\x80"s))));
@@ -195,19 +195,19 @@ TEST_CASE("damaged PNG files are read or refused") {
 TEST_CASE("HDR holds three mantissas of eight bits, rounded") {
   const scratch::folder here;
   CHECK(rc::check("hdr round trip", [&] {
-    image image({static_cast<std::size_t>(*rc::gen::inRange(1, 5)), static_cast<std::size_t>(*rc::gen::inRange(1, 40)),
-                 std::size_t{3}});
-    for (std::size_t i = 0; i < image.size(); ++i) {
+    image picture({static_cast<std::size_t>(*rc::gen::inRange(1, 5)),
+                   static_cast<std::size_t>(*rc::gen::inRange(1, 40)), std::size_t{3}});
+    for (std::size_t i = 0; i < picture.size(); ++i) {
       const float mantissa = 0.0001f * static_cast<float>(*rc::gen::inRange(-1000, 10000));
-      image.data()[i] = std::ldexp(mantissa, *rc::gen::element(0, 0, 1, 20, -90, 100));
+      picture.data()[i] = std::ldexp(mantissa, *rc::gen::element(0, 0, 1, 20, -90, 100));
     }
-    write_hdr(here / "a.hdr", image);
+    write_hdr(here / "a.hdr", picture);
     const image again = read_hdr(here / "a.hdr");
-    RC_ASSERT(again.shape() == image.shape());
-    for (std::size_t i = 0; i < image.size(); ++i) {
-      const float* pixel = image.data() + i / 3 * 3;
+    RC_ASSERT(again.shape() == picture.shape());
+    for (std::size_t i = 0; i < picture.size(); ++i) {
+      const float* pixel = picture.data() + i / 3 * 3;
       const float largest = std::max({pixel[0], pixel[1], pixel[2], 0.0f});
-      RC_ASSERT(std::abs(again.data()[i] - std::max(image.data()[i], 0.0f)) <= largest / 256.0f + 1e-32f);
+      RC_ASSERT(std::abs(again.data()[i] - std::max(picture.data()[i], 0.0f)) <= largest / 256.0f + 1e-32f);
     }
     write_hdr(here / "b.hdr", again);
     RC_ASSERT(scratch::get(here / "a.hdr") == scratch::get(here / "b.hdr"));
@@ -216,13 +216,13 @@ TEST_CASE("HDR holds three mantissas of eight bits, rounded") {
 
 TEST_CASE("extreme values in HDR") {
   const scratch::folder here;
-  image image({std::size_t{1}, std::size_t{8}, std::size_t{3}}, 0.0f);
+  image picture({std::size_t{1}, std::size_t{8}, std::size_t{3}}, 0.0f);
   // The largest float below 1 rounds up to the next exponent.
-  image(0, 0, 0) = std::nextafter(1.0f, 0.0f);
-  image(0, 1, 0) = 1.6e38f;
-  image(0, 2, 0) = -3.0f;
-  image(0, 3, 0) = 1e-40f;
-  write_hdr(here / "a.hdr", image);
+  picture(0, 0, 0) = std::nextafter(1.0f, 0.0f);
+  picture(0, 1, 0) = 1.6e38f;
+  picture(0, 2, 0) = -3.0f;
+  picture(0, 3, 0) = 1e-40f;
+  write_hdr(here / "a.hdr", picture);
   const image again = read_hdr(here / "a.hdr");
   CHECK(again(0, 0, 0) == 1.0f);
   CHECK(again(0, 1, 0) == doctest::Approx(1.6e38f).epsilon(0.01));
@@ -292,30 +292,30 @@ TEST_CASE("damaged HDR files are read or refused") {
 TEST_CASE("images that a file cannot hold are not written") {
   const scratch::folder here;
   scratch::put(here / "a", "old");
-  const auto refused = [&](const image& image, std::initializer_list<std::string> words) {
+  const auto refused = [&](const image& picture, std::initializer_list<std::string> words) {
     check_refused(
         [&] {
-          write_png(here / "a", image);
+          write_png(here / "a", picture);
           return 0;
         },
         words);
     check_refused(
         [&] {
-          write_hdr(here / "a", image);
+          write_hdr(here / "a", picture);
           return 0;
         },
         words);
   };
-  image image = gradient(4, 5);
-  image(2, 3, 1) = std::numeric_limits<float>::quiet_NaN();
-  refused(image, {"a: pixel", "row 2", "column 3", "nan"});
+  image picture = gradient(4, 5);
+  picture(2, 3, 1) = std::numeric_limits<float>::quiet_NaN();
+  refused(picture, {"a: pixel", "row 2", "column 3", "nan"});
   refused(image({std::size_t{0}, std::size_t{5}, std::size_t{3}}), {"a: ", "5 x 0 pixels"});
   refused(image({std::size_t{16385}, std::size_t{1}, std::size_t{3}}, 0.0f), {"a: ", "1 x 16385 pixels"});
   refused(image({std::size_t{1}, std::size_t{1}, std::size_t{4}}, 0.0f), {"a: ", "4 channels", "expected 3"});
-  image(2, 3, 1) = std::numeric_limits<float>::infinity();
+  picture(2, 3, 1) = std::numeric_limits<float>::infinity();
   check_refused(
       [&] {
-        write_hdr(here / "a", image);
+        write_hdr(here / "a", picture);
         return 0;
       },
       {"a: pixel", "inf"});

@@ -90,20 +90,20 @@ TEST_CASE("the image's centre is what the camera looks at, longitude runs to the
 }
 
 TEST_CASE("the radiance from a pixel's direction is the pixel's") {
-  image image = black(9);
+  image picture = black(9);
   for (std::size_t row = 0; row < 9; ++row)
     for (std::size_t column = 0; column < 18; ++column)
-      gonio::set_pixel(image, row, column, {1.0 + static_cast<double>(row), static_cast<double>(column), 0.5});
-  const environment_map map(image);
+      gonio::set_pixel(picture, row, column, {1.0 + static_cast<double>(row), static_cast<double>(column), 0.5});
+  const environment_map map(picture);
   CHECK(map.rows() == 9);
   CHECK(map.columns() == 18);
-  CHECK(map.image() == image);
+  CHECK(map.image() == picture);
   for (std::size_t row = 0; row < 9; ++row)
     for (std::size_t column = 0; column < 18; ++column) {
       CAPTURE(row);
       CAPTURE(column);
       CHECK(map.towards(row, column).norm() == doctest::Approx(1.0).epsilon(1e-15));
-      CHECK((map(3.0 * map.towards(row, column)) == gonio::pixel(image, row, column)).all());
+      CHECK((map(3.0 * map.towards(row, column)) == gonio::pixel(picture, row, column)).all());
     }
   // Directions on the image's edges.
   CHECK(map({0.0, 1.0, 0.0}).x() == 1.0);
@@ -113,12 +113,12 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
 }
 
 TEST_CASE("a spot in the image's upper right shines from behind the camera, above on its right") {
-  image image = black(64);
-  gonio::set_pixel(image, 19, 111, {9.0, 9.0, 9.0});  // near direction (1, 1, 1)
+  image picture = black(64);
+  gonio::set_pixel(picture, 19, 111, {9.0, 9.0, 9.0});  // near direction (1, 1, 1)
   const gonio::model::ggx gloss{.alpha = 0.1, .f0 = {0.9, 0.9, 0.9}};
   const int size = 40;
   const image sphere = gonio::render::render_sphere(
-      gloss, gonio::render::important_lights(environment_map(image), 10, 1), {.size = size});
+      gloss, gonio::render::important_lights(environment_map(picture), 10, 1), {.size = size});
   const auto points = gonio::render::sphere_points(size);
   const auto brightest =
       std::ranges::max_element(points, {}, [&](const auto& p) { return gonio::pixel(sphere, p.row, p.column).y(); });
@@ -163,9 +163,9 @@ TEST_CASE("white furnace: in a white environment every point of a white sphere i
 }
 
 TEST_CASE("a single bright pixel is one light, however many are asked for") {
-  image image = black(16);
-  gonio::set_pixel(image, 3, 5, {400.0, 0.0, 20.0});
-  const environment_map map(image);
+  image picture = black(16);
+  gonio::set_pixel(picture, 3, 5, {400.0, 0.0, 20.0});
+  const environment_map map(picture);
   for (const auto& lighting : {gonio::render::all_lights(map), gonio::render::important_lights(map, 1, 7),
                                gonio::render::important_lights(map, 1000, 8)}) {
     REQUIRE(lighting.lights().size() == 1);
@@ -270,20 +270,20 @@ TEST_CASE("a map is an environment for the half-vector quadrature as well") {
 }
 
 TEST_CASE("what is no environment is refused") {
-  const auto refused = [](image image, const char* words) {
-    CHECK_THROWS_WITH_AS((void)environment_map(std::move(image)), doctest::Contains(words), gonio::error);
+  const auto refused = [](image picture, const char* words) {
+    CHECK_THROWS_WITH_AS((void)environment_map(std::move(picture)), doctest::Contains(words), gonio::error);
   };
   refused(gonio::uniform_image(8, 8, rgb::Ones()), "(8, 8, 3)");  // an angular map, say
   refused(gonio::uniform_image(0, 0), "(0, 0, 3)");
   refused(xt::ones<float>({4, 8, 1}), "(4, 8, 1)");
   refused(black(4), "black");
-  image image = gonio::uniform_image(4, 8, rgb::Ones());
-  image(2, 7, 1) = -0.25f;
-  refused(image, "(row 2, column 7)");
-  image(2, 7, 1) = std::numeric_limits<float>::quiet_NaN();
-  refused(image, "nan");
-  image(2, 7, 1) = std::numeric_limits<float>::infinity();
-  refused(image, "inf");
+  image picture = gonio::uniform_image(4, 8, rgb::Ones());
+  picture(2, 7, 1) = -0.25f;
+  refused(picture, "(row 2, column 7)");
+  picture(2, 7, 1) = std::numeric_limits<float>::quiet_NaN();
+  refused(picture, "nan");
+  picture(2, 7, 1) = std::numeric_limits<float>::infinity();
+  refused(picture, "inf");
   const auto darkness = [](const direction&) { return rgb(rgb::Zero()); };
   CHECK_THROWS_AS((void)environment_map::of(darkness), gonio::error);
   CHECK_THROWS_AS((void)environment_map::of(white_everywhere{}, 0), gonio::error);

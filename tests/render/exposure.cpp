@@ -13,12 +13,12 @@ namespace {
 /// An image whose sphere has a share of bright pixels, in surroundings that are brighter than both.
 image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 100) {
   const auto side = static_cast<std::size_t>(size);
-  image image = gonio::uniform_image(side, side, rgb::Constant(1000.0));
+  image picture = gonio::uniform_image(side, side, rgb::Constant(1000.0));
   const auto points = gonio::render::sphere_points(size);
   for (std::size_t i = 0; i < points.size(); ++i)
-    gonio::set_pixel(image, points[i].row, points[i].column,
+    gonio::set_pixel(picture, points[i].row, points[i].column,
                      static_cast<double>(i) < share * static_cast<double>(points.size()) ? bright : dark);
-  return image;
+  return picture;
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace {
 
 const rgb red(1.0, 0.0, 0.0), green(0.0, 1.0, 0.0), grey(0.25, 0.5, 0.75);
 
-bool is(const image& image, std::size_t row, std::size_t column, const rgb& colour) {
-  return (pixel(image, row, column) == colour).all();
+bool is(const image& picture, std::size_t row, std::size_t column, const rgb& colour) {
+  return (pixel(picture, row, column) == colour).all();
 }
 
 }  // namespace

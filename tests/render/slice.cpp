@@ -58,9 +58,9 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
     // The two cells on either side of 90 degrees show themselves in blue: 89 is at 89.5 degrees, 90 at 90.5.
     table.set(cell, rgb(index.theta_h, index.theta_d, index.phi_d == 89 || index.phi_d == 90 ? 1.0 : 0.0));
   }
-  const image image = gonio::render::render_slice(gonio::nearest_lookup(table));
-  REQUIRE(image.shape(0) == 90);
-  REQUIRE(image.shape(1) == 90);
+  const image picture = gonio::render::render_slice(gonio::nearest_lookup(table));
+  REQUIRE(picture.shape(0) == 90);
+  REQUIRE(picture.shape(1) == 90);
   for (std::size_t row = 0; row < 90; ++row)
     for (std::size_t column = 0; column < 90; ++column) {
       CAPTURE(row);
@@ -70,7 +70,7 @@ TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
       const rgb expected = cells.contains(linear)
                                ? rgb(static_cast<double>(column), 89.0 - static_cast<double>(row), 1.0)
                                : rgb(rgb::Zero());
-      REQUIRE((pixel(image, row, column) / pi - expected).abs().maxCoeff() < 1e-5);
+      REQUIRE((pixel(picture, row, column) / pi - expected).abs().maxCoeff() < 1e-5);
     }
 }
 

@@ -55,18 +55,18 @@ gonio::render::directional_lighting light_from(const direction& towards) {
 }
 
 /// Mean luminance over the pixels of the sphere.
-double mean_luminance(const image& image, int size) {
+double mean_luminance(const image& picture, int size) {
   double sum = 0.0;
   const auto points = gonio::render::sphere_points(size);
-  for (const auto& point : points) sum += gonio::luminance(pixel(image, point.row, point.column));
+  for (const auto& point : points) sum += gonio::luminance(pixel(picture, point.row, point.column));
   return sum / static_cast<double>(points.size());
 }
 
 /// Colours of an image at the points of an operator.
-sphere_colours at_points(const image& image, const sphere_operator& op) {
+sphere_colours at_points(const image& picture, const sphere_operator& op) {
   sphere_colours colours(static_cast<Eigen::Index>(op.points().size()), 3);
   for (std::size_t i = 0; i < op.points().size(); ++i)
-    colours.row(static_cast<Eigen::Index>(i)) = pixel(image, op.points()[i].row, op.points()[i].column).transpose();
+    colours.row(static_cast<Eigen::Index>(i)) = pixel(picture, op.points()[i].row, op.points()[i].column).transpose();
   return colours;
 }
 
@@ -114,12 +114,12 @@ TEST_CASE("a Lambertian sphere under one light has the closed form's pixels") {
     CAPTURE(g);
     const direction light = gonio::spherical_direction(g, 1.1);
     const int size = 200;
-    const image image = gonio::render::render_sphere(white_lambertian(), light_from(light), {.size = size});
+    const image picture = gonio::render::render_sphere(white_lambertian(), light_from(light), {.size = size});
     const double mean = 2.0 * (std::sin(g) + (pi - g) * std::cos(g)) / (3.0 * pi);
     for (const auto& point : gonio::render::sphere_points(size)) {
       const double expected = std::max(point.normal.dot(light), 0.0) / mean;
       // The exposure is a sum over 31,000 pixels instead of an integral over the disc.
-      REQUIRE(pixel(image, point.row, point.column).y() == doctest::Approx(expected).epsilon(2e-3).scale(1));
+      REQUIRE(pixel(picture, point.row, point.column).y() == doctest::Approx(expected).epsilon(2e-3).scale(1));
     }
   }
 }
@@ -144,20 +144,20 @@ TEST_CASE("turning the light about the view direction turns the image") {
 TEST_CASE("light from behind shows at the lower left rim, more so on a glossy surface") {
   const int size = 64;
   const auto behind = light_from({-1.0, -1.0, -3.0});
-  const image image = gonio::render::render_sphere(glossy(), behind, {.size = size});
+  const image picture = gonio::render::render_sphere(glossy(), behind, {.size = size});
   const image matte = gonio::render::render_sphere(white_lambertian(), behind, {.size = size});
   std::size_t lit = 0;
   for (const auto& point : gonio::render::sphere_points(size)) {
     const double x = point.normal.x(), y = point.normal.y();
     const bool sees_the_light = -x - y > 3.0 * point.normal.z();
-    CHECK((pixel(image, point.row, point.column) > 0.0).all() == sees_the_light);
+    CHECK((pixel(picture, point.row, point.column) > 0.0).all() == sees_the_light);
     if (!sees_the_light) continue;
     ++lit;
     CHECK(x * x + y * y > 9.0 / 11.0);
   }
   CHECK(lit > 30);
   const auto contrast = [&](const image& p) { return pixel(p, 54, 9).x() / pixel(p, 48, 3).x(); };
-  CHECK(contrast(image) != doctest::Approx(contrast(matte)).epsilon(0.1));
+  CHECK(contrast(picture) != doctest::Approx(contrast(matte)).epsilon(0.1));
 
   // Under both lights, on one exposure, the rim of the glossy sphere outshines its front.
   const image both = gonio::render::render_sphere(glossy(), gonio::render::two_lights(), {.size = size});
@@ -209,8 +209,8 @@ TEST_CASE("brighter lights change nothing, a brighter BRDF everything in proport
 }
 
 TEST_CASE("without light everything is black and finite") {
-  const image image = gonio::render::render_sphere(glossy(), no_light(), {.size = 8});
-  for (const float value : image) CHECK(value == 0.0f);
+  const image picture = gonio::render::render_sphere(glossy(), no_light(), {.size = 8});
+  for (const float value : picture) CHECK(value == 0.0f);
 }
 
 TEST_CASE("the sphere operator is the image of the table at its nearest cells") {
@@ -220,9 +220,9 @@ TEST_CASE("the sphere operator is the image of the table at its nearest cells") 
     const brdf_table table = gonio::tabulate(glossy(), cells);
     const auto check = [&](const auto& lighting) {
       const sphere_operator op(cells, lighting, 24);
-      const image image = gonio::render::render_sphere(gonio::nearest_lookup(table), lighting, {.size = 24});
-      check_equal(op.apply(table), at_points(image, op));
-      check_equal(at_points(op.to_image(op.apply(table)), op), at_points(image, op));
+      const image picture = gonio::render::render_sphere(gonio::nearest_lookup(table), lighting, {.size = 24});
+      check_equal(op.apply(table), at_points(picture, op));
+      check_equal(at_points(op.to_image(op.apply(table)), op), at_points(picture, op));
     };
     check(gonio::render::two_lights());
     check(coarse_environment());
@@ -266,7 +266,7 @@ TEST_CASE("a table over other cells is refused") {
 TEST_CASE("operator images have the background around the sphere") {
   const valid_cells cells(gonio::grid({20, 15, 30}));
   const sphere_operator op(cells, headlight(), 12);
-  const image image = op.to_image(op.apply(gonio::tabulate(white_lambertian(), cells)), {0.5, 0.25, 2.0});
-  CHECK((pixel(image, 0, 0) == rgb(0.5, 0.25, 2.0)).all());
-  CHECK(pixel(image, 6, 6).x() == doctest::Approx(1.5).epsilon(0.02));  // the mean of the cosine over a disc is 2/3
+  const image picture = op.to_image(op.apply(gonio::tabulate(white_lambertian(), cells)), {0.5, 0.25, 2.0});
+  CHECK((pixel(picture, 0, 0) == rgb(0.5, 0.25, 2.0)).all());
+  CHECK(pixel(picture, 6, 6).x() == doctest::Approx(1.5).epsilon(0.02));  // the mean of the cosine over a disc is 2/3
 }

@@ -7,17 +7,17 @@ using gonio::rgb;
 
 TEST_CASE("an image of one colour, and one changed pixel") {
   const rgb red(1.0, 0.0, 0.0), grey(0.25, 0.5, 0.75);
-  image image = gonio::uniform_image(2, 3, grey);
-  REQUIRE(image.shape(0) == 2);
-  REQUIRE(image.shape(1) == 3);
-  REQUIRE(image.shape(2) == 3);
-  gonio::set_pixel(image, 1, 2, red);
+  image picture = gonio::uniform_image(2, 3, grey);
+  REQUIRE(picture.shape(0) == 2);
+  REQUIRE(picture.shape(1) == 3);
+  REQUIRE(picture.shape(2) == 3);
+  gonio::set_pixel(picture, 1, 2, red);
   for (std::size_t row = 0; row < 2; ++row)
     for (std::size_t column = 0; column < 3; ++column)
-      CHECK((gonio::pixel(image, row, column) == (row == 1 && column == 2 ? red : grey)).all());
+      CHECK((gonio::pixel(picture, row, column) == (row == 1 && column == 2 ? red : grey)).all());
   // The same locations through xtensor's own indices.
-  CHECK(image(1, 2, 0) == 1.0f);
-  CHECK(image(1, 2, 1) == 0.0f);
-  CHECK(image(0, 2, 1) == 0.5f);
-  CHECK(image(1, 1, 2) == 0.75f);
+  CHECK(picture(1, 2, 0) == 1.0f);
+  CHECK(picture(1, 2, 1) == 0.0f);
+  CHECK(picture(0, 2, 1) == 0.5f);
+  CHECK(picture(1, 1, 2) == 0.75f);
 }

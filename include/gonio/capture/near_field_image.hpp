@@ -67,11 +67,11 @@ struct pixel_block {
   bool saturated = false;
 };
 
-void add_pixel(const image& image, const near_field_setup& setup, std::size_t row, std::size_t column,
+void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
                pixel_block& block);
 
 /// The size of an image must be its camera's.
-void require_size(const image& image, const camera_intrinsics& intrinsics);
+void require_size(const image& picture, const camera_intrinsics& intrinsics);
 
 }  // namespace detail
 
@@ -89,7 +89,7 @@ void require_size(const image& image, const camera_intrinsics& intrinsics);
 ///     gonio::capture::near_field_samples(image, {.camera = camera, .light = lamp, .disc =
 ///     gonio::capture::sample_disc{0.2}});
 /// ```
-[[nodiscard]] sample_set near_field_samples(const image& image, const near_field_setup& setup);
+[[nodiscard]] sample_set near_field_samples(const image& picture, const near_field_setup& setup);
 
 }  // namespace gonio::capture
 

@@ -92,7 +92,7 @@ class pose_iteration {
   void require_material(std::size_t material) const;
   [[nodiscard]] sample turned(const sample& s, const pose_correction& turns) const;
   /// The equations of one image from row `begin` on.
-  void add_image(const sample_set& image, const pose_correction& turns, const reader& read, Eigen::Index begin,
+  void add_image(const sample_set& samples, const pose_correction& turns, const reader& read, Eigen::Index begin,
                  equations& out) const;
   [[nodiscard]] fit fit_of(const std::vector<sample_set>& images, const std::vector<pose_correction>& turns,
                            const reader& read) const;
@@ -100,7 +100,7 @@ class pose_iteration {
   /// Of |t|^2, where the objective is divided by eta.
   [[nodiscard]] double turn_penalty() const;
   [[nodiscard]] std::vector<pose_correction> moved(const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t image, Eigen::Index unknown,
+  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t image_number, Eigen::Index unknown,
                                            const reader& read) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(std::size_t material, const reader& read) const;
   /// Adds a material's part of the normal equations of a step.

@@ -115,7 +115,7 @@ struct stb_extents {
 };
 
 /// Checks an image before it is written; `brightest` is the largest value that the format can hold.
-[[nodiscard]] stb_extents check_pixels(const image& image, float brightest, const std::string& name);
+[[nodiscard]] stb_extents check_pixels(const image& picture, float brightest, const std::string& name);
 
 }  // namespace detail
 
@@ -137,7 +137,7 @@ struct stored_codes {
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
-void write_png(const std::filesystem::path& path, const image& image);
+void write_png(const std::filesystem::path& path, const image& picture);
 
 /// Reads a Radiance HDR image whose rows run from top to bottom, as nearly all do. EXPOSURE is not
 /// applied: values are those stored.
@@ -145,7 +145,7 @@ void write_png(const std::filesystem::path& path, const image& image);
 
 /// Writes a Radiance HDR image. Negative values become 0; NaN and what RGBE cannot hold, from 1.7e38 on,
 /// are refused.
-void write_hdr(const std::filesystem::path& path, const image& image);
+void write_hdr(const std::filesystem::path& path, const image& picture);
 
 }  // namespace gonio::io
 

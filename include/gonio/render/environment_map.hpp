@@ -41,11 +41,11 @@ class environment_map {
   template <class Radiance>
   requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>
   [[nodiscard]] static environment_map of(const Radiance& radiance, std::size_t rows = 256) {
-    gonio::image image({rows, 2 * rows, std::size_t{3}});
+    gonio::image tabulated({rows, 2 * rows, std::size_t{3}});
     for (std::size_t row = 0; row < rows; ++row)
       for (std::size_t column = 0; column < 2 * rows; ++column)
-        set_pixel(image, row, column, radiance(towards(row, column, rows)));
-    return environment_map(std::move(image));
+        set_pixel(tabulated, row, column, radiance(towards(row, column, rows)));
+    return environment_map(std::move(tabulated));
   }
 
   [[nodiscard]] const gonio::image& image() const noexcept { return image_; }

@@ -7,16 +7,16 @@
 
 namespace gonio::render {
 
-/// What a share of a sphere's pixels does not exceed in its brightest channel; `image` is one of `render_sphere`,
+/// What a share of a sphere's pixels does not exceed in its brightest channel; `picture` is one of `render_sphere`,
 /// whose surroundings do not count. Throws gonio::error if the image is not square.
-[[nodiscard]] double brightness_of_sphere(const image& image, double share = 0.99);
+[[nodiscard]] double brightness_of_sphere(const image& picture, double share = 0.99);
 
 /// The factor at which the brightest of some spheres is white at its 99th percentile: what is brighter, a highlight of
 /// a hundredth of the sphere, is clipped. 1 if all are black.
 [[nodiscard]] double exposure_of_spheres(std::span<const image> images);
 
 /// Multiplies all values.
-void expose(image& image, double exposure);
+void expose(image& picture, double exposure);
 
 }  // namespace gonio::render
 

@@ -9,7 +9,7 @@
 namespace gonio::render {
 
 /// Copies an image into a larger one, its top left corner at (row, column).
-void paste(image& canvas, const image& image, std::size_t row, std::size_t column);
+void paste(image& canvas, const image& picture, std::size_t row, std::size_t column);
 
 /// Images from left to right, their tops aligned, with `margin` pixels of `background` around each
 /// (neighbours share one margin).

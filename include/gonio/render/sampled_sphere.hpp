@@ -111,7 +111,7 @@ template <direction_sampler Sampler>
   GONIO_ASSERT(view.size >= 1 && view.samples >= 1);
   // Allocate the image, and a sum of light for each row.
   const auto side = static_cast<std::size_t>(view.size);
-  image image = uniform_image(side, side, rgb::Zero());
+  image picture = uniform_image(side, side, rgb::Zero());
   std::vector<detail::seen_light> rows(side);
   std::mutex reporting;
   std::size_t done = 0;
@@ -124,7 +124,7 @@ template <direction_sampler Sampler>
     for (const auto& u : detail::even_pairs(static_cast<std::size_t>(view.samples), view.seed, row * side + column))
       detail::add_sample(rows[row], material, light, place(column, u[0].u), -place(row, u[0].v), u,
                          view.shows_environment);
-    set_pixel(image, row, column, rows[row].sum / view.samples);
+    set_pixel(picture, row, column, rows[row].sum / view.samples);
   };
   // Render the rows in parallel.
   for_each_block(
@@ -142,8 +142,8 @@ template <direction_sampler Sampler>
     all.covered += row.covered;
   }
   const double exposure = all.white > 0.0 ? view.white * static_cast<double>(all.covered) / all.white : 1.0;
-  for (float& value : image) value = static_cast<float>(value * exposure);
-  return image;
+  for (float& value : picture) value = static_cast<float>(value * exposure);
+  return picture;
 }
 
 }  // namespace gonio::render

@@ -41,7 +41,7 @@ template <brdf Brdf>
     return (column + 0.5) / view.columns * (std::numbers::pi / 2.0);
   };
   const auto rows = static_cast<std::size_t>(view.rows), columns = static_cast<std::size_t>(view.columns);
-  image image({rows, columns, std::size_t{3}});
+  image picture({rows, columns, std::size_t{3}});
   for_each_block(
       rows, 1,
       [&](block range) {
@@ -49,11 +49,11 @@ template <brdf Brdf>
         const double theta_d = nodes.theta_d(view.rows - 1 - static_cast<int>(row));
         for (int column = 0; column < view.columns; ++column) {
           const auto [wi, wo] = to_directions({theta_h(column), theta_d, std::numbers::pi / 2.0});
-          set_pixel(image, row, static_cast<std::size_t>(column), std::numbers::pi * rgb(f(wi, wo)));
+          set_pixel(picture, row, static_cast<std::size_t>(column), std::numbers::pi * rgb(f(wi, wo)));
         }
       },
       threads);
-  return image;
+  return picture;
 }
 
 }  // namespace gonio::render

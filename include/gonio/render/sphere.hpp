@@ -82,9 +82,9 @@ template <brdf Brdf, sphere_lighting Lighting>
     const std::size_t row = points[point].row / samples, column = points[point].column / samples;
     pixels[row * side + column] += (exposure * radiance[point] - view.background) / (samples * samples);
   }
-  image image({side, side, std::size_t{3}});
-  for (std::size_t i = 0; i < pixels.size(); ++i) set_pixel(image, i / side, i % side, pixels[i]);
-  return image;
+  image picture({side, side, std::size_t{3}});
+  for (std::size_t i = 0; i < pixels.size(); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
+  return picture;
 }
 
 /// One colour for each point of a sphere, in the order of `sphere_points`; linear light.

@@ -107,11 +107,11 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
   std::vector<detail::exposed> usable;
   bool is_dark = true;
   for (std::size_t j = 0; j < taken.frames.size(); ++j) {
-    const camera_frame& image = taken.frames[j];
-    if (image.rows() != pixels || pixels == 0)
+    const camera_frame& frame = taken.frames[j];
+    if (frame.rows() != pixels || pixels == 0)
       refuse("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +
-             " and " + std::to_string(image.rows()));
-    const auto counts = image.col(channel);
+             " and " + std::to_string(frame.rows()));
+    const auto counts = frame.col(channel);
     if (counts.maxCoeff() > 0) is_dark = false;
     if (counts.maxCoeff() == 0 || counts.maxCoeff() >= limit) continue;
     double exposure = 0.0, count = 0.0;

@@ -70,11 +70,11 @@ GONIO_INLINE std::optional<direction> view_of_pixel(const near_field_setup& setu
   return -line.towards;
 }
 
-GONIO_INLINE void add_pixel(const image& image, const near_field_setup& setup, std::size_t row, std::size_t column,
+GONIO_INLINE void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
                             pixel_block& block) {
   const std::optional<direction> view = view_of_pixel(setup, row, column);
   if (!view) return;
-  const rgb value = pixel(image, row, column);
+  const rgb value = pixel(picture, row, column);
   // In float, as the image is. Several exposures in one may hold infinity where all of them were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
@@ -86,13 +86,13 @@ GONIO_INLINE void add_pixel(const image& image, const near_field_setup& setup, s
   ++block.pixels;
 }
 
-GONIO_INLINE void require_size(const image& image, const camera_intrinsics& intrinsics) {
+GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& intrinsics) {
   const auto size = [](std::size_t columns, std::size_t rows) {
     return std::to_string(columns) + " x " + std::to_string(rows);
   };
-  if (image.shape(2) != 3) gonio::refuse("an image of " + std::to_string(image.shape(2)) + " channels, expected 3");
-  if (image.shape(0) != intrinsics.rows || image.shape(1) != intrinsics.columns)
-    gonio::refuse("the image has " + size(image.shape(1), image.shape(0)) + " pixels, its camera " +
+  if (picture.shape(2) != 3) gonio::refuse("an image of " + std::to_string(picture.shape(2)) + " channels, expected 3");
+  if (picture.shape(0) != intrinsics.rows || picture.shape(1) != intrinsics.columns)
+    gonio::refuse("the image has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
                   size(intrinsics.columns, intrinsics.rows));
 }
 
@@ -111,10 +111,10 @@ GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& s
   return seen;
 }
 
-GONIO_INLINE sample_set near_field_samples(const image& image, const near_field_setup& setup) {
+GONIO_INLINE sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
   require_usable(setup);
   const camera_intrinsics& whole = setup.camera.intrinsics();
-  detail::require_size(image, whole);
+  detail::require_size(picture, whole);
   const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
   const std::size_t last_row = window.row + window.rows, last_column = window.column + window.columns;
   const auto end = [&](std::size_t first, std::size_t last) { return first + std::min(setup.block, last - first); };
@@ -127,7 +127,7 @@ GONIO_INLINE sample_set near_field_samples(const image& image, const near_field_
     for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {
       detail::pixel_block block;
       for (std::size_t r = row; r < end(row, last_row); ++r)
-        for (std::size_t c = column; c < end(column, last_column); ++c) detail::add_pixel(image, setup, r, c, block);
+        for (std::size_t c = column; c < end(column, last_column); ++c) detail::add_pixel(picture, setup, r, c, block);
       any_saturated = any_saturated || block.saturated;
       if (block.pixels == 0 || block.saturated) continue;
       const direction_pair seen{setup.light.towards, block.views.normalized()};

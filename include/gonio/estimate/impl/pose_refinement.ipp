@@ -103,13 +103,13 @@ GONIO_INLINE void pose_iteration::solve(const reader& read) {
   for (int i = 0; i < options_.iterations && !converged_; ++i) step(read);
 }
 
-GONIO_INLINE void pose_iteration::add_image(const sample_set& image, const pose_correction& turns, const reader& read,
+GONIO_INLINE void pose_iteration::add_image(const sample_set& samples, const pose_correction& turns, const reader& read,
                                             Eigen::Index begin, equations& out) const {
   for_each_index(
-      image.size(), 64,
+      samples.size(), 64,
       [&](std::size_t i) {
         const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
-        const sample seen = turned(image[i], turns);
+        const sample seen = turned(samples[i], turns);
         const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
         rgb right;
         auto column = out.columns.col(at);
@@ -124,7 +124,7 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample
                                                         const std::vector<pose_correction>& turns,
                                                         const reader& read) const {
   Eigen::Index n = 0;
-  for (const sample_set& image : images) n += std::ssize(image);
+  for (const sample_set& samples : images) n += std::ssize(samples);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
   for (std::size_t p = 0; p < images.size(); ++p) {
@@ -169,12 +169,12 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
 
 /// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t image, Eigen::Index unknown,
-                                                        const reader& read) const {
-  const sample_set& samples = materials_[material][image];
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t image_number,
+                                                        Eigen::Index unknown, const reader& read) const {
+  const sample_set& samples = materials_[material][image_number];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
-    pose_correction turns = turns_[image];
+    pose_correction turns = turns_[image_number];
     (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
     equations there(components_, std::ssize(samples));
     add_image(samples, turns, read, 0, there);

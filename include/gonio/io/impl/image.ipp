@@ -173,12 +173,13 @@ GONIO_INLINE void byte_sink::write(void* user, void* data, int size) noexcept {
   }
 }
 
-GONIO_INLINE stb_extents check_pixels(const image& image, float brightest, const std::string& name) {
-  const std::size_t rows = image.shape(0), columns = image.shape(1);
-  if (image.shape(2) != 3) gonio::refuse({name, ": an image of ", image.shape(2), " channels, expected 3"});
+GONIO_INLINE stb_extents check_pixels(const image& picture, float brightest, const std::string& name) {
+  const std::size_t rows = picture.shape(0), columns = picture.shape(1);
+  if (picture.shape(2) != 3) gonio::refuse({name, ": an image of ", picture.shape(2), " channels, expected 3"});
   check_image_size(rows, columns, name);
-  const auto bad = std::find_if(image.data(), image.data() + image.size(), [&](float v) { return !(v <= brightest); });
-  if (const auto at = static_cast<std::size_t>(bad - image.data()); at < image.size())
+  const auto bad =
+      std::find_if(picture.data(), picture.data() + picture.size(), [&](float v) { return !(v <= brightest); });
+  if (const auto at = static_cast<std::size_t>(bad - picture.data()); at < picture.size())
     gonio::refuse({name, ": pixel (row ", at / 3 / columns, ", column ", at / 3 % columns, ") is ", *bad,
                    ", which the file cannot hold"});
   return {static_cast<int>(columns), static_cast<int>(rows)};
@@ -200,9 +201,10 @@ GONIO_INLINE image read_png(const std::filesystem::path& path) {
   std::array<float, 256> linear{};
   for (std::size_t code = 0; code < linear.size(); ++code)
     linear[code] = static_cast<float>(detail::decode_srgb(static_cast<double>(code) / 255.0));
-  image image({static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), std::size_t{3}});
-  std::transform(pixels.get(), pixels.get() + image.size(), image.data(), [&](stbi_uc code) { return linear[code]; });
-  return image;
+  image picture({static_cast<std::size_t>(rows), static_cast<std::size_t>(columns), std::size_t{3}});
+  std::transform(pixels.get(), pixels.get() + picture.size(), picture.data(),
+                 [&](stbi_uc code) { return linear[code]; });
+  return picture;
 }
 
 GONIO_INLINE stored_codes read_png_codes(const std::filesystem::path& path) {
@@ -228,10 +230,10 @@ GONIO_INLINE stored_codes read_png_codes(const std::filesystem::path& path) {
   return codes;
 }
 
-GONIO_INLINE void write_png(const std::filesystem::path& path, const image& image) {
-  const auto [columns, rows] = detail::check_pixels(image, std::numeric_limits<float>::infinity(), path.string());
-  std::vector<stbi_uc> codes(image.size());
-  std::transform(image.data(), image.data() + image.size(), codes.begin(),
+GONIO_INLINE void write_png(const std::filesystem::path& path, const image& picture) {
+  const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), path.string());
+  std::vector<stbi_uc> codes(picture.size());
+  std::transform(picture.data(), picture.data() + picture.size(), codes.begin(),
                  [](float value) { return static_cast<stbi_uc>(std::lround(255.0 * encode_srgb(double{value}))); });
   detail::byte_sink sink;
   if (stbi_write_png_to_func(detail::byte_sink::write, &sink, columns, rows, 3, codes.data(), 3 * columns) == 0 ||
@@ -263,17 +265,17 @@ GONIO_INLINE image read_hdr(const std::filesystem::path& path) {
   if (source.truncated) gonio::refuse({name, ": the HDR file is truncated"});
   if (!pixels) detail::refuse_by_stb(name);
   if (!source.left.empty()) gonio::refuse({name, ": ", source.left.size(), " bytes follow the end of the HDR file"});
-  image image({down, across, std::size_t{3}});
-  std::copy_n(pixels.get(), image.size(), image.data());
-  return image;
+  image picture({down, across, std::size_t{3}});
+  std::copy_n(pixels.get(), picture.size(), picture.data());
+  return picture;
 }
 
-GONIO_INLINE void write_hdr(const std::filesystem::path& path, const image& image) {
+GONIO_INLINE void write_hdr(const std::filesystem::path& path, const image& picture) {
   constexpr float brightest = 1.69e38f;
-  const auto [columns, rows] = detail::check_pixels(image, brightest, path.string());
-  std::vector<float> rounded(image.size());
+  const auto [columns, rows] = detail::check_pixels(picture, brightest, path.string());
+  std::vector<float> rounded(picture.size());
   for (std::size_t i = 0; i < rounded.size(); i += 3)
-    std::ranges::copy(detail::round_to_rgbe(image.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
+    std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
   detail::byte_sink sink;
   if (stbi_write_hdr_to_func(detail::byte_sink::write, &sink, columns, rows, 3, rounded.data()) == 0 || sink.failed)
     gonio::refuse({path.string(), ": the image cannot be encoded"});

@@ -15,23 +15,23 @@
 
 namespace gonio::render {
 
-GONIO_INLINE double brightness_of_sphere(const image& image, double share) {
-  if (image.shape(0) != image.shape(1))
-    refuse({"an image of a sphere must be square, not of ", image.shape(0), " x ", image.shape(1), " pixels"});
+GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
+  if (picture.shape(0) != picture.shape(1))
+    refuse({"an image of a sphere must be square, not of ", picture.shape(0), " x ", picture.shape(1), " pixels"});
   std::vector<double> brightest;
-  for (const sphere_point& point : sphere_points(static_cast<int>(image.shape(0))))
-    brightest.push_back(pixel(image, point.row, point.column).maxCoeff());
+  for (const sphere_point& point : sphere_points(static_cast<int>(picture.shape(0))))
+    brightest.push_back(pixel(picture, point.row, point.column).maxCoeff());
   return quantile(brightest, share);
 }
 
 GONIO_INLINE double exposure_of_spheres(std::span<const image> images) {
   double brightest = 0.0;
-  for (const image& image : images) brightest = std::max(brightest, brightness_of_sphere(image));
+  for (const image& picture : images) brightest = std::max(brightest, brightness_of_sphere(picture));
   return brightest > 0.0 ? 1.0 / brightest : 1.0;
 }
 
-GONIO_INLINE void expose(image& image, double exposure) {
-  for (float& value : image) value = static_cast<float>(exposure * value);
+GONIO_INLINE void expose(image& picture, double exposure) {
+  for (float& value : picture) value = static_cast<float>(exposure * value);
 }
 
 }  // namespace gonio::render

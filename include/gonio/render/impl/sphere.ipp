@@ -50,11 +50,11 @@ GONIO_INLINE sphere_colours sphere_operator::apply(const brdf_table& table, thre
 GONIO_INLINE image sphere_operator::to_image(const sphere_colours& colours, const rgb& background) const {
   GONIO_ASSERT(colours.rows() == static_cast<Eigen::Index>(points_.size()));
   const auto side = static_cast<std::size_t>(size_);
-  image image = uniform_image(side, side, background);
+  image picture = uniform_image(side, side, background);
   for (std::size_t point = 0; point < points_.size(); ++point)
-    set_pixel(image, points_[point].row, points_[point].column,
+    set_pixel(picture, points_[point].row, points_[point].column,
               colours.row(static_cast<Eigen::Index>(point)).transpose());
-  return image;
+  return picture;
 }
 
 }  // namespace gonio::render

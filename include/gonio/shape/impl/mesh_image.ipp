@@ -47,13 +47,13 @@ namespace gonio::shape::detail {
 
 /// An image and how near what it shows is.
 struct depth_image {
-  gonio::image image;
+  image picture;
   std::vector<double> nearest;
 };
 
 /// Draws one triangle, whose corners are (column, row, depth) with colours as columns.
 GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corners, const Eigen::Matrix3d& colours) {
-  const std::size_t pixels = onto.image.shape(0);
+  const std::size_t pixels = onto.picture.shape(0);
   const auto last = static_cast<double>(pixels) - 1.0;
   const auto [left, right] = std::minmax({corners(0, 0), corners(0, 1), corners(0, 2)});
   const auto [top, bottom] = std::minmax({corners(1, 0), corners(1, 1), corners(1, 2)});
@@ -74,7 +74,7 @@ GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corner
       if (!(depth < nearest)) continue;
       nearest = depth;
       const Eigen::Vector3d colour = colours * shares;
-      set_pixel(onto.image, row, column, colour.array());
+      set_pixel(onto.picture, row, column, colour.array());
     }
 }
 
@@ -111,7 +111,7 @@ GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colo
     }
     detail::draw_triangle(drawn, corners, corner_colours);
   }
-  return std::move(drawn.image);
+  return std::move(drawn.picture);
 }
 
 }  // namespace gonio::shape

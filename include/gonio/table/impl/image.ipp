@@ -14,10 +14,10 @@
 namespace gonio {
 
 GONIO_INLINE image uniform_image(std::size_t rows, std::size_t columns, const rgb& colour) {
-  image image({rows, columns, std::size_t{3}});
-  for (std::size_t i = 0; i < image.size(); ++i)
-    image.data()[i] = static_cast<float>(colour[static_cast<Eigen::Index>(i % 3)]);
-  return image;
+  image picture({rows, columns, std::size_t{3}});
+  for (std::size_t i = 0; i < picture.size(); ++i)
+    picture.data()[i] = static_cast<float>(colour[static_cast<Eigen::Index>(i % 3)]);
+  return picture;
 }
 
 }  // namespace gonio
