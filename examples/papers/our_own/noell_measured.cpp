@@ -36,7 +36,7 @@ struct measured_options {
   gonio::thread_count threads;
 };
 
-/// The materials on some cells, their corrections, and the judges there.
+/// The materials on some cells, their corrections, and the measures of error there.
 struct benchmark_setup {
   benchmark_setup(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : threads(given.threads),
