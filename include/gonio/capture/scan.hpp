@@ -70,7 +70,8 @@ template <goniometer Machine>
 ///
 /// int main() {
 ///   const std::vector<gonio::direction_pair> poses{{{0, 0, 1}, {0.6, 0, 0.8}}, {{0.6, 0, 0.8}, {0, 0, 1}}};
-///   const gonio::io::scan_journal journal("red-paint.scan", {}, poses, 4095);
+///   const gonio::io::scan_subject subject{.sample = "red paint", .setup = "bench 2"};
+///   const gonio::io::scan_journal journal("red-paint.scan", subject, poses, 4095);
 ///   std::printf("the first pose is %s\n", journal.has(0) ? "measured" : "to be measured");
 /// }
 /// ```

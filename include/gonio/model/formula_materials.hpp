@@ -6,6 +6,7 @@
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
+#include <gonio/table/brdf_table.hpp>
 
 #include <string>
 #include <string_view>
