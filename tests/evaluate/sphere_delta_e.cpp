@@ -13,7 +13,7 @@ using gonio::render::environment_map;
 
 namespace {
 
-const gonio::valid_cells& sphere_cells() {
+const gonio::valid_cells& room_cells() {
   static const gonio::valid_cells cells(gonio::grid({20, 15, 30}));
   return cells;
 }
@@ -22,13 +22,13 @@ environment_map room() { return environment_map::of(gonio::render::formula_envir
 
 /// Under the closed-form environment, tabulated.
 const sphere_delta_e& room_delta_e() {
-  static const sphere_delta_e delta_e(sphere_cells(), gonio::render::important_lights(room(), 200, 1), 12);
+  static const sphere_delta_e delta_e(room_cells(), gonio::render::important_lights(room(), 200, 1), 12);
   return delta_e;
 }
 
-brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::model::lambertian{albedo}, sphere_cells()); }
+brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::model::lambertian{albedo}, room_cells()); }
 
-brdf_table formula(const char* name) { return gonio::tabulate(gonio::model::formula_material(name), sphere_cells()); }
+brdf_table formula(const char* name) { return gonio::tabulate(gonio::model::formula_material(name), room_cells()); }
 
 double mean_luminance(const gonio::render::sphere_colours& colours) {
   double sum = 0.0;
@@ -59,7 +59,7 @@ TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at th
     CHECK((seen.lab.row(point).transpose() - expected).abs().maxCoeff() < 1e-10);
   }
 
-  const sphere_delta_e brighter(sphere_cells(), headlight(), 12, 0.5);
+  const sphere_delta_e brighter(room_cells(), headlight(), 12, 0.5);
   CHECK(mean_luminance(brighter.expose(truth).exposure * brighter.sphere().apply(truth)) ==
         doctest::Approx(0.5).epsilon(1e-12));
   const auto again = room_delta_e().look(truth, seen.exposure);
@@ -69,7 +69,7 @@ TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at th
 
 TEST_CASE("flat spheres differ as their colours do") {
   // Every point has the colour of the material: grey at luminance 0.18, and an estimate of twice that.
-  const sphere_delta_e flat(sphere_cells(), flat_light{}, 12);
+  const sphere_delta_e flat(room_cells(), flat_light{}, 12);
   const double l = 116.0 * std::cbrt(0.18) - 16.0, twice = 116.0 * std::cbrt(0.36) - 16.0;
   const rgb grey = rgb::Constant(0.3);
   CHECK(flat.difference(matte(2.0 * grey), matte(grey)) == doctest::Approx(twice - l).epsilon(1e-4));
@@ -100,7 +100,7 @@ TEST_CASE("a kept truth gives the same difference, the mean of those at the poin
 TEST_CASE("the brightness of the light and of both materials does not matter") {
   gonio::image image = room().image();
   for (float& value : image) value *= 7.3f;
-  const sphere_delta_e brighter(sphere_cells(), gonio::render::important_lights(environment_map(image), 200, 1), 12);
+  const sphere_delta_e brighter(room_cells(), gonio::render::important_lights(environment_map(image), 200, 1), 12);
   const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
   const double difference = room_delta_e().difference(estimate, truth);
   CHECK(brighter.difference(estimate, truth) == doctest::Approx(difference).epsilon(1e-5));
@@ -112,8 +112,8 @@ TEST_CASE("the brightness of the light and of both materials does not matter") {
 }
 
 TEST_CASE("a few important lights judge as all of them do") {
-  const sphere_delta_e all(sphere_cells(), gonio::render::all_lights(room()), 12);
-  const sphere_delta_e few(sphere_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
+  const sphere_delta_e all(room_cells(), gonio::render::all_lights(room()), 12);
+  const sphere_delta_e few(room_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
   for (const char* name : {"blue-rubber", "gold-metal"}) {
     const brdf_table estimate = formula(name), truth = formula("red-paint");
     CHECK(few.difference(estimate, truth) == doctest::Approx(all.difference(estimate, truth)).epsilon(0.01));
@@ -130,7 +130,7 @@ TEST_CASE("a black truth is seen at exposure 1") {
 
 TEST_CASE("negative reflectance counts as zero for a sphere delta_e, cell by cell") {
   brdf_table negative = matte(rgb::Constant(0.3)), clamped = negative;
-  for (std::size_t cell = 0; cell < sphere_cells().size(); cell += 3) {
+  for (std::size_t cell = 0; cell < room_cells().size(); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }
@@ -162,7 +162,7 @@ TEST_CASE("the image of differences has the false colour of each point's differe
 TEST_CASE("the number of threads does not change a byte of what a sphere delta_e says") {
   const brdf_table a = formula("gold-metal"), b = formula("blue-rubber");
   const auto lights = gonio::render::important_lights(room(), 200, 1);
-  const sphere_delta_e one(sphere_cells(), lights, 12, sphere_delta_e::middle_grey, {1});
+  const sphere_delta_e one(room_cells(), lights, 12, sphere_delta_e::middle_grey, {1});
   CHECK(one.difference(a, b, {1}) == room_delta_e().difference(a, b, {4}));
 }
 
@@ -171,6 +171,6 @@ TEST_CASE("other cells and an impossible exposure are refused") {
   CHECK_THROWS_AS((void)room_delta_e().expose(other), gonio::error);
   CHECK_THROWS_AS((void)room_delta_e().difference(other, matte(rgb::Ones())), gonio::error);
   for (const double impossible : {0.0, -1.0, std::nan(""), HUGE_VAL})
-    CHECK_THROWS_WITH_AS((void)sphere_delta_e(sphere_cells(), headlight(), 12, impossible),
+    CHECK_THROWS_WITH_AS((void)sphere_delta_e(room_cells(), headlight(), 12, impossible),
                          doctest::Contains("mean luminance"), gonio::error);
 }
