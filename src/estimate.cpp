@@ -1,5 +1,7 @@
 // The bodies of estimate/, but for what estimate_iterations.cpp has.
 
+#include <gonio/estimate/basis_equations.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
@@ -11,3 +13,13 @@
 #include <gonio/estimate/impl/outlying_samples.ipp>
 #include <gonio/estimate/impl/pull_push.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
+
+namespace gonio {
+
+template located_samples locate_samples(const valid_cells&, const sample_set&, thread_count);
+template class basis_equations<log_relative_pca>;
+template class basis_equations<measured<log>>;
+template class fitted_brdf<log_relative_pca>;
+template class fitted_brdf<measured<log>>;
+
+}  // namespace gonio

@@ -11,3 +11,9 @@
 #include <gonio/model/impl/network_brdf.ipp>
 #include <gonio/model/impl/physical_properties.ipp>
 #include <gonio/model/impl/sampling_techniques.ipp>
+
+namespace gonio {
+
+template brdf_table tabulate(const model::formula_brdf&, const valid_cells&, thread_count);
+
+}  // namespace gonio

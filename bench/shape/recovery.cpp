@@ -1,7 +1,7 @@
 /// What learning a shape model and recovering a scan cost, on one core: the published size, 161 shapes of 3,096
 /// vertices, and synthetic ear canals of it.
 
-#include "../../examples/lab/ear_canal_scans.hpp"
+#include "../../examples/synthetic/ear_canal_scans.hpp"
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 
@@ -15,8 +15,8 @@ namespace {
 constexpr gonio::thread_count one{1};
 
 struct ears {
-  lab::ear_canal_family family;
-  lab::ear_canal_template common;
+  synthetic::ear_canal_family family;
+  synthetic::ear_canal_template common;
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
 
@@ -30,11 +30,11 @@ struct ears {
   [[nodiscard]] gonio::shape::shape_model learn() const {
     return gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles, one);
   }
-  [[nodiscard]] lab::ear_scan scan() const {
-    lab::scan_options how;
-    how.hole = lab::hole_options::large();
+  [[nodiscard]] synthetic::ear_scan scan() const {
+    synthetic::scan_options how;
+    how.hole = synthetic::hole_options::large();
     how.complete_vertices = 0;
-    return lab::scan_of(family.draw(5000), common, 1, how);
+    return synthetic::scan_of(family.draw(5000), common, 1, how);
   }
 };
 
@@ -53,25 +53,25 @@ void learn(benchmark::State& state) {
 }
 
 void find_pose(benchmark::State& state) {
-  const lab::ear_scan scan = published().scan();
+  const synthetic::ear_scan scan = published().scan();
   const gonio::shape::shape_context_matcher matcher(model().mean(), {}, one);
   for (auto _ : state) benchmark::DoNotOptimize(matcher.align(scan.mesh, one));
 }
 
 void index_scan(benchmark::State& state) {
-  const lab::ear_scan scan = published().scan();
+  const synthetic::ear_scan scan = published().scan();
   for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::surface_index(scan.mesh));
 }
 
 void recover(benchmark::State& state) {
-  const lab::ear_scan scan = published().scan();
+  const synthetic::ear_scan scan = published().scan();
   const gonio::shape::surface_index index(scan.mesh);
   const auto pose = gonio::shape::align(scan.truth, model().mean().vertices);
   for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::recover(model(), index, pose, {}, one));
 }
 
 void recover_algorithm_1(benchmark::State& state) {
-  const lab::ear_scan scan = published().scan();
+  const synthetic::ear_scan scan = published().scan();
   const gonio::shape::surface_index index(scan.mesh);
   const auto pose = gonio::shape::align(scan.truth, model().mean().vertices);
   for (auto _ : state) benchmark::DoNotOptimize(gonio::shape::recover_algorithm_1(model(), index, pose, {}, one));

@@ -39,8 +39,8 @@ void compare_tables(const compare_options& options) {
   const auto truth = gonio::io::read_merl_any(options.truth);
   const auto estimate = gonio::io::read_merl_any(options.estimate);
   const auto prior = gonio::io::read_prior(options.prior);
-  const gonio::appearance_metric judge(truth.cells(), 36, options.threads);
-  const auto errors = gonio::compare(estimate, truth, prior.metric(), judge, options.threads);
+  const gonio::appearance_metric appearance(truth.cells(), 36, options.threads);
+  const auto errors = gonio::compare(estimate, truth, prior.metric(), appearance, options.threads);
   if (options.print_json)
     std::cout << to_json(errors).dump(2) << '\n';
   else

@@ -20,7 +20,7 @@ namespace cli {
 namespace {
 
 struct fit_command_options {
-  std::filesystem::path measurements, output, picture, pbrt, mitsuba;
+  std::filesystem::path measurements, output, image, pbrt, mitsuba;
   std::string model = "ggx", metric = "lin";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool fresnel = false, print_json = false;
@@ -64,16 +64,16 @@ void fit(const fit_command_options& options) {
   if (!pbrt.empty()) gonio::io::write_renderer_material(options.pbrt, pbrt);
   if (!mitsuba.empty()) gonio::io::write_renderer_material(options.mitsuba, mitsuba);
   // Tabulate the fit, and draw it beside the table that was measured.
-  if (!options.output.empty() || !options.picture.empty()) {
+  if (!options.output.empty() || !options.image.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
     const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.fit.threads);
     if (!options.output.empty()) write_table(options.output, fitted);
-    if (!options.picture.empty()) {
-      std::vector<gonio::image> pictures;
-      if (table) pictures.push_back(sphere_image(*table, options.how, options.fit.threads));
-      pictures.push_back(sphere_image(fitted, options.how, options.fit.threads));
-      expose_spheres(pictures, std::span(pictures).first(1), options.how);  // by what was measured
-      gonio::io::write_png(options.picture, gonio::render::side_by_side(pictures, 8));
+    if (!options.image.empty()) {
+      std::vector<gonio::image> images;
+      if (table) images.push_back(sphere_image(*table, options.how, options.fit.threads));
+      images.push_back(sphere_image(fitted, options.how, options.fit.threads));
+      expose_spheres(images, std::span(images).first(1), options.how);  // by what was measured
+      gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
     }
   }
   // Print the fit.
@@ -114,7 +114,7 @@ void add_fit(command& app) {
   // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"},
                      "The model as a table to write (.binary, or .npy)");
-  auto image = command.add_output("--image", options->picture, {".png"},
+  auto image = command.add_output("--image", options->image, {".png"},
                                   "Spheres of measurement (if it is a table) and model to write (.png)");
   add_image_options(command, options->how, image);
   command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");

@@ -20,7 +20,7 @@ namespace cli {
 namespace {
 
 struct probe_command {
-  std::filesystem::path input, output, truth, picture;
+  std::filesystem::path input, output, truth, image;
   double distance = 0.0;  ///< in radii of the sphere; 0: far away
   std::size_t pixels = 1024;
   gonio::capture::unwrap_options unwrapping;
@@ -38,17 +38,17 @@ void photograph(const probe_command& options) {
 }
 
 /// An image of fewer rows, each pixel the mean of those that it stands for.
-gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::filesystem::path& file) {
-  const std::size_t factor = picture.shape(0) / rows;
-  if (factor * rows != picture.shape(0) || picture.shape(1) % factor != 0)
-    gonio::refuse(file.string() + ": an image of " + std::to_string(picture.shape(0)) + " rows and " +
-                  std::to_string(picture.shape(1)) + " columns cannot be shown in, or compared with, one of " +
+gonio::image averaged(const gonio::image& image, std::size_t rows, const std::filesystem::path& file) {
+  const std::size_t factor = image.shape(0) / rows;
+  if (factor * rows != image.shape(0) || image.shape(1) % factor != 0)
+    gonio::refuse(file.string() + ": an image of " + std::to_string(image.shape(0)) + " rows and " +
+                  std::to_string(image.shape(1)) + " columns cannot be shown in, or compared with, one of " +
                   std::to_string(rows) + " rows");
-  gonio::image means = gonio::uniform_image(rows, picture.shape(1) / factor);
-  for (std::size_t row = 0; row < picture.shape(0); ++row)
-    for (std::size_t column = 0; column < picture.shape(1); ++column) {
+  gonio::image means = gonio::uniform_image(rows, image.shape(1) / factor);
+  for (std::size_t row = 0; row < image.shape(0); ++row)
+    for (std::size_t column = 0; column < image.shape(1); ++column) {
       const gonio::rgb sum = gonio::pixel(means, row / factor, column / factor) +
-                             gonio::pixel(picture, row, column) / static_cast<double>(factor * factor);
+                             gonio::pixel(image, row, column) / static_cast<double>(factor * factor);
       gonio::set_pixel(means, row / factor, column / factor, sum);
     }
   return means;
@@ -57,12 +57,12 @@ gonio::image averaged(const gonio::image& picture, std::size_t rows, const std::
 /// The probe beside the map, exposed so that the map's mean is a middle grey; highlights are clipped.
 gonio::image image_of(const gonio::image& probe, const gonio::image& map, const std::filesystem::path& file) {
   const std::array both{averaged(probe, map.shape(0), file), map};
-  gonio::image picture = gonio::render::side_by_side(both, 4);
+  gonio::image image = gonio::render::side_by_side(both, 4);
   const double mean = std::accumulate(map.data(), map.data() + map.size(), 0.0) / static_cast<double>(map.size());
   const auto exposure = static_cast<float>(mean > 0.0 ? 0.18 / mean : 1.0);
-  std::transform(picture.data(), picture.data() + picture.size(), picture.data(),
+  std::transform(image.data(), image.data() + image.size(), image.data(),
                  [=](float value) { return exposure * value; });
-  return picture;
+  return image;
 }
 
 /// The mean relative error of a map, by solid angle, of all but the 10 degrees around what the sphere hides. Pixels in
@@ -72,7 +72,7 @@ double relative_error(const gonio::image& map, const gonio::render::environment_
   double sum = 0.0, weights = 0.0;
   for (std::size_t row = 0; row < truth.rows(); ++row)
     for (std::size_t column = 0; column < truth.columns(); ++column) {
-      const gonio::rgb expected = gonio::pixel(truth.picture(), row, column);
+      const gonio::rgb expected = gonio::pixel(truth.image(), row, column);
       if (std::acos(truth.towards(row, column).z()) > largest_polar_angle - gonio::radians(10.0)) continue;
       if (!(expected > 0.0).all()) continue;
       const gonio::rgb off = (gonio::pixel(map, row, column) - expected).abs() / expected;
@@ -93,7 +93,7 @@ void unwrap(const probe_command& options) {
     }
   }();
   gonio::io::write_hdr(options.output, map);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, image_of(probe, map, options.input));
+  if (!options.image.empty()) gonio::io::write_png(options.image, image_of(probe, map, options.input));
   if (options.truth.empty()) return;
   const gonio::render::environment_map truth(
       averaged(gonio::io::read_hdr(options.truth), options.unwrapping.rows, options.truth));
@@ -133,7 +133,7 @@ void add_lab_unwrap(command& lab) {
       .capture_default_str();
   command.add_option("--reflectance", options->unwrapping.reflectance, "Of the mirror").capture_default_str();
   command.add_input("--truth", options->truth, "The environment that was photographed, to compare with (.hdr)");
-  command.add_output("--image", options->picture, {".png"}, "The image beside the map, to look at (.png)");
+  command.add_output("--image", options->image, {".png"}, "The image beside the map, to look at (.png)");
   add_threads_option(command, options->threads);
   command.add_output("-o,--output", options->output, {".hdr"}, "Map to write, latitude-longitude (.hdr)").required();
   command.callback([options] { unwrap(*options); });

@@ -25,8 +25,8 @@ namespace cli {
 namespace {
 
 struct near_field_command {
-  std::vector<std::pair<std::string, std::string>> pictures;  ///< each with its set-up
-  std::string clusters;                                       ///< a number, auto, or empty: one material
+  std::vector<std::pair<std::string, std::string>> images;  ///< each with its set-up
+  std::string clusters;                                     ///< a number, auto, or empty: one material
   std::filesystem::path labels, prior, output;
   double angular_error = 0.0;  ///< degrees; 0: light and cameras are in their places
   bool reference_in_place = false;
@@ -43,19 +43,19 @@ struct taken_image {
 
 std::vector<taken_image> read_images(const near_field_command& options) {
   std::vector<taken_image> taken;
-  for (const auto& [picture, setup] : options.pictures) {
-    if (setup.empty()) gonio::refuse("images: " + picture + " needs its set-up as the next argument");
+  for (const auto& [image, setup] : options.images) {
+    if (setup.empty()) gonio::refuse("images: " + image + " needs its set-up as the next argument");
     gonio::capture::near_field_setup read = gonio::io::read_near_field_setup(setup);
-    taken.push_back({picture, setup, gonio::io::read_hdr(picture), std::move(read)});
+    taken.push_back({image, setup, gonio::io::read_hdr(image), std::move(read)});
   }
   return taken;
 }
 
-gonio::sample_set samples_of(const taken_image& picture) {
+gonio::sample_set samples_of(const taken_image& image) {
   try {
-    return gonio::capture::near_field_samples(picture.pixels, picture.setup);
+    return gonio::capture::near_field_samples(image.pixels, image.setup);
   } catch (const gonio::error& refusal) {
-    gonio::refuse(picture.file + " (as " + picture.setup_file + " says): " + refusal.what());
+    gonio::refuse(image.file + " (as " + image.setup_file + " says): " + refusal.what());
   }
 }
 
@@ -66,7 +66,7 @@ using samples_of_materials = std::vector<std::vector<gonio::sample_set>>;
 
 /// Each material's samples where light and cameras are found to be, which all of them share; says by how much these
 /// were off.
-std::vector<gonio::sample_set> refined(const std::vector<taken_image>& pictures, samples_of_materials samples,
+std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, samples_of_materials samples,
                                        const near_field_command& options) {
   gonio::pose_refinement refinement(
       gonio::io::read_prior(options.prior), std::move(samples),
@@ -75,18 +75,18 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& pictures,
                                                    : gonio::light_calibration::irradiance,
        .threads = options.threads});
   refinement.solve();
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    std::cout << pictures[i].file << ": light off by " << angle_of(refinement.turns()[i].light)
-              << " degrees, camera by " << angle_of(refinement.turns()[i].camera) << '\n';
+  for (std::size_t i = 0; i < images.size(); ++i)
+    std::cout << images[i].file << ": light off by " << angle_of(refinement.turns()[i].light) << " degrees, camera by "
+              << angle_of(refinement.turns()[i].camera) << '\n';
   std::vector<gonio::sample_set> all;
   for (std::size_t m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
   return all;
 }
 
 /// Each material's samples of all images.
-std::vector<gonio::sample_set> joined(const std::vector<taken_image>& pictures, samples_of_materials samples,
+std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, samples_of_materials samples,
                                       const near_field_command& options) {
-  if (options.angular_error != 0.0) return refined(pictures, std::move(samples), options);
+  if (options.angular_error != 0.0) return refined(images, std::move(samples), options);
   std::vector<gonio::sample_set> all(samples.size());
   for (std::size_t m = 0; m < samples.size(); ++m)
     for (const gonio::sample_set& own : samples[m]) all[m].insert(all[m].end(), own.begin(), own.end());
@@ -94,48 +94,48 @@ std::vector<gonio::sample_set> joined(const std::vector<taken_image>& pictures, 
 }
 
 /// How many samples each image has, a line each.
-std::string counts_of(const std::vector<taken_image>& pictures, const std::vector<gonio::sample_set>& samples) {
+std::string counts_of(const std::vector<taken_image>& images, const std::vector<gonio::sample_set>& samples) {
   std::string lines;
-  for (std::size_t i = 0; i < pictures.size(); ++i)
-    lines += pictures[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
+  for (std::size_t i = 0; i < images.size(); ++i)
+    lines += images[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
   return lines;
 }
 
 /// All images' samples in one file; prints how many each has.
-void write_samples_of_one(const std::vector<taken_image>& pictures, const near_field_command& options) {
+void write_samples_of_one(const std::vector<taken_image>& images, const near_field_command& options) {
   std::vector<gonio::sample_set> samples;
-  for (const taken_image& picture : pictures) samples.push_back(samples_of(picture));
-  const std::string counts = counts_of(pictures, samples);
-  gonio::io::write_samples(options.output, joined(pictures, {std::move(samples)}, options).front());
+  for (const taken_image& image : images) samples.push_back(samples_of(image));
+  const std::string counts = counts_of(images, samples);
+  gonio::io::write_samples(options.output, joined(images, {std::move(samples)}, options).front());
   std::cout << counts;
 }
 
 // ---- several materials -------------------------------------------------------------------------
 
 /// Pixels are the same points of the sample only if the camera stood still.
-void require_fixed_camera(const std::vector<taken_image>& pictures) {
-  const gonio::pinhole_camera& first = pictures.front().setup.camera;
-  for (const taken_image& picture : pictures) {
-    const gonio::pinhole_camera& camera = picture.setup.camera;
+void require_fixed_camera(const std::vector<taken_image>& images) {
+  const gonio::pinhole_camera& first = images.front().setup.camera;
+  for (const taken_image& image : images) {
+    const gonio::pinhole_camera& camera = image.setup.camera;
     if (camera.intrinsics().rows != first.intrinsics().rows ||
         camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
         camera.rotation() != first.rotation())
-      gonio::refuse(picture.setup_file +
+      gonio::refuse(image.setup_file +
                     ": --clusters needs a camera that stands still, and this is another one than in " +
-                    pictures.front().setup_file);
+                    images.front().setup_file);
   }
 }
 
 /// Clusters of the pixels of an image's region by their reflectance.
-gonio::capture::colour_clusters clusters_of(const taken_image& picture, const std::vector<std::size_t>& region,
+gonio::capture::colour_clusters clusters_of(const taken_image& image, const std::vector<std::size_t>& region,
                                             const near_field_command& options) {
-  static_cast<void>(samples_of(picture));  // refuses what is no image of the sample
-  const std::size_t columns = picture.setup.camera.intrinsics().columns;
+  static_cast<void>(samples_of(image));  // refuses what is no image of the sample
+  const std::size_t columns = image.setup.camera.intrinsics().columns;
   gonio::capture::point_matrix colours(std::ssize(region), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i) {
     const std::size_t number = region[static_cast<std::size_t>(i)];
-    const gonio::rgb value = gonio::pixel(picture.pixels, number / columns, number % columns);
-    colours.row(i) = (value / picture.setup.light.irradiance).matrix().transpose();
+    const gonio::rgb value = gonio::pixel(image.pixels, number / columns, number % columns);
+    colours.row(i) = (value / image.setup.light.irradiance).matrix().transpose();
   }
   if (options.clusters == "auto")
     return gonio::capture::cluster_colours(colours, gonio::capture::cluster_count_choice{}, options.seed,
@@ -169,9 +169,9 @@ gonio::image label_map(const gonio::capture::colour_clusters& clusters, const st
 }
 
 /// A file of samples for each material. Its pixels are those of its cluster in the last image.
-void write_samples_of_each(std::vector<taken_image> pictures, const command& given, const near_field_command& options) {
-  require_fixed_camera(pictures);
-  const taken_image& diffuse = pictures.back();
+void write_samples_of_each(std::vector<taken_image> images, const command& given, const near_field_command& options) {
+  require_fixed_camera(images);
+  const taken_image& diffuse = images.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
   const std::vector<std::size_t> region = gonio::capture::pixels_of_region(diffuse.setup);
   const gonio::capture::colour_clusters clusters = clusters_of(diffuse, region, options);
@@ -184,13 +184,13 @@ void write_samples_of_each(std::vector<taken_image> pictures, const command& giv
     std::vector<bool> mask(size.rows * size.columns, false);
     for (const std::size_t pixel : clusters.pixels(material)) mask[region[pixel]] = true;
     auto& own = samples.emplace_back();
-    for (taken_image& picture : pictures) {
-      picture.setup.mask = mask;
-      own.push_back(samples_of(picture));
+    for (taken_image& image : images) {
+      image.setup.mask = mask;
+      own.push_back(samples_of(image));
     }
-    counts.push_back(counts_of(pictures, own));
+    counts.push_back(counts_of(images, own));
   }
-  const std::vector<gonio::sample_set> all = joined(pictures, std::move(samples), options);
+  const std::vector<gonio::sample_set> all = joined(images, std::move(samples), options);
   for (std::size_t material = 0; material < clusters.count(); ++material) {
     const std::filesystem::path path = path_of_material(options.output, material);
     gonio::io::write_samples(path, all[material]);
@@ -202,11 +202,11 @@ void run(const command& given, const near_field_command& options) {
   if (options.reference_in_place && options.angular_error == 0.0)
     gonio::refuse("--reference-in-place requires --misplaced");
   if (options.clusters.empty() && !options.labels.empty()) gonio::refuse("--labels requires --clusters");
-  std::vector<taken_image> pictures = read_images(options);
+  std::vector<taken_image> images = read_images(options);
   if (options.clusters.empty())
-    write_samples_of_one(pictures, options);
+    write_samples_of_one(images, options);
   else
-    write_samples_of_each(std::move(pictures), given, options);
+    write_samples_of_each(std::move(images), given, options);
 }
 
 }  // namespace
@@ -215,11 +215,11 @@ void add_near_field(command& app) {
   auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
   command
-      .add_input("images", options->pictures,
+      .add_input("images", options->images,
                  "Images of linear radiance (.hdr), each followed by its set-up (docs/reference/formats.md): camera, "
                  "distant "
                  "light and region of interest")
-      .type_name("PICTURE SETUP")
+      .type_name("IMAGE SETUP")
       .required();
   command.add_option("--clusters", options->clusters,
                      "Several materials: how many, or auto; told apart by colour in the last image, which should "

@@ -17,7 +17,7 @@ namespace cli {
 namespace {
 
 struct plan_options {
-  std::filesystem::path directions, picture;
+  std::filesystem::path directions, image;
   bool print_json = false;
 };
 
@@ -80,17 +80,16 @@ gonio::rgb colour_of(std::size_t number) {
 }
 
 /// Paints the pixels whose distance from `at` is in a range.
-void paint_ring(gonio::image& picture, const Eigen::Vector2d& at, double inner, double outer,
-                const gonio::rgb& colour) {
+void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, double outer, const gonio::rgb& colour) {
   const auto first = [&](double middle) { return std::max(0, static_cast<int>(middle - outer - 1.0)); };
   const auto last = [&](double middle, std::size_t size) {
     return std::min(static_cast<int>(size) - 1, static_cast<int>(middle + outer + 1.0));
   };
-  for (int row = first(at.y()); row <= last(at.y(), picture.shape(0)); ++row)
-    for (int column = first(at.x()); column <= last(at.x(), picture.shape(1)); ++column) {
+  for (int row = first(at.y()); row <= last(at.y(), image.shape(0)); ++row)
+    for (int column = first(at.x()); column <= last(at.x(), image.shape(1)); ++column) {
       const double distance = (Eigen::Vector2d(column + 0.5, row + 0.5) - at).norm();
       if (distance >= inner && distance <= outer)
-        gonio::set_pixel(picture, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour);
+        gonio::set_pixel(image, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour);
     }
 }
 
@@ -104,28 +103,28 @@ Eigen::Vector2d place_of(const gonio::direction& w) {
 /// Each pose a line from its light (a disc) to its viewer (a ring); circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
   const auto size = static_cast<std::size_t>(2 * (hemisphere_radius + hemisphere_margin));
-  gonio::image picture = gonio::uniform_image(size, size, gonio::rgb::Ones());
+  gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());
   const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
   for (const int theta : {30, 60, 90})
-    paint_ring(picture, middle, hemisphere_radius * theta / 90.0 - 0.6, hemisphere_radius * theta / 90.0 + 0.6,
+    paint_ring(image, middle, hemisphere_radius * theta / 90.0 - 0.6, hemisphere_radius * theta / 90.0 + 0.6,
                gonio::rgb::Constant(theta == 90 ? 0.2 : 0.6));
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector2d light = place_of(poses[i].wi), viewer = place_of(poses[i].wo);
     const int steps = 1 + static_cast<int>((viewer - light).norm());
     for (int step = 0; step <= steps; ++step)
-      paint_ring(picture, light + (viewer - light) * (static_cast<double>(step) / steps), 0.0, 0.8, colour_of(i));
-    paint_ring(picture, light, 0.0, 5.0, colour_of(i));
-    paint_ring(picture, viewer, 0.0, 4.0, gonio::rgb::Ones());
-    paint_ring(picture, viewer, 3.5, 5.5, colour_of(i));
+      paint_ring(image, light + (viewer - light) * (static_cast<double>(step) / steps), 0.0, 0.8, colour_of(i));
+    paint_ring(image, light, 0.0, 5.0, colour_of(i));
+    paint_ring(image, viewer, 0.0, 4.0, gonio::rgb::Ones());
+    paint_ring(image, viewer, 3.5, 5.5, colour_of(i));
   }
-  return picture;
+  return image;
 }
 
 void run(const plan_options& options) {
   std::vector<pose> poses;
   for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(options.directions))
     poses.push_back(to_pose(pair));
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, drawing_of(poses));
+  if (!options.image.empty()) gonio::io::write_png(options.image, drawing_of(poses));
   if (options.print_json)
     print_json(poses);
   else
@@ -138,7 +137,7 @@ void add_plan(command& app) {
   auto command = app.add_subcommand("plan", "Print directions as poses of a goniometer, and draw them");
   const auto options = std::make_shared<plan_options>();
   command.add_input("directions", options->directions, "Directions, as `gonio design` writes them (.csv)").required();
-  command.add_output("--image", options->picture, {".png"},
+  command.add_output("--image", options->image, {".png"},
                      "Drawing of the hemisphere from above: discs are lights, rings are viewers (.png)");
   command.add_flag("--json", options->print_json, "Print the poses as JSON");
   command.callback([options] { run(*options); });

@@ -108,7 +108,7 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
 void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
   std::array spheres{sphere_image(table, how, options.threads)};
   expose_spheres(spheres, how);
-  gonio::io::write_png(options.picture, spheres.front());
+  gonio::io::write_png(options.image, spheres.front());
 }
 
 /// Samples may be such that what they are completed to is no number; it is they that are to blame, not the output.
@@ -128,7 +128,7 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
   const reconstruction result = chosen.reconstruct(options, samples);
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
-  if (!options.picture.empty()) write_sphere(options, result.table, how);
+  if (!options.image.empty()) write_sphere(options, result.table, how);
   if (!options.history.empty()) write_history(options.history, result.history);
   if (result.iteration_figure) {
     gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
@@ -204,7 +204,7 @@ void add_reconstruct(command& app) {
       .capture_default_str();
   // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");
-  auto image = command.add_output("--image", options->picture, {".png"}, "Image of a sphere to write (.png)");
+  auto image = command.add_output("--image", options->image, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);

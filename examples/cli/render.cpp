@@ -24,7 +24,7 @@ struct render_options {
   std::filesystem::path output, environment;
   bool slices = false;
   int quality = 64;
-  image_options picture;
+  image_options image;
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -35,19 +35,19 @@ void render(const render_options& options) {
     light.emplace(gonio::render::environment_map(gonio::io::read_hdr(options.environment)));
   progress_bar bar;
   const auto image_of = [&](const gonio::brdf_table& table) {
-    if (options.slices) return slice_image(table, options.picture, options.threads);
-    if (!light) return sphere_image(table, options.picture, options.threads);
+    if (options.slices) return slice_image(table, options.image, options.threads);
+    if (!light) return sphere_image(table, options.image, options.threads);
     const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
-    const gonio::render::sampled_sphere_view view{.size = options.picture.size,
+    const gonio::render::sampled_sphere_view view{.size = options.image.size,
                                                   .samples = options.quality,
                                                   .seed = options.seed,
-                                                  .white = options.picture.exposure.value_or(exposure_in_environment)};
+                                                  .white = options.image.exposure.value_or(exposure_in_environment)};
     return gonio::render::render_sphere(material, *light, view, options.threads, bar.listener());
   };
-  std::vector<gonio::image> pictures;
-  for (const auto& path : options.tables) pictures.push_back(image_of(gonio::io::read_merl_any(path)));
-  if (!options.slices && !light) expose_spheres(pictures, options.picture);
-  gonio::io::write_png(options.output, gonio::render::side_by_side(pictures, 8));
+  std::vector<gonio::image> images;
+  for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
+  if (!options.slices && !light) expose_spheres(images, options.image);
+  gonio::io::write_png(options.output, gonio::render::side_by_side(images, 8));
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void add_render(command& app) {
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
-  add_image_options_to(command, options->picture,
+  add_image_options_to(command, options->image,
                        "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
                        "percentile")
       .second.excludes(slices);

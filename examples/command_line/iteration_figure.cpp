@@ -20,11 +20,11 @@ constexpr std::size_t margin = 6;
 const gonio::rgb paper = gonio::rgb::Constant(0.35);
 
 /// Each pixel as a square of 2 x 2.
-gonio::image doubled(const gonio::image& picture) {
-  gonio::image large({2 * picture.shape(0), 2 * picture.shape(1), std::size_t{3}});
+gonio::image doubled(const gonio::image& image) {
+  gonio::image large({2 * image.shape(0), 2 * image.shape(1), std::size_t{3}});
   for (std::size_t row = 0; row < large.shape(0); ++row)
     for (std::size_t column = 0; column < large.shape(1); ++column)
-      gonio::set_pixel(large, row, column, gonio::pixel(picture, row / 2, column / 2));
+      gonio::set_pixel(large, row, column, gonio::pixel(image, row / 2, column / 2));
   return large;
 }
 
@@ -73,16 +73,16 @@ gonio::image sparse_slice(const gonio::sample_set& samples, const gonio::rgb& no
   const gonio::grid nodes({cells_across, cells_across, 1}, gonio::cell_anchor::centre);
   const auto shown = samples_near_slice(samples);
   const int reach = shown.size() <= 400 ? 1 : 0;
-  gonio::image picture = gonio::uniform_image(tile, tile, nothing);
+  gonio::image image = gonio::uniform_image(tile, tile, nothing);
   for (const std::size_t i : shown) {
     const gonio::half_difference in_slice{samples[i].angles().theta_h, samples[i].angles().theta_d, 0.0};
     const gonio::cell_index cell = nodes.nearest(in_slice);
     const int left = 2 * cell.theta_h, top = tile - 2 - 2 * cell.theta_d;
     for (int row = std::max(top - reach, 0); row < std::min(top + 2 + reach, tile); ++row)
       for (int column = std::max(left - reach, 0); column < std::min(left + 2 + reach, tile); ++column)
-        gonio::set_pixel(picture, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour(i));
+        gonio::set_pixel(image, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour(i));
   }
-  return picture;
+  return image;
 }
 
 /// Images in columns of equal tiles; a column may end before the others.
@@ -102,28 +102,28 @@ class gallery {
  public:
   gallery(const gonio::brdf_table& reference, gonio::thread_count threads)
       : threads_(threads),
-        judge_(reference.cells(), gonio::render::environment_lighting{}, cells_across,
-               gonio::sphere_delta_e::middle_grey, threads),
-        reference_(judge_.expose(reference, threads)) {}
+        delta_e_(reference.cells(), gonio::render::environment_lighting{}, cells_across,
+                 gonio::sphere_delta_e::middle_grey, threads),
+        reference_(delta_e_.expose(reference, threads)) {}
 
   [[nodiscard]] gonio::image sphere(const gonio::brdf_table& table) const {
-    const gonio::render::sphere_colours colours = reference_.exposure * judge_.sphere().apply(table, threads_);
-    return doubled(judge_.sphere().to_image(colours, paper));
+    const gonio::render::sphere_colours colours = reference_.exposure * delta_e_.sphere().apply(table, threads_);
+    return doubled(delta_e_.sphere().to_image(colours, paper));
   }
 
   struct verdict {
-    gonio::image picture;
+    gonio::image image;
     double mean = 0.0;
   };
   /// The CIELAB differences of a table's sphere to that of the reference.
   [[nodiscard]] verdict difference(const gonio::brdf_table& table) const {
-    const auto seen = judge_.look(table, reference_.exposure, threads_);
-    return {doubled(judge_.difference_image(seen, reference_, {}, paper)), judge_.difference(seen, reference_)};
+    const auto seen = delta_e_.look(table, reference_.exposure, threads_);
+    return {doubled(delta_e_.difference_image(seen, reference_, {}, paper)), delta_e_.difference(seen, reference_)};
   }
 
  private:
   gonio::thread_count threads_;
-  gonio::sphere_delta_e judge_;
+  gonio::sphere_delta_e delta_e_;
   gonio::sphere_appearance reference_;
 };
 
@@ -189,11 +189,11 @@ iteration_image iteration_figure::draw() const {
     }
     columns.push_back({slice(now.estimate, threads_), spheres.sphere(now.estimate)});
     if (!truth_) continue;
-    auto [picture, mean] = spheres.difference(now.estimate);
-    columns.back().push_back(std::move(picture));
+    auto [image, mean] = spheres.difference(now.estimate);
+    columns.back().push_back(std::move(image));
     result.differences.emplace_back(now.round, mean);
   }
-  result.picture = in_columns(columns);
+  result.image = in_columns(columns);
   return result;
 }
 

@@ -12,7 +12,7 @@
 namespace cli {
 
 struct iteration_image {
-  gonio::image picture;
+  gonio::image image;
   /// For each round that is drawn, the mean CIELAB difference of its sphere to the truth's; empty without a truth.
   std::vector<std::pair<std::size_t, double>> differences;
 };

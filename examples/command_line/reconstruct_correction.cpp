@@ -99,8 +99,8 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 
   // Draw the iteration figure.
   bar.draw("drawing", 1.0);
-  auto [picture, differences] = watched->draw();
-  result.iteration_figure = std::move(picture);
+  auto [image, differences] = watched->draw();
+  result.iteration_figure = std::move(image);
   for (const auto& [round, difference] : differences)
     result.details["delta_e_env"].push_back({{"round", round}, {"mean", difference}});
   if (!differences.empty())

@@ -17,7 +17,7 @@
 namespace cli {
 
 struct reconstruct_options {
-  std::filesystem::path samples, output, picture, history, iteration_figure, truth;
+  std::filesystem::path samples, output, image, history, iteration_figure, truth;
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;

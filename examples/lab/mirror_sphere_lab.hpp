@@ -10,7 +10,7 @@ namespace lab {
 template <class Radiance>
 [[nodiscard]] gonio::image photograph(const gonio::capture::mirror_sphere& sphere, const Radiance& radiance,
                                       std::size_t pixels, int samples = 4) {
-  gonio::image picture = gonio::uniform_image(pixels, pixels);
+  gonio::image image = gonio::uniform_image(pixels, pixels);
   const double scale = 2.0 / static_cast<double>(pixels);
   for (std::size_t row = 0; row < pixels; ++row)
     for (std::size_t column = 0; column < pixels; ++column) {
@@ -21,9 +21,9 @@ template <class Radiance>
           const double y = 1.0 - scale * (static_cast<double>(row) + (i + 0.5) / samples);
           if (const auto light = sphere.light_at({x, y})) sum += radiance(*light);
         }
-      gonio::set_pixel(picture, row, column, sum / (samples * samples));
+      gonio::set_pixel(image, row, column, sum / (samples * samples));
     }
-  return picture;
+  return image;
 }
 
 }  // namespace lab

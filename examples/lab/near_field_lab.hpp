@@ -35,7 +35,7 @@ template <gonio::brdf Brdf>
                                      turn_camera * setup.camera.position());
 
   const gonio::camera_intrinsics& size = camera.intrinsics();
-  gonio::image picture = gonio::uniform_image(size.rows, size.columns);
+  gonio::image image = gonio::uniform_image(size.rows, size.columns);
   std::normal_distribution<double> normal;
   for (std::size_t row = 0; row < size.rows; ++row)
     for (std::size_t column = 0; column < size.columns; ++column) {
@@ -45,9 +45,9 @@ template <gonio::brdf Brdf>
       gonio::rgb radiance = material(light, -line.towards) * setup.light.irradiance * std::max(light.z(), 0.0);
       if (defects.noise > 0.0)
         for (double& channel : radiance) channel *= 1.0 + defects.noise * normal(generator);
-      gonio::set_pixel(picture, row, column, radiance);
+      gonio::set_pixel(image, row, column, radiance);
     }
-  return picture;
+  return image;
 }
 
 }  // namespace lab

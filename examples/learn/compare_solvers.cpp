@@ -18,12 +18,12 @@ int main() {
   const gonio::sample_set samples = gonio::io::read_samples("measurements.csv");
   const gonio::valid_cells cells(gonio::grid({90, 30, 36}));
   const gonio::brdf_table truth = gonio::tabulate(gonio::model::formula_material("red-paint"), cells);
-  const gonio::appearance_metric judge(cells);
+  const gonio::appearance_metric appearance(cells);
 
   std::printf("%-26s %9s %9s %11s %8s\n", "", "residual", "weights", "mapped rms", "Delta E");
   const auto show = [&](const char* name, const auto& solver) {
     const auto paint = gonio::decomposition{prior, solver}.fit(samples);
-    const gonio::comparison off = gonio::compare(paint.tabulate(cells), truth, prior.metric(), judge);
+    const gonio::comparison off = gonio::compare(paint.tabulate(cells), truth, prior.metric(), appearance);
     const Eigen::MatrixXd& weights = paint.weights();
     const long used = (weights.col(0).array().abs() > 1e-12).count();
     std::printf("%-26s %9.4f %9ld %11.3f %8.2f\n", name, paint.report()->residual[0], used, off.mapped_rms.mean(),

@@ -26,17 +26,17 @@ int main() {
                                                  .light = {light},
                                                  .disc = disc,
                                                  .block = 2};
-    const gonio::image picture = lab::photograph(material, disc, setup, {0.01, gonio::radians(0.5)}, 7);
-    images.push_back(gonio::capture::near_field_samples(picture, setup));
+    const gonio::image image = lab::photograph(material, disc, setup, {0.01, gonio::radians(0.5)}, 7);
+    images.push_back(gonio::capture::near_field_samples(image, setup));
     samples.insert(samples.end(), images.back().begin(), images.back().end());
   }
   std::printf("%zu samples in two images\n", samples.size());
 
   const gonio::valid_cells cells(gonio::grid({90, 30, 36}));
   const gonio::brdf_table truth = gonio::tabulate(material, cells);
-  const gonio::appearance_metric judge(cells);
+  const gonio::appearance_metric appearance(cells);
   const auto show = [&](const char* name, const auto& paint) {
-    const gonio::comparison off = gonio::compare(paint.tabulate(cells), truth, prior.metric(), judge);
+    const gonio::comparison off = gonio::compare(paint.tabulate(cells), truth, prior.metric(), appearance);
     std::printf("%-28s mapped rms %.3f, Delta E %.2f\n", name, off.mapped_rms.mean(), off.delta_e_env);
   };
   show("where they are said to be:", gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples));

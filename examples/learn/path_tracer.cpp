@@ -113,7 +113,7 @@ rgb radiance(const scene& world, direction from, direction towards, Number& numb
 gonio::image render(const scene& world, std::size_t rows, std::size_t columns, int samples) {
   const direction eye(0.0, 8.0, 13.0), ahead = (direction(0.0, 0.2, 0.0) - eye).normalized();
   const direction right = direction(1.0, 0.0, 0.0), up = right.cross(ahead).normalized();
-  gonio::image picture = gonio::uniform_image(rows, columns);
+  gonio::image image = gonio::uniform_image(rows, columns);
   std::atomic<std::size_t> done = 0;
   gonio::for_each_block(rows, 1, [&](gonio::block range) {
     std::mt19937_64 generator(range.begin + 1);
@@ -126,12 +126,12 @@ gonio::image render(const scene& world, std::size_t rows, std::size_t columns, i
         const double height = static_cast<double>(rows) / static_cast<double>(columns);
         sum += radiance(world, eye, direction(ahead + 0.94 * x * right + 0.94 * height * y * up).normalized(), number);
       }
-      gonio::set_pixel(picture, range.begin, column, sum / samples);
+      gonio::set_pixel(image, range.begin, column, sum / samples);
     }
     std::fprintf(stderr, "\r%3zu %%", 100 * ++done / rows);
   });
   std::fputc('\n', stderr);
-  return picture;
+  return image;
 }
 
 /// Truth and estimate in turn of the ten test materials of Nielsen et al. 2015.

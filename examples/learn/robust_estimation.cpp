@@ -25,9 +25,9 @@ int main() {
   const gonio::sample_set samples =
       gonio::sample_table(truth, measured_cells, {.outlier_ratio = 0.2, .noise = 0.02}, 1);
 
-  const gonio::appearance_metric judge(cells);
+  const gonio::appearance_metric appearance(cells);
   const auto show = [&](const char* name, const gonio::brdf_table& estimate) {
-    const gonio::comparison off = gonio::compare(estimate, truth, prior.metric(), judge);
+    const gonio::comparison off = gonio::compare(estimate, truth, prior.metric(), appearance);
     std::printf("%-24s mapped rms %.3f, Delta E %.2f, peak %.2f of the truth's\n", name, off.mapped_rms.mean(),
                 off.delta_e_env, off.peak_ratio.mean());
   };

@@ -1,6 +1,6 @@
 /// Sixty synthetic ear canals are learned; the hole in the scan of another one is filled by what they have in common.
 
-#include "lab/ear_canal_scans.hpp"
+#include "synthetic/ear_canal_scans.hpp"
 #include <gonio/shape.hpp>
 
 #include <cstdio>
@@ -9,8 +9,8 @@
 
 int main() {
   // The same 500 vertices in each of 60 shapes. Yours come from files: gonio::io::read_mesh.
-  const lab::ear_canal_family family;
-  const lab::ear_canal_template common{500};
+  const synthetic::ear_canal_family family;
+  const synthetic::ear_canal_template common{500};
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   for (std::uint64_t i = 0; i < 60; ++i) {
@@ -19,9 +19,9 @@ int main() {
   }
   const gonio::shape::shape_model model = gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles);
 
-  lab::scan_options how;
-  how.hole = lab::hole_options::large();
-  const lab::ear_scan ear = lab::scan_of(family.draw(5001), common, 1, how);
+  synthetic::scan_options how;
+  how.hole = synthetic::hole_options::large();
+  const synthetic::ear_scan ear = synthetic::scan_of(family.draw(5001), common, 1, how);
 
   const gonio::shape::surface_index scan(ear.mesh);
   const auto pose = gonio::shape::align_by_shape_context(scan.mesh(), model.mean()).transform;

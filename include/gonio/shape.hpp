@@ -2,11 +2,6 @@
 /// Statistical surface recovery: all of `shape/`, and its files. Needs gonio::shape (dlib, nanoflann), which the rest
 /// of the library does not.
 
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/mesh_parts.hpp>
-#include <gonio/io/obj.hpp>
-#include <gonio/io/ply.hpp>
-#include <gonio/io/shape_model.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/assignment.hpp>
 #include <gonio/shape/bootstrap.hpp>
@@ -17,6 +12,11 @@
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/geodesic.hpp>
 #include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
+#include <gonio/shape/io/obj.hpp>
+#include <gonio/shape/io/ply.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/mesh_image.hpp>
 #include <gonio/shape/mesh_part.hpp>
 #include <gonio/shape/mesh_topology.hpp>

@@ -22,7 +22,7 @@ std::size_t paint_at(Eigen::Index pixel) {
 
 /// Pixels coloured by `colour(i, normal, uniform)`, random numbers at hand.
 template <class Colour>
-point_matrix synthetic_picture(Eigen::Index pixels, unsigned seed, Colour&& colour) {
+point_matrix synthetic_image(Eigen::Index pixels, unsigned seed, Colour&& colour) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform;
@@ -36,7 +36,7 @@ point_matrix synthetic_picture(Eigen::Index pixels, unsigned seed, Colour&& colo
 
 /// The card in uneven light, with noise.
 point_matrix greeting_card(Eigen::Index pixels, unsigned seed) {
-  return synthetic_picture(pixels, seed, [](Eigen::Index i, auto&& normal, auto&& uniform) {
+  return synthetic_image(pixels, seed, [](Eigen::Index i, auto&& normal, auto&& uniform) {
     const rgb noise(normal(), normal(), normal());
     return rgb(paints[paint_at(i)] * (0.7 + 0.3 * uniform()) + 0.01 * noise);
   });
@@ -92,25 +92,24 @@ TEST_CASE("one material is one cluster, noisy, shaded or both") {
     CHECK(largest > least);
     CHECK(largest < 0.645);
   };
-  alone(synthetic_picture(
+  alone(synthetic_image(
             6000, 5,
             [](pixel, auto&& normal, auto&&) { return rgb(paints[0] + 0.03 * rgb(normal(), normal(), normal())); }),
         0.35);
-  alone(synthetic_picture(6000, 6,
-                          [](pixel, auto&& normal, auto&&) { return rgb(paints[2] * std::exp(0.3 * normal())); }),
-        0.5);
-  alone(synthetic_picture(6000, 7,
-                          [](pixel, auto&&, auto&& uniform) { return rgb(paints[2] * (0.5 + 0.5 * uniform())); }),
-        0.6);
   alone(
-      synthetic_picture(6000, 8, [](pixel, auto&&, auto&& uniform) { return rgb(paints[0] * std::pow(uniform(), 2)); }),
+      synthetic_image(6000, 6, [](pixel, auto&& normal, auto&&) { return rgb(paints[2] * std::exp(0.3 * normal())); }),
       0.5);
+  alone(
+      synthetic_image(6000, 7, [](pixel, auto&&, auto&& uniform) { return rgb(paints[2] * (0.5 + 0.5 * uniform())); }),
+      0.6);
+  alone(synthetic_image(6000, 8, [](pixel, auto&&, auto&& uniform) { return rgb(paints[0] * std::pow(uniform(), 2)); }),
+        0.5);
 }
 
 TEST_CASE("two clouds eight deviations apart are two clusters, by their lightness alone") {
   // L* is 116 cbrt(Y) - 16.
   const auto grey = [](double lightness) { return rgb(rgb::Constant(std::pow((lightness + 16.0) / 116.0, 3))); };
-  const auto colours = synthetic_picture(6000, 9, [&](Eigen::Index i, auto&& normal, auto&&) {
+  const auto colours = synthetic_image(6000, 9, [&](Eigen::Index i, auto&& normal, auto&&) {
     if (i % 50 == 0) return grey(100.0);  // which sets the exposure
     return grey((i % 3 == 0 ? 30.0 : 54.0) + 3.0 * normal());
   });

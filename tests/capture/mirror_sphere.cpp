@@ -18,7 +18,7 @@ double mean_relative_error(const gonio::render::environment_map& truth, const go
   for (std::size_t row = 0; row < truth.rows(); ++row)
     for (std::size_t column = 0; column < truth.columns(); ++column) {
       if (std::acos(std::clamp(truth.towards(row, column).z(), -1.0, 1.0)) > largest_angle) continue;
-      const gonio::rgb expected = gonio::pixel(truth.picture(), row, column);
+      const gonio::rgb expected = gonio::pixel(truth.image(), row, column);
       sum += truth.solid_angle(row) * ((gonio::pixel(found, row, column) - expected).abs() / expected).mean();
       weights += truth.solid_angle(row);
     }

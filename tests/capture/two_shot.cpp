@@ -32,8 +32,8 @@ gonio::sample_set measured(const gonio::model::formula_brdf& material,
                            const lab::near_field_defects& defects = {}) {
   gonio::sample_set samples;
   for (const gonio::capture::near_field_setup& shot : shots) {
-    const auto picture = lab::photograph(material, {.radius = 0.5}, shot, defects, samples.size());
-    const auto some = gonio::capture::near_field_samples(picture, shot);
+    const auto image = lab::photograph(material, {.radius = 0.5}, shot, defects, samples.size());
+    const auto some = gonio::capture::near_field_samples(image, shot);
     samples.insert(samples.end(), some.begin(), some.end());
   }
   return samples;

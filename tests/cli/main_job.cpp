@@ -248,13 +248,13 @@ TEST_CASE("the story of a correction has a tile for each stage, and the differen
   CHECK(scratch::get(plastic.at("a/story/history.csv")).starts_with("round,error,change,down_weighted\n1,"));
 
   // Truth and input, start, correction, corrected: 4 columns and 3 rows of 144 pixels with margins of 6.
-  const auto picture = gonio::io::read_png(plastic.at("a/story/iterations.png"));
-  REQUIRE(picture.shape(0) == 6 + 3 * 150);
-  REQUIRE(picture.shape(1) == 6 + 4 * 150);
+  const auto image = gonio::io::read_png(plastic.at("a/story/iterations.png"));
+  REQUIRE(image.shape(0) == 6 + 3 * 150);
+  REQUIRE(image.shape(1) == 6 + 4 * 150);
   const auto mean_of_tile = [&](std::size_t column, std::size_t row) {
     gonio::rgb sum = gonio::rgb::Zero();
     for (std::size_t y = 0; y < 144; ++y)
-      for (std::size_t x = 0; x < 144; ++x) sum += gonio::pixel(picture, 6 + 150 * row + y, 6 + 150 * column + x);
+      for (std::size_t x = 0; x < 144; ++x) sum += gonio::pixel(image, 6 + 150 * row + y, 6 + 150 * column + x);
     return gonio::rgb(sum / (144.0 * 144.0));
   };
   const gonio::rgb input = mean_of_tile(0, 2), before = mean_of_tile(1, 2), after = mean_of_tile(3, 2);

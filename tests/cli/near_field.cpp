@@ -77,10 +77,10 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
     gonio::io::write_hdr(shots.at(name) + ".hdr", lab::photograph(shots.paint, {.radius = 0.5}, setup,
                                                                   {.misalignment = gonio::radians(1.0)}, seed));
   }
-  const std::string pictures = shots.shot("first") + shots.shot("second");
-  const auto plain = gonio_tool("near-field " + pictures + "-o " + shots.at("plain.csv"));
+  const std::string images = shots.shot("first") + shots.shot("second");
+  const auto plain = gonio_tool("near-field " + images + "-o " + shots.at("plain.csv"));
   REQUIRE_MESSAGE(plain.exit_code == 0, plain.output);
-  const auto found = gonio_tool("near-field " + pictures + "--misplaced 1 -o " + shots.at("found.csv"));
+  const auto found = gonio_tool("near-field " + images + "--misplaced 1 -o " + shots.at("found.csv"));
   REQUIRE_MESSAGE(found.exit_code == 0, found.output);
   CHECK(found.output.find("light off by ") != std::string::npos);
   CHECK(found.output.find("second.hdr: light off by ") != std::string::npos);
@@ -100,7 +100,7 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
 
   // A reference in place saw the same light: the values stay, where otherwise they take the light's cosine along.
   const auto by_reference =
-      gonio_tool("near-field " + pictures + "--misplaced 1 --reference-in-place -o " + shots.at("reference.csv"));
+      gonio_tool("near-field " + images + "--misplaced 1 --reference-in-place -o " + shots.at("reference.csv"));
   REQUIRE_MESSAGE(by_reference.exit_code == 0, by_reference.output);
   const auto same_values = [&](const char* file) {
     return std::ranges::equal(
@@ -109,11 +109,11 @@ TEST_CASE("light and camera that are off are found, and samples are where they w
   };
   CHECK(same_values("reference.csv"));
   CHECK_FALSE(same_values("found.csv"));
-  const auto useless = gonio_tool("near-field " + pictures + "--reference-in-place -o " + shots.at("no.csv"));
+  const auto useless = gonio_tool("near-field " + images + "--reference-in-place -o " + shots.at("no.csv"));
   CHECK(useless.exit_code == 2);
   CHECK(useless.output.find("--reference-in-place requires --misplaced") != std::string::npos);
 
-  const auto refused = gonio_tool("near-field " + pictures + "--misplaced -1 -o " + shots.at("no.csv"));
+  const auto refused = gonio_tool("near-field " + images + "--misplaced -1 -o " + shots.at("no.csv"));
   CHECK(refused.exit_code == 2);
   CHECK(refused.output.find("may be off by 0 to 45 degrees, not by -1") != std::string::npos);
   CHECK_FALSE(shots.has("no.csv"));
@@ -145,12 +145,12 @@ TEST_CASE("two materials in one image get a file each, and a map of where they a
   const gonio::model::formula_brdf other = gonio::model::formula_material("blue-rubber");
   for (const auto& [name, text] : {std::pair{"first", first}, std::pair{"second", second}}) {
     const auto setup = gonio::io::parse_near_field_setup(text, name);
-    gonio::image picture = gonio::io::read_hdr(shots.at(name) + ".hdr");
+    gonio::image image = gonio::io::read_hdr(shots.at(name) + ".hdr");
     const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup);
     for (std::size_t row = 0; row < 40; ++row)
       for (std::size_t column = 0; column < 18; ++column)
-        gonio::set_pixel(picture, row, column, gonio::pixel(patch, row, column));
-    gonio::io::write_hdr(shots.at(name) + ".hdr", picture);
+        gonio::set_pixel(image, row, column, gonio::pixel(patch, row, column));
+    gonio::io::write_hdr(shots.at(name) + ".hdr", image);
   }
   const auto result = gonio_tool("near-field " + shots.shot("first") + shots.shot("second") +
                                  "--clusters auto --labels " + shots.at("map.png") + " -o " + shots.at("m.csv"));
@@ -179,12 +179,12 @@ TEST_CASE("two materials in one image were under one light: one pose for both") 
   for (const auto& [name, text, seed] : {std::tuple{"first", first, 1u}, std::tuple{"second", second, 2u}}) {
     const auto setup = gonio::io::parse_near_field_setup(text, name);
     const lab::near_field_defects defects{.misalignment = gonio::radians(1.0)};
-    gonio::image picture = lab::photograph(shots.paint, {.radius = 0.5}, setup, defects, seed);
+    gonio::image image = lab::photograph(shots.paint, {.radius = 0.5}, setup, defects, seed);
     const gonio::image patch = lab::photograph(other, {.radius = 0.5}, setup, defects, seed);
     for (std::size_t row = 0; row < 40; ++row)
       for (std::size_t column = 0; column < 18; ++column)
-        gonio::set_pixel(picture, row, column, gonio::pixel(patch, row, column));
-    gonio::io::write_hdr(shots.at(name) + ".hdr", picture);
+        gonio::set_pixel(image, row, column, gonio::pixel(patch, row, column));
+    gonio::io::write_hdr(shots.at(name) + ".hdr", image);
   }
   const auto result = gonio_tool("near-field " + shots.shot("first") + shots.shot("second") +
                                  "--clusters 2 --misplaced 1 -o " + shots.at("m.csv"));

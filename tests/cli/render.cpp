@@ -19,7 +19,7 @@ struct rendered_folder {
 
   rendered_folder() {
     REQUIRE(gonio_tool("expand --formula gold-metal -o " + table).exit_code == 0);
-    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).picture());
+    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).image());
   }
   [[nodiscard]] std::string at(const char* name) const { return (folder / name).string(); }
 };
@@ -49,11 +49,11 @@ TEST_CASE("gonio render: bright spheres are not blown out, and all of an image a
     return gonio::io::read_png(given.folder / "spheres.png");
   };
   // The share of an image's pixels, of those within the margin, that are white.
-  const auto blown_out = [](const gonio::image& picture) {
+  const auto blown_out = [](const gonio::image& image) {
     std::size_t white = 0;
     for (std::size_t row = 8; row < 72; ++row)
       for (std::size_t column = 8; column < 72; ++column)
-        white += (gonio::pixel(picture, row, column) > 0.999).any() ? 1u : 0u;
+        white += (gonio::pixel(image, row, column) > 0.999).any() ? 1u : 0u;
     return static_cast<double>(white) / (64.0 * 64.0);
   };
   const gonio::image both = draw(given.table + " " + given.at("red.binary"));

@@ -3,8 +3,8 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 
 #include <doctest/doctest.h>
 

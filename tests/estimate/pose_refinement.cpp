@@ -79,8 +79,8 @@ TEST_CASE("where light and camera are is found with the material") {
   for (std::size_t number = 0; number < 12; ++number) {
     CAPTURE(number);
     const auto truth = material(number);
-    const std::vector<sample_set> pictures{image_of(truth, 0.5, first), image_of(truth, 0.9, second)};
-    pose_refinement refinement(image_prior(), pictures, {.eta = slight_eta, .deviation = radians(2.0)});
+    const std::vector<sample_set> images{image_of(truth, 0.5, first), image_of(truth, 0.9, second)};
+    pose_refinement refinement(image_prior(), images, {.eta = slight_eta, .deviation = radians(2.0)});
     const double before = mapped_error(refinement.result(), truth), objective = refinement.objective();
     refinement.solve();
     // Measured: 0.0001 to 0.002 of the objective, 0.01 to 0.24 of the error, 0.92 to 1.16 of that of known locations.
@@ -97,9 +97,9 @@ TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of 
     double right = 0.0, wrong = 0.0;
     for (std::size_t number = 0; number < 12; ++number) {
       const auto truth = material(number);
-      const std::vector<sample_set> pictures{image_of(truth, radians(75.0), lower, taken)};
+      const std::vector<sample_set> images{image_of(truth, radians(75.0), lower, taken)};
       const auto error = [&](light_calibration believed) {
-        pose_refinement refinement(image_prior(), pictures,
+        pose_refinement refinement(image_prior(), images,
                                    {.eta = slight_eta, .deviation = radians(2.0), .calibrated_by = believed});
         refinement.solve();
         return mapped_error(refinement.result(), truth);
@@ -116,13 +116,13 @@ TEST_CASE("a light that turns takes its cosine along: at 75 degrees a degree of 
 
 TEST_CASE("without a step it is Tikhonov's solution; in place, light and camera stay there") {
   const auto truth = material(2);
-  const std::vector<sample_set> pictures{image_of(truth, 0.5), image_of(truth, 0.9)};
-  gonio::sample_set all = pictures[0];
-  const gonio::sample_set more = pictures[1];
+  const std::vector<sample_set> images{image_of(truth, 0.5), image_of(truth, 0.9)};
+  gonio::sample_set all = images[0];
+  const gonio::sample_set more = images[1];
   all.insert(all.end(), more.begin(), more.end());
   const auto plain = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(all);
 
-  pose_refinement refinement(image_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
+  pose_refinement refinement(image_prior(), images, {.eta = eta, .deviation = radians(2.0)});
   CHECK((refinement.result().weights() - plain.weights()).norm() < 1e-6 * plain.weights().norm());
   refinement.solve();
   for (const pose_correction& turns : refinement.turns()) {
@@ -138,15 +138,15 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
       return Eigen::Vector3d(*part, *part, *part) / 1000.0;
     };
     const auto truth = material(*rc::gen::inRange<std::size_t>(0, 12));
-    const std::vector<sample_set> pictures{image_of(truth, 0.7, {turn(), turn()})};
-    pose_refinement refinement(image_prior(), pictures, {.eta = eta, .deviation = radians(2.0)});
+    const std::vector<sample_set> images{image_of(truth, 0.7, {turn(), turn()})};
+    pose_refinement refinement(image_prior(), images, {.eta = eta, .deviation = radians(2.0)});
     for (int i = 0; i < 4 && !refinement.converged(); ++i) {
       const double before = refinement.objective();
       refinement.step();
       RC_ASSERT(refinement.objective() <= before);
     }
     const auto samples = refinement.samples();
-    RC_ASSERT(samples.size() == pictures[0].size());
+    RC_ASSERT(samples.size() == images[0].size());
     const auto again = gonio::decomposition{image_prior(), gonio::tikhonov{eta}}.fit(samples);
     RC_ASSERT((again.weights() - refinement.result().weights()).norm() < 1e-6 * again.weights().norm());
   }));
@@ -155,18 +155,18 @@ TEST_CASE("no step makes it worse, and samples come out where they were found to
 TEST_CASE("several materials in the same images: each has its own weights, all of them one pose") {
   const pose_correction first{{0.01, -0.03, 0.0}, {-0.02, 0.025, 0.01}}, second{{0.0, 0.03, 0.02}, {0.01, -0.02, 0.0}};
   const auto images_of = [&](std::size_t number, bool half) {
-    std::vector<sample_set> pictures{image_of(material(number), 0.5, first), image_of(material(number), 0.9, second)};
-    for (sample_set& picture : pictures)  // one has the left of each image, the other the right
-      std::erase_if(picture, [&](const gonio::sample& s) { return (s.directions.pair().wo.y() > 0.0) == half; });
-    return pictures;
+    std::vector<sample_set> images{image_of(material(number), 0.5, first), image_of(material(number), 0.9, second)};
+    for (sample_set& image : images)  // one has the left of each image, the other the right
+      std::erase_if(image, [&](const gonio::sample& s) { return (s.directions.pair().wo.y() > 0.0) == half; });
+    return images;
   };
   const gonio::pose_refinement_options options{.eta = slight_eta, .deviation = radians(2.0)};
   // How far samples are from where they were: of turns themselves, those of both about the normal cannot be seen.
-  const auto off = [&](const gonio::sample_set& found, const std::vector<sample_set>& pictures) {
+  const auto off = [&](const gonio::sample_set& found, const std::vector<sample_set>& images) {
     double sum = 0.0;
     std::size_t sample = 0;
-    for (const auto& [turns, picture] : {std::pair{first, 0u}, std::pair{second, 1u}})
-      for (const gonio::sample& s : pictures[picture]) {
+    for (const auto& [turns, image] : {std::pair{first, 0u}, std::pair{second, 1u}})
+      for (const gonio::sample& s : images[image]) {
         const auto truth = gonio::to_half_difference(turn_of(turns.light) * s.directions.pair().wi,
                                                      turn_of(turns.camera) * s.directions.pair().wo);
         const auto& angles = found[sample++].angles();
@@ -197,8 +197,8 @@ TEST_CASE("several materials in the same images: each has its own weights, all o
 }
 
 TEST_CASE("a material alone, and beside one that no image has, come out the same") {
-  const std::vector<sample_set> pictures{image_of(material(3), 0.5, {{0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}})};
-  pose_refinement alone(image_prior(), pictures), beside(image_prior(), {pictures, {sample_set{}}});
+  const std::vector<sample_set> images{image_of(material(3), 0.5, {{0.0, 0.02, 0.0}, {0.0, 0.0, 0.0}})};
+  pose_refinement alone(image_prior(), images), beside(image_prior(), {images, {sample_set{}}});
   alone.solve();
   beside.solve();
   CHECK(beside.objective() == doctest::Approx(alone.objective()).epsilon(1e-12));
@@ -208,17 +208,17 @@ TEST_CASE("a material alone, and beside one that no image has, come out the same
 }
 
 TEST_CASE("images that cannot be are refused") {
-  const std::vector<sample_set> pictures{image_of(material(0), 0.5)};
+  const std::vector<sample_set> images{image_of(material(0), 0.5)};
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), std::vector<sample_set>{}), doctest::Contains("no image"),
                        gonio::error);
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {sample_set{}}), doctest::Contains("no samples"), gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), pictures, {.eta = 0.0}), doctest::Contains("eta must be"),
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), images, {.eta = 0.0}), doctest::Contains("eta must be"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), pictures, {.deviation = 0.0}), doctest::Contains("may be off by"),
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), images, {.deviation = 0.0}), doctest::Contains("may be off by"),
                        gonio::error);
-  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {pictures, {pictures[0], pictures[0]}}),
+  CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), {images, {images[0], images[0]}}),
                        doctest::Contains("material 2 is in 2 images, the first in 1"), gonio::error);
-  auto broken = pictures;
+  auto broken = images;
   broken[0][3].value[1] = std::nan("");
   CHECK_THROWS_WITH_AS(pose_refinement(image_prior(), broken), doctest::Contains("sample 4"), gonio::error);
 }

@@ -16,15 +16,15 @@ using gonio::model::sum_of_lobes;
 
 namespace {
 
-/// A small grid on which a judge is quick to make.
+/// A small grid on which an appearance metric is quick to make.
 const valid_cells& sphere_cells() {
   static const valid_cells cells(gonio::grid({20, 15, 30}));
   return cells;
 }
 
-const appearance_metric& small_judge() {
-  static const appearance_metric judge(sphere_cells(), 12);
-  return judge;
+const appearance_metric& small_metric() {
+  static const appearance_metric appearance(sphere_cells(), 12);
+  return appearance;
 }
 
 brdf_table grey(double albedo) { return tabulate(lambertian{rgb::Constant(albedo)}, sphere_cells()); }
@@ -36,15 +36,15 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
   // these tables, written as raw float32 by this library. Every pixel of every table agreed to 6e-8 relative, so the
   // printed digits must agree.
   const valid_cells cells;
-  const appearance_metric judge(cells);
-  CHECK(judge.lights().points().size() == 1020);
+  const appearance_metric appearance(cells);
+  CHECK(appearance.lights().points().size() == 1020);
 
   std::map<std::string, gonio::appearance> seen;
   for (const std::string& name : gonio::model::formula_material_names())
-    seen[name] = judge.look(tabulate(gonio::model::formula_material(name), cells));
+    seen[name] = appearance.look(tabulate(gonio::model::formula_material(name), cells));
   const lambertian red{{0.42, 0.028, 0.022}};
-  seen["rougher"] = judge.look(tabulate(sum_of_lobes{red, ggx{.alpha = 0.2, .f0 = rgb::Constant(0.04)}}, cells));
-  seen["mirror"] = judge.look(tabulate(ggx{.alpha = 0.02, .f0 = {0.9, 0.6, 0.3}}, cells));
+  seen["rougher"] = appearance.look(tabulate(sum_of_lobes{red, ggx{.alpha = 0.2, .f0 = rgb::Constant(0.04)}}, cells));
+  seen["mirror"] = appearance.look(tabulate(ggx{.alpha = 0.02, .f0 = {0.9, 0.6, 0.3}}, cells));
 
   struct expectation {
     const char *a, *b;
@@ -73,9 +73,9 @@ TEST_CASE("colour differences agree with the reference on MERL's grid") {
 
 TEST_CASE("a table does not differ from itself, and differences are symmetric") {
   const brdf_table paint = tabulate(gonio::model::formula_material("red-paint"), sphere_cells());
-  CHECK(small_judge().difference(paint, paint).lights == 0.0);
-  CHECK(small_judge().difference(paint, paint).environment == 0.0);
-  const auto there = small_judge().difference(paint, grey(0.2)), back = small_judge().difference(grey(0.2), paint);
+  CHECK(small_metric().difference(paint, paint).lights == 0.0);
+  CHECK(small_metric().difference(paint, paint).environment == 0.0);
+  const auto there = small_metric().difference(paint, grey(0.2)), back = small_metric().difference(grey(0.2), paint);
   CHECK(there.lights == back.lights);
   CHECK(there.environment == back.environment);
   CHECK(there.lights > 10.0);
@@ -84,18 +84,18 @@ TEST_CASE("a table does not differ from itself, and differences are symmetric") 
 
 TEST_CASE("the difference is the mean over the pixels of the images' differences") {
   const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("gold-metal"), sphere_cells());
-  const auto& op = small_judge().environment();
+  const auto& op = small_metric().environment();
   const gonio::render::sphere_colours p = op.apply(a), q = op.apply(b);
   double sum = 0.0;
   for (Eigen::Index i = 0; i < p.rows(); ++i) sum += gonio::delta_e(p.row(i).transpose(), q.row(i).transpose());
-  CHECK(small_judge().difference(a, b).environment ==
+  CHECK(small_metric().difference(a, b).environment ==
         doctest::Approx(sum / static_cast<double>(p.rows())).epsilon(1e-13));
 }
 
 TEST_CASE("black and an overexposed sphere are 100 apart in lightness where light falls; beyond white is white") {
   // Under the environment light falls on every pixel of the sphere.
-  CHECK(small_judge().difference(grey(0.0), grey(500.0)).environment == doctest::Approx(100.0).epsilon(1e-4));
-  CHECK(small_judge().difference(grey(500.0), grey(1000.0)).environment == 0.0);
+  CHECK(small_metric().difference(grey(0.0), grey(500.0)).environment == doctest::Approx(100.0).epsilon(1e-4));
+  CHECK(small_metric().difference(grey(500.0), grey(1000.0)).environment == 0.0);
 }
 
 TEST_CASE("negative reflectance counts as zero, cell by cell") {
@@ -105,16 +105,16 @@ TEST_CASE("negative reflectance counts as zero, cell by cell") {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }
-  const auto difference = small_judge().difference(negative, clamped);
+  const auto difference = small_metric().difference(negative, clamped);
   CHECK(difference.lights == 0.0);
   CHECK(difference.environment == 0.0);
-  CHECK(small_judge().difference(negative, positive).environment > 1.0);
+  CHECK(small_metric().difference(negative, positive).environment > 1.0);
 }
 
 TEST_CASE("the number of threads does not change a byte of a difference, and other cells are refused") {
   const brdf_table a = grey(0.1), b = tabulate(gonio::model::formula_material("blue-rubber"), sphere_cells());
   const appearance_metric one(sphere_cells(), 12, {1});
-  CHECK(one.difference(a, b, {1}).environment == small_judge().difference(a, b, {4}).environment);
+  CHECK(one.difference(a, b, {1}).environment == small_metric().difference(a, b, {4}).environment);
   const brdf_table other(valid_cells(gonio::grid({20, 15, 31})));
-  CHECK_THROWS_AS((void)small_judge().difference(a, other), gonio::error);
+  CHECK_THROWS_AS((void)small_metric().difference(a, other), gonio::error);
 }

@@ -29,7 +29,7 @@ const valid_cells& cells() {
   return result;
 }
 
-const appearance_metric& judge() {
+const appearance_metric& appearance() {
   static const appearance_metric result(cells(), 12);
   return result;
 }
@@ -85,7 +85,7 @@ bool same(const comparison& a, const comparison& b) {
 
 TEST_CASE("a table has no error against itself") {
   const brdf_table truth = paint();
-  const comparison result = gonio::compare(truth, truth, constant_reference(cells(), 0.1f), judge());
+  const comparison result = gonio::compare(truth, truth, constant_reference(cells(), 0.1f), appearance());
   CHECK((result.mapped_rms == 0.0).all());
   CHECK((result.cosine_rms == 0.0).all());
   CHECK((result.peak_ratio == 1.0).all());
@@ -104,14 +104,14 @@ TEST_CASE("the mapped error of a constant shift in the mapped domain is that shi
       return result;
     });
     // forward has slope below 1 / rho, and both tables are rounded to float: 6e-8 each.
-    const comparison result = gonio::compare(estimate, truth, metric, judge());
+    const comparison result = gonio::compare(estimate, truth, metric, appearance());
     CHECK((result.mapped_rms - shift).abs().maxCoeff() < 1e-6);
     CHECK(result.mapped_rms.mean() == doctest::Approx(0.85 / 3.0).epsilon(1e-5));
   }
   SUBCASE("a metric without cells") {
     const rgb shift(0.1, -0.25, 0.5);
     const brdf_table estimate = changed(truth, [&](std::size_t, const rgb& value) { return rgb(value + shift); });
-    const comparison result = gonio::compare(estimate, truth, identity_metric(), judge());
+    const comparison result = gonio::compare(estimate, truth, identity_metric(), appearance());
     CHECK((result.mapped_rms - shift.abs()).abs().maxCoeff() < 1e-6);
   }
 }
@@ -124,24 +124,24 @@ TEST_CASE("the cosine error weighs a difference by max(cos_i cos_o, 0.001)") {
     const double weight = std::max(cosine.i * cosine.o, 0.001), sign = cell % 2 == 0 ? 1.0 : -1.0;
     return rgb(value + sign * size / weight);
   });
-  const comparison result = gonio::compare(estimate, truth, identity_metric(), judge());
+  const comparison result = gonio::compare(estimate, truth, identity_metric(), appearance());
   // Rounding of value + 1e-3 / weight to float, relative to 1e-3: values go up to about 10 in the highlight's few
   // cells.
   for (Eigen::Index c = 0; c < 3; ++c) CHECK(result.cosine_rms[c] == doctest::Approx(size[c]).epsilon(1e-4));
 }
 
-TEST_CASE("appearance differences are the judge's") {
+TEST_CASE("appearance differences are the appearance metric's") {
   const brdf_table truth = paint(), estimate = tabulate(lambertian{{0.3, 0.2, 0.1}}, cells());
-  const comparison result = gonio::compare(estimate, truth, identity_metric(), judge());
-  CHECK(result.delta_e_lights == judge().difference(estimate, truth).lights);
-  CHECK(result.delta_e_env == judge().difference(estimate, truth).environment);
+  const comparison result = gonio::compare(estimate, truth, identity_metric(), appearance());
+  CHECK(result.delta_e_lights == appearance().difference(estimate, truth).lights);
+  CHECK(result.delta_e_env == appearance().difference(estimate, truth).environment);
   CHECK(result.delta_e_lights != doctest::Approx(result.delta_e_env).epsilon(0.01));
 }
 
 TEST_CASE("the peak ratio of a scaled table is its scale") {
   const brdf_table truth = paint();
   const rgb factor(0.25, 1.0, 8.0);  // powers of two: exact in floats
-  const comparison result = gonio::compare(scaled(truth, factor), truth, identity_metric(), judge());
+  const comparison result = gonio::compare(scaled(truth, factor), truth, identity_metric(), appearance());
   CHECK(((result.peak_ratio - factor).abs() < 1e-15 * factor).all());
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("the highlight's peak is the 99.9th percentile below 5 degrees: one wi
   CHECK(gonio::highlight_peak(wild).x() == doctest::Approx(gonio::highlight_peak(truth).x()).epsilon(0.05));
   // A lost highlight is what the measure is for.
   const brdf_table matte = tabulate(lambertian{{0.42, 0.028, 0.022}}, cells());
-  CHECK(gonio::compare(matte, truth, identity_metric(), judge()).peak_ratio.maxCoeff() < 0.2);
+  CHECK(gonio::compare(matte, truth, identity_metric(), appearance()).peak_ratio.maxCoeff() < 0.2);
   // Beyond 5 degrees nothing counts.
   const brdf_table elsewhere = changed(truth, [](std::size_t cell, const rgb& value) {
     return cells().angles(cell).theta_h >= gonio::radians(5.0) ? rgb(50.0 * value) : value;
@@ -181,7 +181,7 @@ TEST_CASE("the grazing rim does not decide the peak: a lost highlight shows") {
 TEST_CASE("peaks of zero: a ratio of 1 where both are, of infinity where only the truth's is") {
   const brdf_table truth = scaled(paint(), rgb(1.0, 0.0, 0.0));
   const brdf_table estimate = scaled(paint(), rgb(0.0, 0.0, 1.0));
-  const comparison result = gonio::compare(estimate, truth, identity_metric(), judge());
+  const comparison result = gonio::compare(estimate, truth, identity_metric(), appearance());
   CHECK(result.peak_ratio.x() == 0.0);
   CHECK(result.peak_ratio.y() == 1.0);
   CHECK(result.peak_ratio.z() == std::numeric_limits<double>::infinity());
@@ -206,8 +206,8 @@ TEST_CASE("an estimate over another grid is read at the truth's cells") {
   const brdf_table coarse =
       tabulate(gonio::model::formula_material("red-paint"), valid_cells(gonio::grid({16, 10, 12})));
   const log_relative metric = constant_reference(cells(), 0.1f);
-  const comparison direct = gonio::compare(coarse, truth, metric, judge());
-  CHECK(same(direct, gonio::compare(gonio::resample(coarse, cells()), truth, metric, judge())));
+  const comparison direct = gonio::compare(coarse, truth, metric, appearance());
+  CHECK(same(direct, gonio::compare(gonio::resample(coarse, cells()), truth, metric, appearance())));
   CHECK((direct.mapped_rms > 0.0).all());
   CHECK(direct.mapped_rms.maxCoeff() < 1.0);
 }
@@ -215,32 +215,34 @@ TEST_CASE("an estimate over another grid is read at the truth's cells") {
 TEST_CASE("a metric over another grid is read between its cells") {
   const brdf_table truth = paint(), estimate = scaled(truth, rgb(0.5, 2.0, 1.5));
   const valid_cells coarse(gonio::grid({8, 6, 10}));
-  const comparison here = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), judge());
-  const comparison there = gonio::compare(estimate, truth, constant_reference(coarse, 0.1f), judge());
+  const comparison here = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), appearance());
+  const comparison there = gonio::compare(estimate, truth, constant_reference(coarse, 0.1f), appearance());
   // The reference cancels in a difference of logarithms, but its cosine weight must be that of the truth's cell.
   CHECK((here.mapped_rms - there.mapped_rms).abs().maxCoeff() < 1e-12);
 
   const comparison weighted = gonio::compare(scaled(truth, rgb::Constant(2.0)), truth,
-                                             shows_reference{constant_reference(coarse, 3.0f)}, judge());
-  const comparison plain = gonio::compare(scaled(truth, rgb::Constant(2.0)), truth, identity_metric(), judge());
+                                             shows_reference{constant_reference(coarse, 3.0f)}, appearance());
+  const comparison plain = gonio::compare(scaled(truth, rgb::Constant(2.0)), truth, identity_metric(), appearance());
   CHECK(((weighted.mapped_rms / plain.mapped_rms - 3.0).abs() < 1e-6).all());
 }
 
 TEST_CASE("negative values of an estimate count in the errors as the metric says, in appearance as zero") {
   const brdf_table truth = scaled(paint(), rgb::Zero()), estimate = scaled(paint(), rgb::Constant(-1.0));
-  const comparison result = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), judge());
+  const comparison result = gonio::compare(estimate, truth, constant_reference(cells(), 0.1f), appearance());
   CHECK((result.mapped_rms == 0.0).all());  // log_relative counts them as zero
   CHECK((result.cosine_rms > 0.0).all());
   CHECK(result.delta_e_env == 0.0);
   CHECK((result.peak_ratio == 1.0).all());
 }
 
-TEST_CASE("the number of threads does not change a byte of a comparison, and a judge of other cells is refused") {
+TEST_CASE(
+    "the number of threads does not change a byte of a comparison, and an appearance metric of other cells is "
+    "refused") {
   const brdf_table truth = paint(), estimate = tabulate(gonio::model::formula_material("blue-rubber"), cells());
   const log_relative metric = constant_reference(cells(), 0.1f);
-  CHECK(same(gonio::compare(estimate, truth, metric, judge(), {1}),
-             gonio::compare(estimate, truth, metric, judge(), {5})));
+  CHECK(same(gonio::compare(estimate, truth, metric, appearance(), {1}),
+             gonio::compare(estimate, truth, metric, appearance(), {5})));
   const valid_cells coarse(gonio::grid({8, 6, 10}));
   const brdf_table elsewhere = tabulate(lambertian(), coarse);
-  CHECK_THROWS_AS((void)gonio::compare(truth, elsewhere, metric, judge()), gonio::error);
+  CHECK_THROWS_AS((void)gonio::compare(truth, elsewhere, metric, appearance()), gonio::error);
 }

@@ -13,7 +13,7 @@ using gonio::render::environment_map;
 
 namespace {
 
-const gonio::valid_cells& judged_cells() {
+const gonio::valid_cells& room_cells() {
   static const gonio::valid_cells cells(gonio::grid({20, 15, 30}));
   return cells;
 }
@@ -21,14 +21,14 @@ const gonio::valid_cells& judged_cells() {
 environment_map room() { return environment_map::of(gonio::render::formula_environment{}, 32); }
 
 /// Under the closed-form environment, tabulated.
-const sphere_delta_e& room_judge() {
-  static const sphere_delta_e judge(judged_cells(), gonio::render::important_lights(room(), 200, 1), 12);
-  return judge;
+const sphere_delta_e& room_delta_e() {
+  static const sphere_delta_e delta_e(room_cells(), gonio::render::important_lights(room(), 200, 1), 12);
+  return delta_e;
 }
 
-brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::model::lambertian{albedo}, judged_cells()); }
+brdf_table matte(const rgb& albedo) { return gonio::tabulate(gonio::model::lambertian{albedo}, room_cells()); }
 
-brdf_table formula(const char* name) { return gonio::tabulate(gonio::model::formula_material(name), judged_cells()); }
+brdf_table formula(const char* name) { return gonio::tabulate(gonio::model::formula_material(name), room_cells()); }
 
 double mean_luminance(const gonio::render::sphere_colours& colours) {
   double sum = 0.0;
@@ -51,25 +51,25 @@ struct flat_light {
 
 TEST_CASE("a truth is exposed to the given mean luminance, and an estimate at the truth's exposure") {
   const brdf_table truth = formula("gold-metal");
-  const auto seen = room_judge().expose(truth);
-  const gonio::render::sphere_colours colours = room_judge().sphere().apply(truth);
+  const auto seen = room_delta_e().expose(truth);
+  const gonio::render::sphere_colours colours = room_delta_e().sphere().apply(truth);
   CHECK(mean_luminance(seen.exposure * colours) == doctest::Approx(0.18).epsilon(1e-12));
   for (Eigen::Index point = 0; point < colours.rows(); ++point) {
     const rgb expected = gonio::to_lab(seen.exposure * colours.row(point).transpose());
     CHECK((seen.lab.row(point).transpose() - expected).abs().maxCoeff() < 1e-10);
   }
 
-  const sphere_delta_e brighter(judged_cells(), headlight(), 12, 0.5);
+  const sphere_delta_e brighter(room_cells(), headlight(), 12, 0.5);
   CHECK(mean_luminance(brighter.expose(truth).exposure * brighter.sphere().apply(truth)) ==
         doctest::Approx(0.5).epsilon(1e-12));
-  const auto again = room_judge().look(truth, seen.exposure);
+  const auto again = room_delta_e().look(truth, seen.exposure);
   CHECK((again.lab == seen.lab).all());
   CHECK(again.exposure == seen.exposure);
 }
 
 TEST_CASE("flat spheres differ as their colours do") {
   // Every point has the colour of the material: grey at luminance 0.18, and an estimate of twice that.
-  const sphere_delta_e flat(judged_cells(), flat_light{}, 12);
+  const sphere_delta_e flat(room_cells(), flat_light{}, 12);
   const double l = 116.0 * std::cbrt(0.18) - 16.0, twice = 116.0 * std::cbrt(0.36) - 16.0;
   const rgb grey = rgb::Constant(0.3);
   CHECK(flat.difference(matte(2.0 * grey), matte(grey)) == doctest::Approx(twice - l).epsilon(1e-4));
@@ -83,37 +83,37 @@ TEST_CASE("flat spheres differ as their colours do") {
 
 TEST_CASE("a table does not differ from itself") {
   for (const char* name : {"red-paint", "gold-metal"})
-    CHECK(room_judge().difference(formula(name), formula(name)) == 0.0);
+    CHECK(room_delta_e().difference(formula(name), formula(name)) == 0.0);
 }
 
 TEST_CASE("a kept truth gives the same difference, the mean of those at the points") {
   const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
-  const auto seen = room_judge().expose(truth);
-  const double difference = room_judge().difference(estimate, truth);
-  CHECK(room_judge().difference(estimate, seen) == difference);
-  const auto estimate_seen = room_judge().look(estimate, seen.exposure);
+  const auto seen = room_delta_e().expose(truth);
+  const double difference = room_delta_e().difference(estimate, truth);
+  CHECK(room_delta_e().difference(estimate, seen) == difference);
+  const auto estimate_seen = room_delta_e().look(estimate, seen.exposure);
   CHECK(sphere_delta_e::difference(estimate_seen, seen) == difference);
   CHECK(sphere_delta_e::differences(estimate_seen, seen).mean() == doctest::Approx(difference).epsilon(1e-13));
   CHECK(difference > 20.0);
 }
 
 TEST_CASE("the brightness of the light and of both materials does not matter") {
-  gonio::image picture = room().picture();
-  for (float& value : picture) value *= 7.3f;
-  const sphere_delta_e brighter(judged_cells(), gonio::render::important_lights(environment_map(picture), 200, 1), 12);
+  gonio::image image = room().image();
+  for (float& value : image) value *= 7.3f;
+  const sphere_delta_e brighter(room_cells(), gonio::render::important_lights(environment_map(image), 200, 1), 12);
   const brdf_table estimate = formula("blue-rubber"), truth = formula("red-paint");
-  const double difference = room_judge().difference(estimate, truth);
+  const double difference = room_delta_e().difference(estimate, truth);
   CHECK(brighter.difference(estimate, truth) == doctest::Approx(difference).epsilon(1e-5));
   const auto darker = [](brdf_table table) {
     for (float& value : table.values()) value *= 0.125f;
     return table;
   };
-  CHECK(room_judge().difference(darker(estimate), darker(truth)) == doctest::Approx(difference).epsilon(1e-12));
+  CHECK(room_delta_e().difference(darker(estimate), darker(truth)) == doctest::Approx(difference).epsilon(1e-12));
 }
 
 TEST_CASE("a few important lights judge as all of them do") {
-  const sphere_delta_e all(judged_cells(), gonio::render::all_lights(room()), 12);
-  const sphere_delta_e few(judged_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
+  const sphere_delta_e all(room_cells(), gonio::render::all_lights(room()), 12);
+  const sphere_delta_e few(room_cells(), gonio::render::important_lights(room(), 1000, 1), 12);
   for (const char* name : {"blue-rubber", "gold-metal"}) {
     const brdf_table estimate = formula(name), truth = formula("red-paint");
     CHECK(few.difference(estimate, truth) == doctest::Approx(all.difference(estimate, truth)).epsilon(0.01));
@@ -121,56 +121,56 @@ TEST_CASE("a few important lights judge as all of them do") {
 }
 
 TEST_CASE("a black truth is seen at exposure 1") {
-  const auto seen = room_judge().expose(matte(rgb::Zero()));
+  const auto seen = room_delta_e().expose(matte(rgb::Zero()));
   CHECK(seen.exposure == 1.0);
   CHECK(seen.lab.abs().maxCoeff() < 1e-12);
-  CHECK(room_judge().difference(matte(rgb::Zero()), seen) == 0.0);
-  CHECK(room_judge().difference(matte(rgb::Constant(0.5)), seen) > 10.0);
+  CHECK(room_delta_e().difference(matte(rgb::Zero()), seen) == 0.0);
+  CHECK(room_delta_e().difference(matte(rgb::Constant(0.5)), seen) > 10.0);
 }
 
-TEST_CASE("negative reflectance counts as zero for a sphere judge, cell by cell") {
+TEST_CASE("negative reflectance counts as zero for a sphere delta_e, cell by cell") {
   brdf_table negative = matte(rgb::Constant(0.3)), clamped = negative;
-  for (std::size_t cell = 0; cell < judged_cells().size(); cell += 3) {
+  for (std::size_t cell = 0; cell < room_cells().size(); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }
-  CHECK(room_judge().difference(negative, clamped) == 0.0);
-  CHECK(room_judge().expose(negative).exposure == room_judge().expose(clamped).exposure);
+  CHECK(room_delta_e().difference(negative, clamped) == 0.0);
+  CHECK(room_delta_e().expose(negative).exposure == room_delta_e().expose(clamped).exposure);
 }
 
 TEST_CASE("the image of differences has the false colour of each point's difference") {
-  const auto truth = room_judge().expose(formula("red-paint"));
-  const auto estimate = room_judge().look(formula("gold-metal"), truth.exposure);
+  const auto truth = room_delta_e().expose(formula("red-paint"));
+  const auto estimate = room_delta_e().look(formula("gold-metal"), truth.exposure);
   const rgb background(0.25, 0.5, 0.75);
-  const gonio::image picture = room_judge().difference_image(estimate, truth, {.red = 40.0}, background);
-  REQUIRE(picture.shape(0) == 12);
-  REQUIRE(picture.shape(1) == 12);
-  CHECK((gonio::pixel(picture, 0, 0) == background).all());
-  const auto& points = room_judge().sphere().points();
+  const gonio::image image = room_delta_e().difference_image(estimate, truth, {.red = 40.0}, background);
+  REQUIRE(image.shape(0) == 12);
+  REQUIRE(image.shape(1) == 12);
+  CHECK((gonio::pixel(image, 0, 0) == background).all());
+  const auto& points = room_delta_e().sphere().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const double difference = (estimate.lab.row(at) - truth.lab.row(at)).matrix().norm();
     const rgb expected = gonio::render::false_colour(difference, {.red = 40.0});
-    CHECK((gonio::pixel(picture, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);
+    CHECK((gonio::pixel(image, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);
   }
   // No difference is blue.
-  const gonio::image none = room_judge().difference_image(truth, truth);
+  const gonio::image none = room_delta_e().difference_image(truth, truth);
   CHECK((gonio::pixel(none, 6, 6) == rgb(0.0, 0.0, 1.0)).all());
   CHECK((gonio::pixel(none, 0, 0) == rgb(0.0, 0.0, 0.0)).all());
 }
 
-TEST_CASE("the number of threads does not change a byte of what a sphere judge says") {
+TEST_CASE("the number of threads does not change a byte of what a sphere delta_e says") {
   const brdf_table a = formula("gold-metal"), b = formula("blue-rubber");
   const auto lights = gonio::render::important_lights(room(), 200, 1);
-  const sphere_delta_e one(judged_cells(), lights, 12, sphere_delta_e::middle_grey, {1});
-  CHECK(one.difference(a, b, {1}) == room_judge().difference(a, b, {4}));
+  const sphere_delta_e one(room_cells(), lights, 12, sphere_delta_e::middle_grey, {1});
+  CHECK(one.difference(a, b, {1}) == room_delta_e().difference(a, b, {4}));
 }
 
 TEST_CASE("other cells and an impossible exposure are refused") {
   const brdf_table other(gonio::valid_cells(gonio::grid({20, 15, 31})));
-  CHECK_THROWS_AS((void)room_judge().expose(other), gonio::error);
-  CHECK_THROWS_AS((void)room_judge().difference(other, matte(rgb::Ones())), gonio::error);
+  CHECK_THROWS_AS((void)room_delta_e().expose(other), gonio::error);
+  CHECK_THROWS_AS((void)room_delta_e().difference(other, matte(rgb::Ones())), gonio::error);
   for (const double impossible : {0.0, -1.0, std::nan(""), HUGE_VAL})
-    CHECK_THROWS_WITH_AS((void)sphere_delta_e(judged_cells(), headlight(), 12, impossible),
+    CHECK_THROWS_WITH_AS((void)sphere_delta_e(room_cells(), headlight(), 12, impossible),
                          doctest::Contains("mean luminance"), gonio::error);
 }

@@ -1,7 +1,7 @@
 /// OBJ meshes.
 
 #include "harness.hpp"
-#include <gonio/io/mesh.hpp>
+#include <gonio/shape/io/mesh.hpp>
 
 namespace {
 

@@ -1,7 +1,7 @@
 /// PLY meshes.
 
 #include "harness.hpp"
-#include <gonio/io/mesh.hpp>
+#include <gonio/shape/io/mesh.hpp>
 
 namespace {
 

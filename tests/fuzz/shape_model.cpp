@@ -2,7 +2,7 @@
 
 #include "harness.hpp"
 #include <gonio/io/checked_file.hpp>
-#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 
 namespace {
 

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 
 # "user -> used ..."; whoever may include a module may include what that module may include.
-# A module is a folder, or a single header where that has rules of its own. Used before user.
+# A module is a folder, or a folder or a single header in it where that has rules of its own. Used before user.
 set(edges
   "core       ->"
   "solve      -> core"
@@ -19,10 +19,9 @@ set(edges
   "shape      -> estimate render"
   "io         -> design capture model render"
   "io/image.hpp -> io" # apart, because it needs stb
-  "io/mesh.hpp  -> io shape" # apart, because they need what shape/ does
-  "io/shape_model.hpp -> io shape"
+  "shape/io   -> io shape"
   "render.hpp -> render"
-  "shape.hpp  -> shape io/mesh.hpp io/shape_model.hpp"
+  "shape.hpp  -> shape/io"
   "core.hpp -> core" # all of a module each
   "solve.hpp -> solve"
   "table.hpp -> table"
@@ -48,10 +47,13 @@ endforeach()
 # The module of a path relative to ROOT.
 function(module_of path result)
   string(REGEX REPLACE "/impl/([a-z_]+)[.]ipp$" "/\\1.hpp" path "${path}") # a body is part of its header
+  cmake_path(GET path PARENT_PATH folder)
   string(REGEX REPLACE "/.*" "" module "${path}")
-  if(DEFINED allowed_${path})
-    set(module "${path}")
-  endif()
+  foreach(narrower IN ITEMS "${folder}" "${path}")
+    if(DEFINED allowed_${narrower})
+      set(module "${narrower}")
+    endif()
+  endforeach()
   set(${result} "${module}" PARENT_SCOPE)
 endfunction()
 
@@ -88,8 +90,8 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 
-# A header is in the one of its module; render.hpp is what a renderer needs, and io/ has some that need libraries of
-# their own. A body is in one of the sources of gonio::compiled.
+# A header is in the one of its module; render.hpp is what a renderer needs, and io/image.hpp needs a library of its
+# own. A body is in one of the sources of gonio::compiled.
 if(EXISTS "${ROOT}/gonio.hpp")
   file(GLOB sources "${ROOT}/../../src/*.cpp")
   set(compiled)
@@ -97,15 +99,11 @@ if(EXISTS "${ROOT}/gonio.hpp")
     file(READ "${source}" text)
     string(APPEND compiled "${text}")
   endforeach()
-  file(READ "${ROOT}/io.hpp" io)
-  file(READ "${ROOT}/shape.hpp" shape)
   foreach(header IN LISTS headers)
     if(header MATCHES "[.]ipp$")
       set(places "${compiled}")
     elseif(header MATCHES "^(render/.*|io/image[.]hpp|[a-z]+[.]hpp)$")
       continue()
-    elseif(header MATCHES "^io/")
-      set(places "${io}${shape}")
     else()
       string(REGEX REPLACE "/.*" "" module "${header}")
       file(READ "${ROOT}/${module}.hpp" places)

@@ -53,10 +53,10 @@ TEST_CASE("sets of directions are judged, kept, and written") {
   REQUIRE_MESSAGE(automatic.exit_code == 0, automatic.output);
   CHECK(rms(automatic.output) != rms(clean.output));
 
-  const auto pictures =
+  const auto images =
       evaluate("--geometry near-field -n 1 --step 40 --sets expected-error --noise 0.02 --misplaced 0.5 --json");
-  REQUIRE_MESSAGE(pictures.exit_code == 0, pictures.output);
-  CHECK(parse_json(pictures.output)[0]["result"]["samples"].get<int>() > 100);
+  REQUIRE_MESSAGE(images.exit_code == 0, images.output);
+  CHECK(parse_json(images.output)[0]["result"]["samples"].get<int>() > 100);
 
   // A set that was written is what was found.
   const std::string found = "--geometry near-field -n 1 --step 40 --sets expected-error --json";

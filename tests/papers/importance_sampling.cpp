@@ -20,7 +20,7 @@ struct gold_and_sky {
 
   gold_and_sky() {
     gonio::io::write_merl(table, gonio::tabulate(gonio::model::formula_material("gold-metal"), gonio::valid_cells()));
-    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).picture());
+    gonio::io::write_hdr(sky, gonio::render::environment_map::of(gonio::render::formula_environment{}, 16).image());
   }
 };
 

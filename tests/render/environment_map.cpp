@@ -97,7 +97,7 @@ TEST_CASE("the radiance from a pixel's direction is the pixel's") {
   const environment_map map(picture);
   CHECK(map.rows() == 9);
   CHECK(map.columns() == 18);
-  CHECK(map.picture() == picture);
+  CHECK(map.image() == picture);
   for (std::size_t row = 0; row < 9; ++row)
     for (std::size_t column = 0; column < 18; ++column) {
       CAPTURE(row);

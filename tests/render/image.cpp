@@ -19,8 +19,8 @@ bool is(const image& picture, std::size_t row, std::size_t column, const rgb& co
 }  // namespace
 
 TEST_CASE("images side by side have one margin between them and one around") {
-  const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
-  const image row = gonio::render::side_by_side(pictures, 2, grey);
+  const std::vector images{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
+  const image row = gonio::render::side_by_side(images, 2, grey);
   REQUIRE(row.shape(0) == 2 + 4 + 2);
   REQUIRE(row.shape(1) == 2 + 3 + 2 + 1 + 2);
   for (std::size_t r = 0; r < row.shape(0); ++r)
@@ -33,8 +33,8 @@ TEST_CASE("images side by side have one margin between them and one around") {
 }
 
 TEST_CASE("stacked images are the same from top to bottom") {
-  const std::vector pictures{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
-  const image column = gonio::render::stacked(pictures, 1, grey);
+  const std::vector images{gonio::uniform_image(2, 3, red), gonio::uniform_image(4, 1, green)};
+  const image column = gonio::render::stacked(images, 1, grey);
   REQUIRE(column.shape(0) == 1 + 2 + 1 + 4 + 1);
   REQUIRE(column.shape(1) == 1 + 3 + 1);
   for (std::size_t r = 0; r < column.shape(0); ++r)

@@ -6,12 +6,12 @@
 TEST_CASE("a model of twelve learns from scans of its kind, and from no others") {
   const small_ears ears(12);
   std::vector<gonio::shape::named_scan> scans;
-  std::vector<lab::ear_scan> truths;
+  std::vector<synthetic::ear_scan> truths;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    lab::scan_options how;
-    if (seed == 3) how.defect = lab::scan_defect::mirrored;
-    if (seed == 5) how.defect = lab::scan_defect::other_object;
-    if (seed == 6) how.defect = lab::scan_defect::half;
+    synthetic::scan_options how;
+    if (seed == 3) how.defect = synthetic::scan_defect::mirrored;
+    if (seed == 5) how.defect = synthetic::scan_defect::other_object;
+    if (seed == 6) how.defect = synthetic::scan_defect::half;
     truths.push_back(ears.scan(seed, how));
     scans.push_back({"scan-" + std::to_string(seed), truths.back().mesh});
   }

@@ -21,7 +21,7 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
   std::size_t inside = 0, inside_by_formula = 0, all = 0;
   double along = 0.0, across = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const lab::ear_scan scan = ears.scan(seed, small_ears::with_hole());
+    const synthetic::ear_scan scan = ears.scan(seed, small_ears::with_hole());
     const gonio::shape::surface_index index(scan.mesh);
     const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
     const gonio::shape::cross_validated_uncertainty measured(ears.model, index, found, options);
@@ -50,7 +50,7 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
 
 TEST_CASE("it is the same for any number of threads, and another for another seed") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(2, small_ears::with_hole());
+  const synthetic::ear_scan scan = ears.scan(2, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
   const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
   gonio::shape::cross_validation_options options;
@@ -75,7 +75,7 @@ TEST_CASE("it is the same for any number of threads, and another for another see
 
 TEST_CASE("trials that cannot be made are refused by a sentence") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(1);
+  const synthetic::ear_scan scan = ears.scan(1);
   const gonio::shape::surface_index index(scan.mesh);
   const gonio::shape::recovered_shape found = recovered(ears, index, scan.mesh);
   const auto refused = [&](std::size_t trials, std::size_t parts, const std::string& words) {

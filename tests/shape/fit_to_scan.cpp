@@ -12,7 +12,7 @@
 namespace {
 
 /// The true pose, turned by some degrees and shifted by some millimetres.
-gonio::shape::similarity_transform about_right(const lab::ear_scan& scan, const gonio::shape::shape_model& model,
+gonio::shape::similarity_transform about_right(const synthetic::ear_scan& scan, const gonio::shape::shape_model& model,
                                                double degrees, double shift) {
   const Eigen::AngleAxisd turn(gonio::radians(degrees), Eigen::Vector3d(1, 2, 2) / 3.0);
   const gonio::shape::similarity_transform off{1.0, turn.toRotationMatrix(), Eigen::Vector3d(shift, -shift, 0.0)};
@@ -23,7 +23,7 @@ gonio::shape::similarity_transform about_right(const lab::ear_scan& scan, const 
 
 TEST_CASE("a model finds the shape and the pose of a whole scan from one that is about right") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(1);
+  const synthetic::ear_scan scan = ears.scan(1);
   const gonio::shape::surface_index index(scan.mesh);
   gonio::shape::fit_to_scan_options options;
   options.tolerance = 0.01;
@@ -41,7 +41,7 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
 
 TEST_CASE("where a fit ends neither a motion nor other weights of the shape that was found bring it closer") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(1);
+  const synthetic::ear_scan scan = ears.scan(1);
   gonio::shape::fit_to_scan_options options;
   options.tolerance = 1e-4;
   const auto found = gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
@@ -57,7 +57,7 @@ TEST_CASE("where a fit ends neither a motion nor other weights of the shape that
 
 TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(3, small_ears::with_hole());
+  const synthetic::ear_scan scan = ears.scan(3, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
   gonio::shape::fit_to_scan_options options;
   options.position_error = 0.05;
@@ -71,7 +71,7 @@ TEST_CASE("wherever it begins, a fit to a noisy scan ends at one place") {
 
 TEST_CASE("what a hole hides is not among the places") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(2, small_ears::with_hole());
+  const synthetic::ear_scan scan = ears.scan(2, small_ears::with_hole());
   const auto found = gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
                                                about_right(scan, ears.model, 0.0, 0.0));
   const auto marks = gonio::shape::marks_of(found.places, ears.model.vertices());
@@ -99,7 +99,7 @@ TEST_CASE("spurious places are hardly trusted") {
 
 TEST_CASE("a pose that is wrong is refused") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(1);
+  const synthetic::ear_scan scan = ears.scan(1);
   CHECK_THROWS_WITH_AS(gonio::shape::fit_to_scan(ears.model, gonio::shape::surface_index(scan.mesh),
                                                  about_right(scan, ears.model, 0.0, 100.0)),
                        "the scan shows 0 of the model's 500 vertices, expected at least 10: is its pose right?",

@@ -22,8 +22,8 @@ struct two_squares {
   }
 };
 
-bool shows(const gonio::image& picture, std::size_t row, std::size_t column, const gonio::rgb& colour) {
-  return (gonio::pixel(picture, row, column) - colour).abs().maxCoeff() < 1e-6;
+bool shows(const gonio::image& image, std::size_t row, std::size_t column, const gonio::rgb& colour) {
+  return (gonio::pixel(image, row, column) - colour).abs().maxCoeff() < 1e-6;
 }
 
 }  // namespace
@@ -49,12 +49,12 @@ TEST_CASE("no pixel is left out between two triangles") {
   gonio::shape::mesh_view view;
   view.radius = 2.7;
   view.pixels = 173;
-  const gonio::image picture = gonio::shape::image_of(scene.mesh, scene.colours, view);
+  const gonio::image image = gonio::shape::image_of(scene.mesh, scene.colours, view);
   std::size_t red = 0, blue = 0;
   for (std::size_t row = 0; row < 173; ++row)
     for (std::size_t column = 0; column < 173; ++column) {
-      red += shows(picture, row, column, {1, 0, 0});
-      blue += shows(picture, row, column, {0, 0, 1});
+      red += shows(image, row, column, {1, 0, 0});
+      blue += shows(image, row, column, {0, 0, 1});
     }
   // 32.04 and 64.07 pixels to either side of the middle one's centre.
   CHECK(red == 65 * 65);

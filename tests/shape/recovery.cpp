@@ -10,7 +10,7 @@ namespace {
 
 /// A scan with a hole, and how far from the truth what was recovered there is.
 struct recovered_hole {
-  lab::ear_scan scan;
+  synthetic::ear_scan scan;
   gonio::shape::surface_index index, complete;
   gonio::shape::similarity_transform pose;
   std::vector<Eigen::Index> hole;
@@ -84,10 +84,10 @@ TEST_CASE("the explained variance rises from the first to the last round and hol
 
 TEST_CASE("a scan that shows all comes back less noisy") {
   const small_ears& ears = small_ears::of_sixty();
-  lab::scan_options noisy;
+  synthetic::scan_options noisy;
   noisy.noise = 0.15;
   noisy.cut = 0.0;
-  const lab::ear_scan scan = ears.scan(4, noisy);
+  const synthetic::ear_scan scan = ears.scan(4, noisy);
   const auto found = gonio::shape::recover(ears.model, gonio::shape::surface_index(scan.mesh),
                                            gonio::shape::align(scan.truth, ears.model.mean().vertices));
   const gonio::shape::surface_index complete(scan.complete);
@@ -100,7 +100,7 @@ TEST_CASE("a scan that shows all comes back less noisy") {
 
 TEST_CASE("a scan far outside the family is refused by its Mahalanobis distance") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan ear = ears.scan(5);
+  const synthetic::ear_scan ear = ears.scan(5);
   const auto pose = gonio::shape::align(ear.truth, ears.model.mean().vertices);
   const Eigen::Vector3d middle = ear.mesh.vertices.rowwise().mean();
   for (const Eigen::Vector3d& stretched : {Eigen::Vector3d(1.3, 1.3, 1.3), Eigen::Vector3d(1.4, 0.7, 1.0),

@@ -7,7 +7,7 @@
 
 TEST_CASE("a registered scan is a shape of the model's vertices on the scan") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(7);
+  const synthetic::ear_scan scan = ears.scan(7);
   const gonio::shape::surface_index index(scan.mesh);
   const auto pose = gonio::shape::align(scan.truth, ears.model.mean().vertices);
   const gonio::shape::registration found = gonio::shape::register_scan(ears.model, index, pose);
@@ -18,7 +18,7 @@ TEST_CASE("a registered scan is a shape of the model's vertices on the scan") {
 
 TEST_CASE("each test of a registration refuses by a sentence") {
   const small_ears& ears = small_ears::of_sixty();
-  const lab::ear_scan scan = ears.scan(7, small_ears::with_hole());
+  const synthetic::ear_scan scan = ears.scan(7, small_ears::with_hole());
   const gonio::shape::surface_index index(scan.mesh);
   const auto pose = gonio::shape::align(scan.truth, ears.model.mean().vertices);
   const auto refusal = [&](const gonio::shape::registration_options& options) {

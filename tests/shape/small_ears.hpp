@@ -1,7 +1,7 @@
 #pragma once
 /// A coarse model of synthetic ear canals, and scans of others, for tests of what works on scans.
 
-#include "lab/ear_canal_scans.hpp"
+#include "synthetic/ear_canal_scans.hpp"
 #include <gonio/shape/shape_model.hpp>
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <vector>
 
 struct small_ears {
-  lab::ear_canal_family family;
-  lab::ear_canal_template common{500};
+  synthetic::ear_canal_family family;
+  synthetic::ear_canal_template common{500};
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   gonio::shape::shape_model model;
@@ -21,15 +21,15 @@ struct small_ears {
         model(gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles)) {}
 
   /// Of one that the model has not seen.
-  [[nodiscard]] lab::ear_scan scan(std::uint64_t seed, lab::scan_options how = {}) const {
+  [[nodiscard]] synthetic::ear_scan scan(std::uint64_t seed, synthetic::scan_options how = {}) const {
     how.vertices = 2500;
     how.complete_vertices = 6000;
-    return lab::scan_of(family.draw(5000 + seed), common, seed, how);
+    return synthetic::scan_of(family.draw(5000 + seed), common, seed, how);
   }
 
-  [[nodiscard]] static lab::scan_options with_hole() {
-    lab::scan_options how;
-    how.hole = lab::hole_options::large();
+  [[nodiscard]] static synthetic::scan_options with_hole() {
+    synthetic::scan_options how;
+    how.hole = synthetic::hole_options::large();
     return how;
   }
 

@@ -40,3 +40,16 @@ TEST_CASE("what no estimator can use is refused with the sample's number") {
   refused({{6.9, 0.2, 0.0}, rgb::Ones(), 1.0}, "horizon");  // 400 degrees, whose cosines look innocent
   CHECK_THROWS_WITH_AS(gonio::require_usable(sample_set{}), doctest::Contains("no samples"), gonio::error);
 }
+
+TEST_CASE("one measurement that counts more in one channel makes all of them count apart") {
+  sample_set samples(3, sample{{0.1, 0.2, 0.3}, rgb::Ones(), 0.5});
+  CHECK_FALSE(gonio::weigh_channels_apart(samples));
+  CHECK_FALSE(gonio::weigh_channels_apart(sample_set{}));
+  samples.back().weight = rgb(1.0, 1.0, 0.0);
+  CHECK(gonio::weigh_channels_apart(samples));
+
+  struct observation {
+    gonio::channel_weights weight;
+  };
+  CHECK(gonio::weigh_channels_apart(std::vector<observation>{{1.0}, {rgb(1.0, 0.0, 1.0)}}));
+}

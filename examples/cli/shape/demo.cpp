@@ -6,13 +6,13 @@
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
-#include "lab/ear_canal_scans.hpp"
+#include "synthetic/ear_canal_scans.hpp"
 #include <gonio/io/image.hpp>
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/shape_model.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/hole_filling.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
@@ -52,11 +52,12 @@ struct judged_ear {
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
-gonio::shape::shape_model learn_ear_canals(const lab::ear_canal_template& common, const shape_demo_command& options) {
-  const lab::ear_canal_family family;
+gonio::shape::shape_model learn_ear_canals(const synthetic::ear_canal_template& common,
+                                           const shape_demo_command& options) {
+  const synthetic::ear_canal_family family;
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
-  lab::number_source seeds(options.seed);
+  synthetic::number_source seeds(options.seed);
   for (std::size_t i = 0; i < options.shapes; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("ear-" + std::to_string(i + 1));
@@ -64,18 +65,19 @@ gonio::shape::shape_model learn_ear_canals(const lab::ear_canal_template& common
   return gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles, options.threads);
 }
 
-lab::ear_scan scan_held_out(const lab::ear_canal_template& common, const shape_demo_command& options, std::size_t i) {
-  lab::scan_options how;
-  how.hole = options.hole == "large" ? lab::hole_options::large() : lab::hole_options::small();
+synthetic::ear_scan scan_held_out(const synthetic::ear_canal_template& common, const shape_demo_command& options,
+                                  std::size_t i) {
+  synthetic::scan_options how;
+  how.hole = options.hole == "large" ? synthetic::hole_options::large() : synthetic::hole_options::small();
   how.hole->edge_noise = options.edge_noise;
   // A source of its own, so that who is held out does not depend on how many were learned from.
-  lab::number_source seeds(options.seed + 1'000'003 * (i + 1));
+  synthetic::number_source seeds(options.seed + 1'000'003 * (i + 1));
   const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();
-  return lab::scan_of(lab::ear_canal_family().draw(individual), common, scanner, how);
+  return synthetic::scan_of(synthetic::ear_canal_family().draw(individual), common, scanner, how);
 }
 
 /// The vertices in the hole of a scan.
-std::vector<Eigen::Index> hole_of(const lab::ear_canal_template& common, const lab::ear_scan& scan) {
+std::vector<Eigen::Index> hole_of(const synthetic::ear_canal_template& common, const synthetic::ear_scan& scan) {
   std::vector<Eigen::Index> hole;
   for (std::size_t v = 0; v < scan.covered.size(); ++v)
     if (!scan.covered[v] && common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
@@ -96,8 +98,8 @@ double share_inside(const gonio::shape::cross_validated_uncertainty& uncertainty
 }
 
 /// The ways to recover a scan, judged where it has its hole.
-judged_ear judge_ear(const gonio::shape::shape_model& model, const lab::ear_canal_template& common,
-                     const lab::ear_scan& scan, const shape_demo_command& options) {
+judged_ear judge_ear(const gonio::shape::shape_model& model, const synthetic::ear_canal_template& common,
+                     const synthetic::ear_scan& scan, const shape_demo_command& options) {
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
   const gonio::shape::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
   const std::vector<Eigen::Index> hole = hole_of(common, scan);
@@ -174,7 +176,7 @@ json json_of(const judged_ear& ear) {
 }
 
 /// The scan beside what the ways made of it.
-gonio::image demo_image(const gonio::shape::shape_model& model, const lab::ear_scan& scan,
+gonio::image demo_image(const gonio::shape::shape_model& model, const synthetic::ear_scan& scan,
                         const std::vector<judged_surface>& ways) {
   const auto upright = [&](gonio::shape::point_columns vertices) {
     return gonio::shape::point_columns(scan.placement.inverse() * vertices);
@@ -188,7 +190,7 @@ gonio::image demo_image(const gonio::shape::shape_model& model, const lab::ear_s
 }
 
 void write_example(const std::filesystem::path& folder, const gonio::shape::shape_model& model,
-                   const lab::ear_scan& scan, const std::vector<judged_surface>& ways) {
+                   const synthetic::ear_scan& scan, const std::vector<judged_surface>& ways) {
   gonio::io::write_shape_model(folder / "ears.shapes", model);
   gonio::io::write_mesh(folder / "scan.ply", scan.mesh);
   gonio::io::write_mesh(folder / "truth.ply", scan.complete);
@@ -197,13 +199,13 @@ void write_example(const std::filesystem::path& folder, const gonio::shape::shap
 
 void show_shapes(const shape_demo_command& options) {
   if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
-  const lab::ear_canal_template common;
+  const synthetic::ear_canal_template common;
   const gonio::shape::shape_model model = learn_ear_canals(common, options);
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
   std::vector<judged_ear> ears;
   for (std::size_t i = 0; i < options.held_out; ++i) {
-    const lab::ear_scan scan = scan_held_out(common, options, i);
+    const synthetic::ear_scan scan = scan_held_out(common, options, i);
     judged_ear ear = judge_ear(model, common, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);
     report["held_out"].push_back(json_of(ear));

@@ -7,7 +7,7 @@
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
-#include "lab/ear_canal_scans.hpp"
+#include "synthetic/ear_canal_scans.hpp"
 #include <gonio/shape/bootstrap.hpp>
 
 #include <algorithm>
@@ -44,11 +44,11 @@ struct judged_bootstrap {
   }
 };
 
-judged_bootstrap judge_bootstrap(const std::vector<lab::ear_scan>& truths,
+judged_bootstrap judge_bootstrap(const std::vector<synthetic::ear_scan>& truths,
                                  const std::vector<gonio::shape::bootstrap_outcome>& outcomes) {
   judged_bootstrap judged;
   for (std::size_t i = 0; i < truths.size(); ++i) {
-    const bool good = truths[i].defect == lab::scan_defect::none;
+    const bool good = truths[i].defect == synthetic::scan_defect::none;
     ++(good ? judged.good : judged.defective);
     if (!outcomes[i].accepted()) {
       (good ? judged.refusals : judged.rightly).push_back(outcomes[i].refusal);
@@ -87,18 +87,18 @@ json json_of(const judged_bootstrap& judged, const shape_grow_command& options) 
 }
 
 void grow_shapes(const shape_grow_command& options) {
-  const lab::ear_canal_template common;
-  const lab::ear_canal_family family;
-  lab::number_source seeds(options.seed);
+  const synthetic::ear_canal_template common;
+  const synthetic::ear_canal_family family;
+  synthetic::number_source seeds(options.seed);
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < options.annotated; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("annotated-" + std::to_string(i + 1));
   }
-  const auto truths = lab::population(family, common, options.scans, seeds.seed(), options.defects);
+  const auto truths = synthetic::population(family, common, options.scans, seeds.seed(), options.defects);
   std::vector<gonio::shape::named_scan> scans;
-  for (const lab::ear_scan& one : truths) scans.push_back({"scan-" + std::to_string(scans.size() + 1), one.mesh});
+  for (const synthetic::ear_scan& one : truths) scans.push_back({"scan-" + std::to_string(scans.size() + 1), one.mesh});
   progress_bar bar;
   const auto grown = gonio::shape::bootstrap_shape_model(
       std::move(shapes), std::move(names), common.mesh().triangles, scans, options.how, options.threads,

@@ -3,9 +3,9 @@
 #include "cli/shape/shape.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/shape_model.hpp>
 #include <gonio/shape/bootstrap.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 
 #include <iostream>
 #include <memory>

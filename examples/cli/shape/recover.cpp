@@ -4,10 +4,10 @@
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
 #include <gonio/io/image.hpp>
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/shape_model.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
 
@@ -20,7 +20,7 @@ namespace cli {
 namespace {
 
 struct shape_recover_command {
-  std::filesystem::path scan, model, output, truth, picture;
+  std::filesystem::path scan, model, output, truth, image;
   double noise = 0.05;
   std::size_t trials = 0;
   gonio::thread_count threads;
@@ -94,7 +94,7 @@ void recover_shape(const shape_recover_command& options) {
     gonio::io::write_mesh(options.output, recovered);
   else
     gonio::io::write_mesh(options.output, recovered, colours);
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, shape_image(found.surface, distances, 0.5));
+  if (!options.image.empty()) gonio::io::write_png(options.image, shape_image(found.surface, distances, 0.5));
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ void add_shape_recover(command& shape) {
       .check(check::range(0, 100000))
       .capture_default_str();
   command.add_input("--truth", options->truth, "The whole surface, to compare with");
-  command.add_output("--image", options->picture, {".png"}, "The recovered surface from two sides (.png)");
+  command.add_output("--image", options->image, {".png"}, "The recovered surface from two sides (.png)");
   add_threads_option(command, options->threads);
   command
       .add_output("-o,--output", options->output, {".ply", ".obj"},

@@ -122,7 +122,7 @@ using method_of = reconstruction (*)(const reconstruct_options&, const gonio::sa
 /// One line of the table: errors over repetitions.
 json errors_of(const laboratory_options& options, const laboratory& where, const gonio::brdf_table& truth,
                const std::vector<gonio::direction_pair>& poses, method_of method, std::size_t repetitions,
-               const gonio::appearance_metric& judge, const gonio::log_relative_pca& prior) {
+               const gonio::appearance_metric& appearance, const gonio::log_relative_pca& prior) {
   reconstruct_options how;
   how.materials.prior = options.prior;
   how.threads = options.threads;
@@ -135,7 +135,7 @@ json errors_of(const laboratory_options& options, const laboratory& where, const
       of_samples.add(found, truth);
     }
     const auto estimate = gonio::resample(method(how, samples).table, truth.cells(), options.threads);
-    results.push_back({"", gonio::compare(estimate, truth, prior.metric(), judge, options.threads)});
+    results.push_back({"", gonio::compare(estimate, truth, prior.metric(), appearance, options.threads)});
   }
   json errors = mean_errors(results);
   const distribution relative(of_samples.relative);
@@ -170,7 +170,7 @@ void run(const laboratory_options& options) {
   json result = json::array();
   for (const std::filesystem::path& file : options.tables) {
     const auto truth = gonio::io::read_merl_any(file);
-    const gonio::appearance_metric judge(truth.cells(), 36, options.threads);
+    const gonio::appearance_metric appearance(truth.cells(), 36, options.threads);
     const auto add = [&](const laboratory& where, const char* method, const json& errors) {
       const std::string name = file.filename().string();
       result.push_back({{"material", name.substr(0, name.find('.'))},
@@ -181,9 +181,10 @@ void run(const laboratory_options& options) {
     for (const laboratory& where : laboratories(options.outliers)) {
       bar.draw(file.filename().string() + ", " + where.name, 0.0);
       add(where, "pca",
-          errors_of(options, where, truth, few, reconstruct_by_components, options.repetitions, judge, prior));
+          errors_of(options, where, truth, few, reconstruct_by_components, options.repetitions, appearance, prior));
       if (options.many == 0) continue;
-      add(where, "correction", errors_of(options, where, truth, many, reconstruct_by_corrections, 1, judge, prior));
+      add(where, "correction",
+          errors_of(options, where, truth, many, reconstruct_by_corrections, 1, appearance, prior));
     }
   }
   bar.wipe();

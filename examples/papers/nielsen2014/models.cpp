@@ -47,11 +47,12 @@ gonio::valid_cells cells_of_fit() { return gonio::valid_cells(gonio::grid({90, 3
 
 json fit_one(const models_options& given, const std::string& model, const std::string& loss,
              std::span<const gonio::model::fit_observation> observations, const gonio::brdf_table& truth,
-             const gonio::appearance_metric& judge) {
+             const gonio::appearance_metric& appearance) {
   const gonio::model::model_fit fit = fit_by_metric(
       given.metric, lobes_named(model), observations,
       {.norm = loss == "l1" ? gonio::model::fit_norm::l1 : gonio::model::fit_norm::l2, .threads = given.threads});
-  const auto seen = judge.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
+  const auto seen =
+      appearance.difference(gonio::tabulate(fit.model, truth.cells(), given.threads), truth, given.threads);
   return {{"converged", fit.converged},    {"evaluations", fit.evaluations}, {"loss", fit.loss},
           {"promised", fit.promised_gain}, {"delta_e_lights", seen.lights},  {"delta_e_env", seen.environment},
           {"lobes", to_json(fit.model)}};
@@ -63,7 +64,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
   const auto networks = given.only.empty() ? all : networks_in(all, given.only);
   const gonio::valid_cells cells = cells_of_fit();
   const gonio::material_set materials = gonio::model::tabulate_networks(networks, cells, given.threads);
-  const gonio::appearance_metric judge(cells, 36, given.threads);
+  const gonio::appearance_metric appearance(cells, 36, given.threads);
   resumable_results results(given.state);
   json rows = json::array();
   for (std::size_t m = 0; m < materials.names.size(); ++m) {
@@ -74,7 +75,7 @@ json fit_all(const models_options& given, progress_bar& bar) {
     for (const std::string& model : given.models)
       for (const std::string& loss : given.losses) {
         const json key{materials.names[m], model, loss, given.metric, static_cast<int>(given.cell_weights)};
-        if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, judge));
+        if (!results.find(key)) results.add(key, fit_one(given, model, loss, observations, truth, appearance));
         rows.push_back(
             {{"material", materials.names[m]}, {"model", model}, {"loss", loss}, {"fit", *results.find(key)}});
       }

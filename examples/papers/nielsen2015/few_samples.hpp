@@ -22,14 +22,14 @@ template <gonio::estimator Estimator, gonio::error_metric Metric, class Measure>
 requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_table&, std::size_t>
 [[nodiscard]] std::vector<material_result> reconstruct_each(const Estimator& estimator, Measure&& measure,
                                                             const gonio::material_set& truths, const Metric& metric,
-                                                            const gonio::appearance_metric& judge,
+                                                            const gonio::appearance_metric& appearance,
                                                             gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
     const gonio::brdf_table estimate =
         estimator.fit(gonio::sample_set(measure(truth, m))).tabulate(truths.cells, threads);
-    results.push_back({truths.names[m], gonio::compare(estimate, truth, metric, judge, threads)});
+    results.push_back({truths.names[m], gonio::compare(estimate, truth, metric, appearance, threads)});
   }
   return results;
 }
@@ -38,23 +38,23 @@ requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_ta
 template <gonio::estimator Estimator, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Estimator& estimator, std::span<const std::size_t> cells, const gonio::material_set& truths,
-    const Metric& metric, const gonio::appearance_metric& judge, gonio::thread_count threads = {},
+    const Metric& metric, const gonio::appearance_metric& appearance, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
   return reconstruct_each(
       estimator,
       [&](const gonio::brdf_table& truth, std::size_t number) {
         return gonio::sample_table(truth, cells, defects, seed + number);
       },
-      truths, metric, judge, threads);
+      truths, metric, appearance, threads);
 }
 
 /// The same by a prior with Tikhonov's penalty eta (Eq. 12).
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
     const Basis& prior, double eta, std::span<const std::size_t> cells, const gonio::material_set& truths,
-    const Metric& metric, const gonio::appearance_metric& judge, gonio::thread_count threads = {},
+    const Metric& metric, const gonio::appearance_metric& appearance, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
-  return reconstruct_from_cells(gonio::decomposition{prior, gonio::tikhonov{eta}}, cells, truths, metric, judge,
+  return reconstruct_from_cells(gonio::decomposition{prior, gonio::tikhonov{eta}}, cells, truths, metric, appearance,
                                 threads, defects, seed);
 }
 
@@ -62,23 +62,24 @@ template <gonio::basis Basis, gonio::error_metric Metric>
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_directions(
     const Basis& prior, double eta, std::span<const gonio::half_difference> directions,
-    const gonio::material_set& truths, const Metric& metric, const gonio::appearance_metric& judge,
+    const gonio::material_set& truths, const Metric& metric, const gonio::appearance_metric& appearance,
     gonio::thread_count threads = {}) {
-  return reconstruct_from_cells(prior, eta, gonio::cells_at(truths.cells, directions), truths, metric, judge, threads);
+  return reconstruct_from_cells(prior, eta, gonio::cells_at(truths.cells, directions), truths, metric, appearance,
+                                threads);
 }
 
 /// The lower bound: each truth projected on the prior's components. Prior and truths must share their cells.
 template <gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> project_on(const gonio::pca<Metric>& prior,
                                                       const gonio::material_set& truths,
-                                                      const gonio::appearance_metric& judge,
+                                                      const gonio::appearance_metric& appearance,
                                                       gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
     Eigen::MatrixXd projected = gonio::project(prior, truth, threads);
     const gonio::brdf_table estimate = gonio::fitted_brdf(prior, std::move(projected)).tabulate(truths.cells, threads);
-    results.push_back({truths.names[m], gonio::compare(estimate, truth, prior.metric(), judge, threads)});
+    results.push_back({truths.names[m], gonio::compare(estimate, truth, prior.metric(), appearance, threads)});
   }
   return results;
 }

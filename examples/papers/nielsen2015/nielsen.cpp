@@ -57,14 +57,15 @@ void run(const nielsen_options& options) {
   const auto& prior = split.prior;
   const auto& truths = split.truths;
   const auto shipped = as_shipped(prior);
-  const gonio::appearance_metric judge(truths.cells, 36, options.threads);
+  const gonio::appearance_metric appearance(truths.cells, 36, options.threads);
 
   // Reconstruct the test materials from each published set of directions.
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
   for (const std::size_t n : gonio::design::nielsen_direction_counts) {
     const auto directions = gonio::design::nielsen_directions(n);
     const auto reconstruct = [&](const gonio::log_relative_pca& from) {
-      return reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), judge, options.threads);
+      return reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), appearance,
+                                         options.threads);
     };
     gonio::report(listener, "reconstructing from " + std::to_string(n), 0.0);
     const auto full = reconstruct(prior), thin = reconstruct(shipped);
@@ -72,7 +73,7 @@ void run(const nielsen_options& options) {
         {"full", mean_errors(full)}, {"shipped_form", mean_errors(thin)}, {"materials", errors_by_name(full)}};
   }
   // Project the test materials on the prior, which bounds every reconstruction.
-  const auto bound = project_on(prior, truths, judge, options.threads);
+  const auto bound = project_on(prior, truths, appearance, options.threads);
   result["projection"] = {{"full", mean_errors(bound)}, {"materials", errors_by_name(bound)}};
   bar.wipe();
 

@@ -108,11 +108,11 @@ double delta_e_env(const gonio::comparison& errors) { return errors.delta_e_env;
 
 /// All rows of one number of directions. The switch has none where the directions do not tell soft from specular.
 std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio::material_set& truths,
-                                                 const gonio::appearance_metric& judge, std::size_t count,
+                                                 const gonio::appearance_metric& appearance, std::size_t count,
                                                  gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   const auto reconstruct = [&](const ridge& estimator) {
-    return reconstruct_from_cells(estimator, cells, truths, from.metric, judge, threads);
+    return reconstruct_from_cells(estimator, cells, truths, from.metric, appearance, threads);
   };
   const auto all = reconstruct(from.all), soft = reconstruct(from.switching.soft()),
              specular = reconstruct(from.switching.specular());
@@ -160,7 +160,7 @@ void run(const soft_specular_options& options) {
   const rivals from = learn_rivals(
       options, gonio::model::tabulate_networks(networks_except(networks, names), cells, options.threads, listener),
       listener);
-  const gonio::appearance_metric judge(cells, 36, options.threads);
+  const gonio::appearance_metric appearance(cells, 36, options.threads);
 
   json result{{"threshold", from.switching.threshold()},
               {"soft_materials", from.soft},
@@ -169,7 +169,7 @@ void run(const soft_specular_options& options) {
   if (!options.print_json) print_heading(from, truths, options);
   for (const std::size_t count : options.counts) {
     gonio::report(listener, "reconstructing from " + std::to_string(count), 0.0);
-    for (const chosen_results& row : reconstruct_all_ways(from, truths, judge, count, options.threads)) {
+    for (const chosen_results& row : reconstruct_all_ways(from, truths, appearance, count, options.threads)) {
       if (!options.print_json) print_row(count, row);
       result["directions"][std::to_string(count)][row.label] = {{"mean", mean_errors(row.results)},
                                                                 {"materials", errors_by_name(row.results)}};

@@ -42,20 +42,20 @@ class combination_experiment {
         materials_(gonio::model::tabulate_networks(gonio::io::read_networks(options.networks), gonio::valid_cells(),
                                                    threads_, listener)),
         relative_(gonio::log_relative::to_median_of(materials_, threads_)),
-        judge_(materials_.cells, 36, threads_) {}
+        appearance_(materials_.cells, 36, threads_) {}
 
   template <gonio::error_metric Metric>
   [[nodiscard]] std::vector<material_result> run(const Metric& metric) const {
     const gonio::leave_one_out_decomposition others{gonio::measured{materials_, metric, threads_}, gonio::nnls{},
                                                     threads_};
-    return combine_others(others, gonio::nielsen_test_materials(), materials_, relative_, judge_, threads_);
+    return combine_others(others, gonio::nielsen_test_materials(), materials_, relative_, appearance_, threads_);
   }
 
  private:
   gonio::thread_count threads_;
   gonio::material_set materials_;
   gonio::log_relative relative_;
-  gonio::appearance_metric judge_;
+  gonio::appearance_metric appearance_;
 };
 
 void run_combination(const combination_options& options) {

@@ -13,13 +13,13 @@ namespace papers {
 template <gonio::error_metric Metric, gonio::normal_solver Solver, gonio::error_metric Judged>
 [[nodiscard]] std::vector<material_result> combine_others(
     const gonio::leave_one_out_decomposition<Metric, Solver>& others, std::span<const std::string> names,
-    const gonio::material_set& truths, const Judged& metric, const gonio::appearance_metric& judge,
+    const gonio::material_set& truths, const Judged& metric, const gonio::appearance_metric& appearance,
     gonio::thread_count threads = {}) {
   std::vector<material_result> results;
   for (const std::string& name : names) {
     const std::size_t material = truths.find(name);
     const gonio::brdf_table estimate = others.reconstruct(material).tabulate(truths.cells, threads);
-    results.push_back({name, gonio::compare(estimate, truths.table(material), metric, judge, threads)});
+    results.push_back({name, gonio::compare(estimate, truths.table(material), metric, appearance, threads)});
   }
   return results;
 }

@@ -73,7 +73,7 @@ struct combinations_under {
 struct noell_experiment::parts {
   gonio::thread_count threads;
   gonio::material_set truths;
-  noell_measures judges;
+  noell_measures measures;
   std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
   /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
@@ -204,7 +204,7 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
-  json result = parts_->judges.judge(estimate, truth);
+  json result = parts_->measures.judge(estimate, truth);
   result["seconds"] = elapsed.count();
   if (!outliers) return result;
   result["outliers"] = *outliers;

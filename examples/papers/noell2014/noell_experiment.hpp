@@ -24,7 +24,7 @@ struct noell_case {
   std::optional<int> iterations = {};  ///< exactly as many; or else the method stops by itself
 };
 
-/// Holds the materials, the bases that methods need (each made when first asked for), and the judges.
+/// Holds the materials, the bases that methods need (each made when first asked for), and the measures of error.
 class noell_experiment {
  public:
   noell_experiment(const std::filesystem::path& networks, const std::filesystem::path& environment,

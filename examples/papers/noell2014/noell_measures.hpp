@@ -1,5 +1,5 @@
 #pragma once
-/// Who judges the reconstructions of the experiments after Noell et al. 2014.
+/// What judges the reconstructions of the experiments after Noell et al. 2014.
 
 #include "command_line/json.hpp"
 #include "papers/experiments.hpp"

@@ -47,10 +47,10 @@ struct directions_options {
   gonio::thread_count threads;
 };
 
-/// The prior on some cells, and the judge there.
+/// The prior on some cells, and the appearance metric there.
 struct benchmark_setup {
   gonio::log_relative_pca prior;
-  gonio::appearance_metric judge;
+  gonio::appearance_metric appearance;
 };
 
 benchmark_setup open_benchmark_setup(const directions_options& given, const gonio::valid_cells& cells,
@@ -92,7 +92,7 @@ json judge_table(const directions_options& given, const benchmark_setup& shop, c
     mean_eta += eta / static_cast<double>(drawn.size());
     const auto estimate =
         gonio::decomposition{shop.prior, gonio::tikhonov{eta}}.fit(samples).tabulate(truth.cells(), given.threads);
-    results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.judge, given.threads)});
+    results.push_back({name, gonio::compare(estimate, truth, shop.prior.metric(), shop.appearance, given.threads)});
   }
   json means = mean_errors(results);
   means["eta"] = mean_eta;

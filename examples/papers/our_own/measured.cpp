@@ -31,7 +31,7 @@ namespace papers {
 namespace {
 
 struct measured_options {
-  std::filesystem::path tables, prior, picture;
+  std::filesystem::path tables, prior, image;
   std::vector<std::size_t> counts{20, 500};
   double eta = 40.0;
   std::uint64_t seed = 1;
@@ -57,10 +57,10 @@ struct table_report {
 };
 
 table_report judge_table(const measured_options& options, const gonio::log_relative_pca& prior, const std::string& name,
-                         const gonio::brdf_table& truth, const gonio::appearance_metric& judge) {
+                         const gonio::brdf_table& truth, const gonio::appearance_metric& appearance) {
   table_report result;
   const auto draw = [&](const gonio::brdf_table& table) {
-    if (!options.picture.empty())
+    if (!options.image.empty())
       result.spheres.push_back(gonio::render::render_sphere(gonio::render::horizon_lookup(table),
                                                             gonio::render::two_lights(),
                                                             {.size = 128, .supersampling = 2}, options.threads));
@@ -70,7 +70,7 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
     const std::size_t times = count >= many_samples ? 1 : options.repetitions;
     for (std::size_t r = 0; r < times; ++r) {
       const auto estimate = reconstruct(options, prior, truth, count, options.seed + r);
-      repetitions.push_back({name, gonio::compare(estimate, truth, prior.metric(), judge, options.threads)});
+      repetitions.push_back({name, gonio::compare(estimate, truth, prior.metric(), appearance, options.threads)});
       if (r == 0) draw(estimate);
     }
   }
@@ -90,23 +90,23 @@ void run(const measured_options& options) {
   if (files.empty()) gonio::refuse(options.tables.string() + ": holds no table (*.binary or *.binary.gz)");
   // Reconstruct each table from random samples, and judge the results.
   std::vector<gonio::image> rows;
-  std::vector<gonio::appearance_metric> judges;  // of the last table's cells, most often those of the next, too
+  std::vector<gonio::appearance_metric> appearances;  // of the last table's cells, most often those of the next, too
   json result = json::object();
   for (std::size_t f = 0; f < files.size(); ++f) {
     bar.draw(files[f].name, static_cast<double>(f) / static_cast<double>(files.size()));
     const auto truth = gonio::io::read_merl_any(files[f].path);
-    if (judges.empty() || !(judges.back().cells() == truth.cells()))
-      judges.assign(1, gonio::appearance_metric(truth.cells(), 36, options.threads));
-    const auto [errors, spheres] = judge_table(options, prior, files[f].name, truth, judges.back());
+    if (appearances.empty() || !(appearances.back().cells() == truth.cells()))
+      appearances.assign(1, gonio::appearance_metric(truth.cells(), 36, options.threads));
+    const auto [errors, spheres] = judge_table(options, prior, files[f].name, truth, appearances.back());
     for (std::size_t i = 0; i < options.counts.size(); ++i) {
       json means = mean_errors(errors[i]);
       means["peak_ratio"] = mean_over(errors[i], [](const auto& e) { return e.peak_ratio.mean(); });
       result[files[f].name][std::to_string(options.counts[i])] = means;
     }
-    if (!options.picture.empty()) rows.push_back(gonio::render::side_by_side(spheres, 4));
+    if (!options.image.empty()) rows.push_back(gonio::render::side_by_side(spheres, 4));
   }
   bar.wipe();
-  if (!options.picture.empty()) gonio::io::write_png(options.picture, gonio::render::stacked(rows));
+  if (!options.image.empty()) gonio::io::write_png(options.image, gonio::render::stacked(rows));
 
   // Print the errors.
   if (options.print_json) {
@@ -142,7 +142,7 @@ void add_measured_materials(command& app) {
   command.add_option("--repetitions", options->repetitions, "Sets of samples for each count")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_output("--spheres", options->picture, {".png"},
+  command.add_output("--spheres", options->image, {".png"},
                      "Image to write (.png): a row for each table, the truth at the right");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);

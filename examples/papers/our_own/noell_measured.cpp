@@ -36,7 +36,7 @@ struct measured_options {
   gonio::thread_count threads;
 };
 
-/// The materials on some cells, their corrections, and the judges there.
+/// The materials on some cells, their corrections, and the measures of error there.
 struct benchmark_setup {
   benchmark_setup(const measured_options& given, const gonio::valid_cells& cells, const gonio::progress& listener)
       : threads(given.threads),
@@ -44,7 +44,7 @@ struct benchmark_setup {
                   gonio::log{}, threads),
         corrections(materials, {}, gonio::nnls{}, threads),
         printed_corrections(materials, gonio::correction_rule::as_printed(), gonio::nnls{}, threads),
-        judges(cells, given.environment, threads) {}
+        measures(cells, given.environment, threads) {}
 
   /// Calls `use(name, fit)` for ours, the paper's method as printed, and the combination of materials.
   template <class Use>
@@ -62,7 +62,7 @@ struct benchmark_setup {
   gonio::thread_count threads;
   gonio::measured<gonio::log> materials;
   gonio::correction corrections, printed_corrections;
-  noell_measures judges;
+  noell_measures measures;
 };
 
 /// One for each method and share of outliers.
@@ -84,7 +84,7 @@ void judge_table(const measured_options& given, const benchmark_setup& shop, con
                          error.add(estimate.at(cell), truth.at(cell));
                        json result = row(name, method, count, outlier_ratio);
                        result["log_error"] = error.value();
-                       result.update(shop.judges.judge(estimate, truth));
+                       result.update(shop.measures.judge(estimate, truth));
                        rows.push_back(std::move(result));
                      });
 }

@@ -41,7 +41,7 @@ constexpr std::array weightings{std::pair{"product", cosine_weighting::product},
 
 /// Means over the materials from some directions, mapped errors in the domain of either weight.
 json judged(const gonio::log_relative_pca& prior, const gonio::material_set& truths, std::size_t count,
-            const std::string& eta, const gonio::appearance_metric& judge, gonio::thread_count threads) {
+            const std::string& eta, const gonio::appearance_metric& appearance, gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
   std::array<std::vector<material_result>, weightings.size()> results;
   for (std::size_t m = 0; m < truths.names.size(); ++m) {
@@ -54,7 +54,7 @@ json judged(const gonio::log_relative_pca& prior, const gonio::material_set& tru
     for (std::size_t w = 0; w < weightings.size(); ++w)
       results[w].push_back(
           {truths.names[m],
-           gonio::compare(estimate, truth, prior.metric().weighted_by(weightings[w].second), judge, threads)});
+           gonio::compare(estimate, truth, prior.metric().weighted_by(weightings[w].second), appearance, threads)});
   }
   json means = mean_errors(results[0]);
   for (std::size_t w = 0; w < weightings.size(); ++w)
@@ -81,7 +81,7 @@ void run(const cosine_options& options) {
   const auto cells = options.networks.cells();
   const auto truths = gonio::model::tabulate_networks(networks_in(networks, gonio::nielsen_test_materials()), cells,
                                                       options.threads, bar.listener());
-  const gonio::appearance_metric judge(cells, 36, options.threads);
+  const gonio::appearance_metric appearance(cells, 36, options.threads);
   // Reconstruct them with a prior that is mapped with each weight.
   json rows = json::array();
   for (const auto& [name, weighting] : weightings) {
@@ -93,7 +93,7 @@ void run(const cosine_options& options) {
         rows.push_back({{"n", n},
                         {"eta", eta},
                         {"weight", name},
-                        {"errors", judged(prior, truths, n, eta, judge, options.threads)}});
+                        {"errors", judged(prior, truths, n, eta, appearance, options.threads)}});
       }
   }
   bar.wipe();

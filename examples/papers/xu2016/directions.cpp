@@ -53,7 +53,7 @@ struct directions_options {
 
 /// What all sets are judged with.
 struct laboratory : nielsen_split {
-  gonio::appearance_metric judge;
+  gonio::appearance_metric appearance;
 };
 
 laboratory open_laboratory(const directions_options& options, const gonio::progress& listener) {
@@ -149,17 +149,17 @@ std::vector<gonio::sample_set> photographed(const gonio::brdf_table& material, c
                                             const designed& found, std::uint64_t seed) {
   const gonio::design::near_field_options apparatus = search_for(options, "expected-error", 1).near_field;
   const gonio::capture::sample_disc disc{std::tan(apparatus.field_of_view / 2.0)};
-  std::vector<gonio::sample_set> pictures;
+  std::vector<gonio::sample_set> images;
   for (const auto& [wi, wo] : found.poses) {
     const gonio::capture::near_field_setup setup{
         .camera = gonio::design::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels),
         .light = {wi},
         .disc = disc};
-    const gonio::image picture = lab::photograph(
+    const gonio::image image = lab::photograph(
         material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.angular_error)}, ++seed);
-    pictures.push_back(gonio::capture::near_field_samples(picture, setup));
+    images.push_back(gonio::capture::near_field_samples(image, setup));
   }
-  return pictures;
+  return images;
 }
 
 gonio::sample_set sampled(const gonio::brdf_table& material, const directions_options& options, const designed& found,
@@ -203,16 +203,16 @@ gonio::fitted_brdf<gonio::log_relative_pca> reconstructed(const laboratory& lab,
     if (!(expected > 0.0)) return trusting(lab, options, samples);
     return expecting(lab, options, samples);
   }
-  const auto pictures = photographed(material, options, found, seed);
+  const auto images = photographed(material, options, found, seed);
   if (expected > 0.0) {
     gonio::pose_refinement_options expectation{.deviation = expected, .threads = options.threads};
     if (options.reconstruction_eta != "auto") expectation.eta = number_of_eta(options.reconstruction_eta);
-    gonio::pose_refinement refinement(lab.prior, pictures, expectation);
+    gonio::pose_refinement refinement(lab.prior, images, expectation);
     refinement.solve();
     return refinement.result();
   }
   gonio::sample_set all;
-  for (const gonio::sample_set& samples : pictures) all.insert(all.end(), samples.begin(), samples.end());
+  for (const gonio::sample_set& samples : images) all.insert(all.end(), samples.begin(), samples.end());
   return trusting(lab, options, all);
 }
 
@@ -228,7 +228,7 @@ json judged(const laboratory& lab, const directions_options& options, const desi
     const auto estimate = reconstructed(lab, truth, options, found, options.seed + 1000 * number);
     results.push_back(
         {lab.truths.names[number], gonio::compare(estimate.tabulate(lab.truths.cells, options.threads), truth,
-                                                  lab.prior.metric(), lab.judge, options.threads)});
+                                                  lab.prior.metric(), lab.appearance, options.threads)});
   }
   json poses = json::array();
   for (const auto& [wi, wo] : found.poses)

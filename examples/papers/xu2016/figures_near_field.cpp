@@ -20,7 +20,7 @@ namespace papers::figures {
 
 namespace {
 
-using pictures = gonio::design::image_candidates<gonio::log_relative, gonio::design::near_field_geometry>;
+using images = gonio::design::image_candidates<gonio::log_relative, gonio::design::near_field_geometry>;
 
 /// More images than that are not exchanged: it would take minutes.
 constexpr std::size_t most_exchanged = 2;
@@ -31,9 +31,8 @@ gonio::design::near_field_geometry geometry_of(double field_of_view, double step
       {.field_of_view = gonio::radians(field_of_view), .step = gonio::radians(step)});
 }
 
-pictures read_images(const laboratory& lab, const options& given, double field_of_view,
-                     const gonio::progress& listener) {
-  return pictures(
+images read_images(const laboratory& lab, const options& given, double field_of_view, const gonio::progress& listener) {
+  return images(
       gonio::design::image_objective(lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}),
                                      geometry_of(field_of_view, given.step)),
       given.threads, listener);
@@ -41,7 +40,7 @@ pictures read_images(const laboratory& lab, const options& given, double field_o
 
 /// The best plans of 1 to `most` images on the grid of candidates, slid on from there on one of degrees.
 std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, const options& given,
-                                                       const pictures& coarse, std::size_t most,
+                                                       const images& coarse, std::size_t most,
                                                        const gonio::progress& listener) {
   const gonio::design::image_objective fine(
       lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}),
@@ -169,7 +168,7 @@ table table_of_angles() {
 /// Images of which the light, or the camera, stays where it is.
 class with_one_in_place {
  public:
-  with_one_in_place(const pictures& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
+  with_one_in_place(const images& all, gonio::direction gonio::direction_pair::*fixed, double polar_angle)
       : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
 
   [[nodiscard]] const gonio::design::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
@@ -191,13 +190,13 @@ class with_one_in_place {
     return std::abs(gonio::polar_angle(geometry().centre(candidate).*fixed_) - polar_angle_) < 1e-6;
   }
 
-  const pictures& all_;
+  const images& all_;
   gonio::direction gonio::direction_pair::*fixed_;
   double polar_angle_;
 };
 
 /// For each number of images the best of all places to stand in.
-std::vector<gonio::design::capture_plan> plans_in_place(const pictures& all, const options& given, std::size_t most,
+std::vector<gonio::design::capture_plan> plans_in_place(const images& all, const options& given, std::size_t most,
                                                         gonio::direction gonio::direction_pair::*fixed,
                                                         const gonio::progress& listener) {
   std::vector<gonio::design::capture_plan> best(most);
@@ -230,7 +229,7 @@ tables xu_5(const options& given, const gonio::progress& listener) {
   std::vector<std::pair<std::string, std::vector<json>>> errors, conditions;
   for (const double field_of_view : given.fields_of_view) {
     const std::string name = degrees_of(field_of_view);
-    const pictures all = read_images(lab, given, field_of_view, listener);
+    const images all = read_images(lab, given, field_of_view, listener);
     const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     errors.emplace_back(name + ", expected error",
                         errors_of(lab, fine, refined_plans(lab, given, all, most, listener)));
@@ -251,7 +250,7 @@ tables xu_6(const options& given, const gonio::progress& listener) {
   std::vector<std::pair<std::string, std::vector<json>>> series;
   table angles = table_of_angles();
   for (const double field_of_view : given.fields_of_view) {
-    const pictures all = read_images(lab, given, field_of_view, listener);
+    const images all = read_images(lab, given, field_of_view, listener);
     const gonio::design::near_field_geometry fine = geometry_of(field_of_view, 1.0);
     const auto plans = refined_plans(lab, given, all, std::min<std::size_t>(given.up_to(5), 5), listener);
     series.emplace_back(degrees_of(field_of_view), errors_of(lab, fine, plans));
@@ -280,7 +279,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
   for (std::size_t count = step; count <= largest; count += step) {
     const std::vector<std::string> names(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
     const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
-    const pictures all = read_images(lab, given, figures_field_of_view, listener);
+    const images all = read_images(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);
     const gonio::design::near_field_geometry fine = geometry_of(figures_field_of_view, 1.0);
     shown.rows.push_back({count, lab.prior().size(), lab.error(samples_of(fine, plans.back().candidates)),
@@ -292,7 +291,7 @@ tables xu_7(const options& given, const gonio::progress& listener) {
 tables xu_13(const options& given, const gonio::progress& listener) {
   const laboratory lab = open_laboratory(given, listener);
   const std::size_t most = given.up_to(5);
-  const pictures all = read_images(lab, given, figures_field_of_view, listener);
+  const images all = read_images(lab, given, figures_field_of_view, listener);
   const auto free = best_plans(all, most, most_exchanged, given.seed, listener);
   const auto camera = plans_in_place(all, given, most, &gonio::direction_pair::wo, listener);
   const auto light = plans_in_place(all, given, most, &gonio::direction_pair::wi, listener);

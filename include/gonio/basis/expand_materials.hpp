@@ -35,4 +35,8 @@ template <error_metric Metric>
   return materials;
 }
 
+#if defined(GONIO_COMPILED)
+extern template material_set expand(const log_relative_pca& prior, thread_count threads);
+#endif
+
 }  // namespace gonio

@@ -89,6 +89,10 @@ template <error_metric Metric>
                       std::move(mean), basis.coefficients(), basis.explained_variance(), basis.source()});
 }
 
+#if defined(GONIO_COMPILED)
+extern template log_relative_pca thin(const log_relative_pca& basis, const valid_cells& cells);
+#endif
+
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)

@@ -3,6 +3,7 @@
 /// mapped by the metric.
 
 #include <gonio/basis/material_functions.hpp>
+#include <gonio/metric/log.hpp>
 
 namespace gonio {
 
@@ -29,6 +30,10 @@ template <error_metric Metric>
       threads);
   return std::move(materials.values);
 }
+
+#if defined(GONIO_COMPILED)
+extern template cell_matrix map_by_channel(material_set& materials, const log& metric, thread_count threads);
+#endif
 
 }  // namespace detail
 

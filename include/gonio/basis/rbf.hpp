@@ -44,12 +44,36 @@ using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
 /// What the compiler cannot check, and a model must keep: values are finite for distances from 0 to 3; `apply` neither
 /// allocates nor throws, and is thread safe.
 ///
-/// The smallest model, the thin plate's r^2 log r:
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/basis/rbf.hpp>
+/// #include <gonio/metric/root.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::valid_cells cells(gonio::grid({45, 15, 18}));
+///   const gonio::rbf functions{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300)};
+///   std::printf("%zu functions\n", std::size_t{functions.size()});
+/// }
+/// ```
+/// With a model of your own, the thin plate's r^2 log r:
+/// ```cpp
+/// #include <gonio/basis/rbf.hpp>
+/// #include <gonio/metric/root.hpp>
+///
+/// #include <cstdio>
+///
 /// struct thin_plate_kernel {
 ///   void apply(gonio::kernel_row squares) const { squares *= 0.5 * squares.max(1e-300).log(); }
 /// };
 /// static_assert(gonio::radial_kernel<thin_plate_kernel>);
+///
+/// int main() {
+///   const gonio::valid_cells cells(gonio::grid({45, 15, 18}));
+///   const gonio::rbf functions{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300), thin_plate_kernel{}};
+///   std::printf("%g\n", gonio::row_at(functions, gonio::locate_cell(cells, 0))[0]);
+/// }
 /// ```
 template <class Kernel>
 concept radial_kernel = std::copyable<Kernel> && requires(const Kernel& kernel, kernel_row squares) {

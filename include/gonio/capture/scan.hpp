@@ -61,6 +61,39 @@ template <goniometer Machine>
 
 /// A place where a scan keeps its readings. `has(pose)`: is the reading of the pose with this number kept? `add(pose,
 /// reading)` keeps it, and returns when nothing that happens to this process can lose it.
+///
+/// With a model of the library, a file:
+/// ```cpp
+/// #include <gonio/io/scan_journal.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const std::vector<gonio::direction_pair> poses{{{0, 0, 1}, {0.6, 0, 0.8}}, {{0.6, 0, 0.8}, {0, 0, 1}}};
+///   const gonio::io::scan_subject subject{.sample = "red paint", .setup = "bench 2"};
+///   const gonio::io::scan_journal journal("red-paint.scan", subject, poses, 4095);
+///   std::printf("the first pose is %s\n", journal.has(0) ? "measured" : "to be measured");
+/// }
+/// ```
+/// With a model of your own, in memory, for a machine that is simulated:
+/// ```cpp
+/// #include <gonio/capture/scan.hpp>
+///
+/// #include <map>
+///
+/// struct readings_in_memory {
+///   std::map<std::size_t, gonio::capture::reading> kept;
+///   bool has(std::size_t pose) const { return kept.contains(pose); }
+///   void add(std::size_t pose, const gonio::capture::reading& taken) { kept.emplace(pose, taken); }
+/// };
+/// static_assert(gonio::capture::scan_record<readings_in_memory>);
+///
+/// int main() {
+///   readings_in_memory record;
+///   record.add(0, {{0.1}, {gonio::capture::camera_frame::Constant(1, 3, 7)}});
+///   return record.has(0) ? 0 : 1;
+/// }
+/// ```
 template <class J>
 concept scan_record = requires(J& record, const J& same, std::size_t pose, const reading& taken) {
   { same.has(pose) } -> std::convertible_to<bool>;

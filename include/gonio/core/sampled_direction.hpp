@@ -31,6 +31,39 @@ using sampled_direction = basic_sampled_direction<double>;
 /// - pdf integrates to 1 over the sphere of directions. What falls below the horizon has weight 0 and counts;
 /// - where the viewer is not above the horizon, weight and density are zero;
 /// - both are thread safe, do not allocate and do not throw.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/model/lobe_sampler.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::model::lobe_sampler sampler{gonio::model::ggx{.alpha = 0.1}};
+///   const gonio::sampled_direction drawn = sampler.sample({0.6, 0, 0.8}, 0.3, 0.7);
+///   std::printf("density %g sr^-1\n", drawn.pdf);
+/// }
+/// ```
+/// With a model of your own, a white diffuse surface:
+/// ```cpp
+/// #include <gonio/core/sampled_direction.hpp>
+///
+/// #include <cstdio>
+///
+/// struct white_diffuse {
+///   gonio::sampled_direction sample(const gonio::direction& wo, double u1, double u2) const noexcept {
+///     if (!(wo.z() > 0.0)) return {};
+///     const gonio::direction wi = gonio::cosine_weighted_direction(u1, u2);
+///     return {wi, gonio::rgb::Ones(), pdf(wi, wo)};
+///   }
+///   double pdf(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
+///     return wi.z() > 0.0 && wo.z() > 0.0 ? wi.z() * std::numbers::inv_pi : 0.0;
+///   }
+/// };
+/// static_assert(gonio::direction_sampler<white_diffuse>);
+///
+/// int main() { std::printf("density %g sr^-1\n", white_diffuse{}.sample({0, 0, 1}, 0.3, 0.7).pdf); }
+/// ```
 template <class Sampler>
 concept direction_sampler = requires(const Sampler& sampler, const direction& wi, const direction& wo, double u) {
   { sampler.sample(wo, u, u) }

@@ -26,6 +26,45 @@ namespace gonio::design {
 ///
 /// An objective may offer `beside(candidates)`, a function of one more candidate that is cheaper than the whole:
 /// searches that move one at a time then use it.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/design/criterion_of_plan.hpp>
+/// #include <gonio/design/search.hpp>
+/// #include <gonio/io/prior.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const auto prior = gonio::io::read_prior("materials.prior");
+///   const gonio::design::point_geometry points(prior.cells());
+///   const gonio::design::criterion_of_plan volume{prior, points, gonio::design::d_optimality{}};
+///   std::printf("%g\n", gonio::design::swap_at_random(points, volume, 5, 1000).value);
+/// }
+/// ```
+/// With a model of your own, candidates as far from each other as can be:
+/// ```cpp
+/// #include <gonio/design/search.hpp>
+///
+/// #include <cstdio>
+///
+/// struct crowding {
+///   gonio::design::point_geometry points;
+///   double operator()(std::span<const std::size_t> candidates) const {
+///     double sum = 0.0;
+///     for (const std::size_t a : candidates)
+///       for (const std::size_t b : candidates)
+///         if (a < b) sum += 1.0 / (0.01 + gonio::angle_between(points.centre(a).wi, points.centre(b).wi));
+///     return sum;
+///   }
+/// };
+/// static_assert(gonio::design::plan_objective<crowding>);
+///
+/// int main() {
+///   const gonio::design::point_geometry points{gonio::valid_cells(gonio::grid({10, 8, 12}))};
+///   std::printf("%g\n", gonio::design::grow_and_descend(points, crowding{points}, 5).value);
+/// }
+/// ```
 template <class Objective>
 concept plan_objective = requires(const Objective& objective, std::span<const std::size_t> candidates) {
   { objective(candidates) } -> std::convertible_to<double>;

@@ -2,10 +2,12 @@
 /// The least-squares problems that fitting measurements by a basis amounts to.
 /// Nielsen et al. 2015 (doi:10.1145/2816795.2818085), Eq. 9; Noell, Koehler and Stricker 2014, Eq. 7.
 
-#include <gonio/basis/basis.hpp>
+#include <gonio/basis/measured.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/solver.hpp>
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -30,18 +32,7 @@ class basis_equations {
   }
 
   /// A system over all functions of the basis: of a channel, or of all if there is but one.
-  [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const {
-    const auto functions = channel_of(basis_, system);
-    const std::shared_ptr<const located_samples> measured = measured_;
-    const row_source rows{
-        static_cast<Eigen::Index>(measured->locations.size()), static_cast<Eigen::Index>(functions.size()),
-        [functions, measured](block range, row_block out) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            read_row_at(functions, measured->locations[i], out.row(static_cast<Eigen::Index>(i - range.begin)));
-        }};
-    const auto first = static_cast<Eigen::Index>(system);
-    return {rows, mapped(functions, first), measured->weights_of(first), threads_};
-  }
+  [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const;
 
   /// All systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
@@ -54,21 +45,14 @@ class basis_equations {
   /// have weight zero. Systems are solved in parallel.
   template <solver Solver>
   [[nodiscard]] solution solve(const Solver& solver) const {
-    const std::vector<Eigen::Index> columns = columns_of(basis_);
-    const auto unknowns = static_cast<Eigen::Index>(basis_.size());
-    std::vector<solution> found(systems());
-    for_each_block(
-        found.size(), 1,
-        [&](block system) {
-          const least_squares_problem whole = problem(system.begin);
-          const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
-          found[system.begin] = solver.solve(all ? whole : whole.subset(columns));
-        },
-        threads_);
-    return scatter_columns(concatenate_columns(found), columns, unknowns);
+    return solve_each([&](const least_squares_problem& problem) { return solver.solve(problem); });
   }
 
  private:
+  using solve_function = std::function<solution(const least_squares_problem&)>;
+
+  [[nodiscard]] solution solve_each(const solve_function& solve_one) const;
+
   [[nodiscard]] Eigen::Index channels() const noexcept { return measured_->values.cols(); }
 
   /// The mapped values of the channels of a system, of which `first` is the first.
@@ -93,5 +77,40 @@ class basis_equations {
   std::shared_ptr<const located_samples> measured_;
   thread_count threads_;
 };
+
+template <colour_basis Basis>
+least_squares_problem basis_equations<Basis>::problem(std::size_t system) const {
+  const auto functions = channel_of(basis_, system);
+  const std::shared_ptr<const located_samples> measured = measured_;
+  const row_source rows{static_cast<Eigen::Index>(measured->locations.size()),
+                        static_cast<Eigen::Index>(functions.size()), [functions, measured](block range, row_block out) {
+                          for (std::size_t i = range.begin; i < range.end; ++i)
+                            read_row_at(functions, measured->locations[i],
+                                        out.row(static_cast<Eigen::Index>(i - range.begin)));
+                        }};
+  const auto first = static_cast<Eigen::Index>(system);
+  return {rows, mapped(functions, first), measured->weights_of(first), threads_};
+}
+
+template <colour_basis Basis>
+solution basis_equations<Basis>::solve_each(const solve_function& solve_one) const {
+  const std::vector<Eigen::Index> columns = columns_of(basis_);
+  const auto unknowns = static_cast<Eigen::Index>(basis_.size());
+  std::vector<solution> found(systems());
+  for_each_block(
+      found.size(), 1,
+      [&](block system) {
+        const least_squares_problem whole = problem(system.begin);
+        const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
+        found[system.begin] = solve_one(all ? whole : whole.subset(columns));
+      },
+      threads_);
+  return scatter_columns(concatenate_columns(found), columns, unknowns);
+}
+
+#if defined(GONIO_COMPILED)
+extern template class basis_equations<log_relative_pca>;
+extern template class basis_equations<measured<log>>;
+#endif
 
 }  // namespace gonio

@@ -3,6 +3,8 @@
 /// doi:10.1145/2816795.2818085, Eq. 10).
 
 #include <gonio/basis/combine.hpp>
+#include <gonio/basis/measured.hpp>
+#include <gonio/basis/pca.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/solve/solver.hpp>
 #include <gonio/solve/vector_kernels.hpp>
@@ -32,20 +34,7 @@ class fitted_brdf {
 
   /// `weights` is (size of the basis) x 3, one column per colour channel. Throws gonio::error if it is not, or for more
   /// than `most_computed_functions` that are computed.
-  fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {})
-      : basis_(std::move(basis)),
-        channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
-        weights_(std::move(weights)),
-        report_(std::move(report)),
-        float_weights_(weights_.rows(), weights_.cols()) {
-    if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
-      refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
-    if (computed && weights_.rows() > most_computed_functions)
-      refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
-              basis_.size()});
-    for (Eigen::Index i = 0; i < weights_.size(); ++i)
-      float_weights_.data()[i] = static_cast<float>(weights_.data()[i]);
-  }
+  fitted_brdf(Basis basis, Eigen::MatrixXd weights, std::optional<solve_report> report = {});
 
   fitted_brdf(Basis basis, solution found)
       : fitted_brdf(std::move(basis), std::move(found.weights), std::move(found.report)) {}
@@ -80,58 +69,16 @@ class fitted_brdf {
   /// and where the cells are others an interpolation of its three channels. Rows that are computed are so at the
   /// cells of the table, unless the basis combines its functions at all of its own (`combining_basis`). Same bytes for
   /// any number of threads.
-  [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
-    if constexpr (row_metric<metric_type> && combinable)
-      return tabulate_rows(cells, threads);
-    else
-      return tabulate_cells(cells, threads);
-  }
+  [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const;
 
   /// The same table through the metric's own `inverse` at each cell: slower where rows are stored, and works with any
   /// metric.
-  [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const {
-    mapped_fields field;
-    if constexpr (!computed) field = mapped_field(threads);
-    const auto value_at = [&](const location& at) {
-      if constexpr (computed)
-        return mapped_at(at);
-      else
-        return interpolate(
-            at, [&](std::size_t cell) { return field.col(static_cast<Eigen::Index>(cell)).template cast<double>(); },
-            rgb(rgb::Zero()));
-    };
-    const bool own = cells == basis_.cells();
-    brdf_table table(cells);
-    for_each_index(
-        cells.size(), 4096,
-        [&](std::size_t cell) {
-          const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
-          table.set(cell, reflectance(value_at(at), at));
-        },
-        threads);
-    return table;
-  }
+  [[nodiscard]] brdf_table tabulate_cells(const valid_cells& cells, thread_count threads = {}) const;
 
   /// Red, green and blue over all cells of the basis, in the metric's domain.
   using mapped_fields = Eigen::Array<float, 3, Eigen::Dynamic>;
 
-  [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const {
-    mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
-    if constexpr (combining_basis<Basis>) field = basis_.combination(weights_, threads);
-    for_each_index(
-        basis_.cells().size(), 4096,
-        [&](std::size_t cell) {
-          if constexpr (combining_basis<Basis>) {
-            field.col(static_cast<Eigen::Index>(cell)) += static_cast<float>(basis_.offset(cell));
-            return;
-          }
-          const rgb value = mapped(cell);
-          for (Eigen::Index channel = 0; channel < 3; ++channel)
-            field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
-        },
-        threads);
-    return field;
-  }
+  [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const;
 
  private:
   using metric_type = std::remove_cvref_t<decltype(std::declval<const Basis&>().metric())>;
@@ -165,7 +112,7 @@ class fitted_brdf {
   }
 
   /// The three channels at a location, from one row if they share their basis.
-  [[nodiscard]] rgb computed_value(const location& at) const noexcept {
+  [[nodiscard]] rgb computed_value(const location& at) const noexcept requires computed {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -177,28 +124,7 @@ class fitted_brdf {
   }
 
   /// Through the three channels, and what the metric needs beside them, a row of cells at once.
-  [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const {
-    const metric_type& metric = basis_.metric();
-    constexpr int fields_count = 3 + metric_type::companions;
-    cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
-    const mapped_fields channels = mapped_field(threads);
-    for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
-      float* field = &fields(0, cell);
-      std::copy_n(&channels(0, cell), 3, field);
-      if constexpr (metric_type::companions > 0) {
-        const auto companions = metric.companion(static_cast<std::size_t>(cell));
-        std::copy(companions.begin(), companions.end(), field + 3);
-      }
-    }
-    brdf_table table(cells);
-    upsample<fields_count>(
-        basis_.cells(), fields, cells,
-        [&](const cell_row& row, auto& values) {
-          metric.inverse_row(row, values, table.values().subspan(3 * row.first, 3 * row.count));
-        },
-        threads);
-    return table;
-  }
+  [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const;
 
   [[nodiscard]] rgb reflectance(const rgb& y, const location& at) const noexcept {
     const auto& metric = basis_.metric();
@@ -212,5 +138,109 @@ class fitted_brdf {
   std::optional<solve_report> report_;
   Eigen::MatrixXf float_weights_;  // what products with stored rows read
 };
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_brdf(Basis basis,
+                                                                                     Eigen::MatrixXd weights,
+                                                                                     std::optional<solve_report> report)
+    : basis_(std::move(basis)),
+      channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
+      weights_(std::move(weights)),
+      report_(std::move(report)),
+      float_weights_(weights_.rows(), weights_.cols()) {
+  if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
+    refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
+  if (computed && weights_.rows() > most_computed_functions)
+    refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
+            basis_.size()});
+  for (Eigen::Index i = 0; i < weights_.size(); ++i) float_weights_.data()[i] = static_cast<float>(weights_.data()[i]);
+}
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells> brdf_table fitted_brdf<Basis>::tabulate(const valid_cells& cells,
+                                                                                             thread_count threads)
+const {
+  if constexpr (row_metric<metric_type> && combinable)
+    return tabulate_rows(cells, threads);
+  else
+    return tabulate_cells(cells, threads);
+}
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells> brdf_table
+fitted_brdf<Basis>::tabulate_cells(const valid_cells& cells, thread_count threads)
+const {
+  mapped_fields field;
+  if constexpr (!computed) field = mapped_field(threads);
+  const auto value_at = [&](const location& at) {
+    if constexpr (computed)
+      return mapped_at(at);
+    else
+      return interpolate(
+          at, [&](std::size_t cell) { return field.col(static_cast<Eigen::Index>(cell)).template cast<double>(); },
+          rgb(rgb::Zero()));
+  };
+  const bool own = cells == basis_.cells();
+  brdf_table table(cells);
+  for_each_index(
+      cells.size(), 4096,
+      [&](std::size_t cell) {
+        const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
+        table.set(cell, reflectance(value_at(at), at));
+      },
+      threads);
+  return table;
+}
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells>
+typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thread_count threads) const {
+  mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
+  if constexpr (combining_basis<Basis>) field = basis_.combination(weights_, threads);
+  for_each_index(
+      basis_.cells().size(), 4096,
+      [&](std::size_t cell) {
+        if constexpr (combining_basis<Basis>) {
+          field.col(static_cast<Eigen::Index>(cell)) += static_cast<float>(basis_.offset(cell));
+          return;
+        }
+        const rgb value = mapped(cell);
+        for (Eigen::Index channel = 0; channel < 3; ++channel)
+          field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
+      },
+      threads);
+  return field;
+}
+
+template <colour_basis Basis>
+requires std::same_as<domain_of<Basis>, valid_cells> brdf_table
+fitted_brdf<Basis>::tabulate_rows(const valid_cells& cells, thread_count threads)
+const {
+  const metric_type& metric = basis_.metric();
+  constexpr int fields_count = 3 + metric_type::companions;
+  cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
+  const mapped_fields channels = mapped_field(threads);
+  for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
+    float* field = &fields(0, cell);
+    std::copy_n(&channels(0, cell), 3, field);
+    if constexpr (metric_type::companions > 0) {
+      const auto companions = metric.companion(static_cast<std::size_t>(cell));
+      std::copy(companions.begin(), companions.end(), field + 3);
+    }
+  }
+  brdf_table table(cells);
+  upsample<fields_count>(
+      basis_.cells(), fields, cells,
+      [&](const cell_row& row, auto& values) {
+        metric.inverse_row(row, values, table.values().subspan(3 * row.first, 3 * row.count));
+      },
+      threads);
+  return table;
+}
+
+#if defined(GONIO_COMPILED)
+extern template class fitted_brdf<log_relative_pca>;
+extern template class fitted_brdf<measured<log>>;
+#endif
 
 }  // namespace gonio

@@ -61,12 +61,8 @@ template <sample_range Samples>
                                              thread_count threads = {}) {
   require_usable(samples);
   Eigen::Index count = 0;
-  bool apart = false;
-  for (const sample& s : samples) {
-    count += s.weight.counts() ? 1 : 0;
-    apart = apart || !s.weight.is_uniform();
-  }
-  located_samples found = detail::room_for_samples(count, apart);
+  for (const sample& s : samples) count += s.weight.counts() ? 1 : 0;
+  located_samples found = detail::room_for_samples(count, weigh_channels_apart(samples));
   Eigen::Index i = 0;
   std::size_t number = 0;
   for (const sample& s : samples) {
@@ -76,6 +72,11 @@ template <sample_range Samples>
   detail::locate_angles(found, cells, threads);
   return found;
 }
+
+#if defined(GONIO_COMPILED)
+extern template located_samples locate_samples(const valid_cells& cells, const sample_set& samples,
+                                               thread_count threads);
+#endif
 
 /// Every cell of a table as a measurement of weight 1. Throws gonio::error naming the first cell that is not finite.
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,

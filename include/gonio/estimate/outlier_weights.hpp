@@ -18,13 +18,42 @@ namespace gonio {
 /// does not matter but for rounding; all members are const and thread safe. While weights stay the same from round to
 /// round, an iteration builds its normal equations once.
 ///
+/// With a model of the library:
 /// ```cpp
-/// struct trust_all {
-///   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values&) const {
-///     return gonio::channel_values::Ones(3, measured.cols());
+/// #include <gonio/basis/expand_materials.hpp>
+/// #include <gonio/estimate/correction_iteration.hpp>
+/// #include <gonio/estimate/decomposition.hpp>
+/// #include <gonio/io/prior.hpp>
+/// #include <gonio/io/samples.hpp>
+/// #include <gonio/metric/log.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::measured materials{gonio::expand(gonio::io::read_prior("materials.prior")), gonio::log{}};
+///   const gonio::correction_iteration estimator{gonio::decomposition{materials, gonio::nnls{}},
+///                                               gonio::correction{materials}, gonio::relative_deviation_weights{3.0}};
+///   const auto paint = estimator.fit(gonio::io::read_samples("measurements.csv"));
+///   std::printf("%g of the samples counted less than half\n", paint.history().back().down_weighted);
+/// }
+/// ```
+/// With a model of your own, which leaves out what is off by more than a half:
+/// ```cpp
+/// #include <gonio/estimate/outlier_weights.hpp>
+///
+/// #include <cstdio>
+///
+/// struct within_a_half {
+///   gonio::channel_values weigh(const gonio::channel_values& measured, const gonio::channel_values& estimated) const {
+///     return ((measured - estimated).abs() <= 0.5f * estimated).cast<float>();
 ///   }
 /// };
-/// static_assert(gonio::outlier_weighting<trust_all>);
+/// static_assert(gonio::outlier_weighting<within_a_half>);
+///
+/// int main() {
+///   const gonio::channel_values measured = gonio::channel_values::Ones(3, 2);
+///   std::printf("%g\n", double{within_a_half{}.weigh(measured, 3.0f * measured)(0, 0)});
+/// }
 /// ```
 template <class Weighting>
 concept outlier_weighting = requires(const Weighting& weighting, const channel_values& measured) {

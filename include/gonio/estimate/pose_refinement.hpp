@@ -92,15 +92,15 @@ class pose_iteration {
   void require_material(std::size_t material) const;
   [[nodiscard]] sample turned(const sample& s, const pose_correction& turns) const;
   /// The equations of one image from row `begin` on.
-  void add_image(const sample_set& picture, const pose_correction& turns, const reader& read, Eigen::Index begin,
+  void add_image(const sample_set& samples, const pose_correction& turns, const reader& read, Eigen::Index begin,
                  equations& out) const;
-  [[nodiscard]] fit fit_of(const std::vector<sample_set>& pictures, const std::vector<pose_correction>& turns,
+  [[nodiscard]] fit fit_of(const std::vector<sample_set>& images, const std::vector<pose_correction>& turns,
                            const reader& read) const;
   [[nodiscard]] state at(const std::vector<pose_correction>& turns, const reader& read) const;
   /// Of |t|^2, where the objective is divided by eta.
   [[nodiscard]] double turn_penalty() const;
   [[nodiscard]] std::vector<pose_correction> moved(const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
+  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t image_number, Eigen::Index unknown,
                                            const reader& read) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(std::size_t material, const reader& read) const;
   /// Adds a material's part of the normal equations of a step.
@@ -142,8 +142,8 @@ class pose_refinement {
  public:
   /// Throws gonio::error unless eta and deviation are positive and there is a sample in each image, all of them above
   /// the horizon and finite, with weights that are not negative.
-  pose_refinement(pca<Metric> prior, std::vector<sample_set> pictures, const pose_refinement_options& options = {})
-      : pose_refinement(std::move(prior), std::vector<std::vector<sample_set>>{std::move(pictures)}, options) {}
+  pose_refinement(pca<Metric> prior, std::vector<sample_set> images, const pose_refinement_options& options = {})
+      : pose_refinement(std::move(prior), std::vector<std::vector<sample_set>>{std::move(images)}, options) {}
 
   /// The same of several materials, of each its samples in every image. An image may have none of a material; it
   /// must have some of one. Throws gonio::error unless all have as many images, too.

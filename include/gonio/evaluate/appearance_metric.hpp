@@ -24,9 +24,7 @@ struct appearance_difference {
 class appearance_metric {
  public:
   /// Prepares the spheres; takes the time and memory of two `sphere_operator`s.
-  explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {})
-      : lights_(cells, render::two_lights(), size, sphere_delta_e::middle_grey, threads),
-        environment_(cells, render::environment_lighting(), size, sphere_delta_e::middle_grey, threads) {}
+  explicit appearance_metric(const valid_cells& cells, int size = 36, thread_count threads = {});
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return lights_.cells(); }
 
@@ -37,7 +35,7 @@ class appearance_metric {
   /// What an observer sees of a table. Throws gonio::error if it is over other cells.
   [[nodiscard]] appearance look(const brdf_table& table, thread_count threads = {}) const;
 
-  /// Mean difference of two appearances of the same judge: keep a truth's to compare many estimates with it.
+  /// Mean difference of two appearances of the same metric: keep a truth's to compare many estimates with it.
   [[nodiscard]] static appearance_difference difference(const appearance& a, const appearance& b) {
     return {sphere_delta_e::difference(a.lights, b.lights), sphere_delta_e::difference(a.environment, b.environment)};
   }

@@ -6,6 +6,7 @@
 
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/metric/error_metric.hpp>
+#include <gonio/metric/log_relative.hpp>
 
 #include <limits>
 
@@ -85,12 +86,12 @@ template <error_metric Metric>
 
 /// Judges an estimate by all measures, over the truth's cells; an estimate over another grid is interpolated there.
 /// The mapped and cosine-weighted errors see values as they are, `metric` deciding what a negative one means.
-/// `judge` must be over the truth's cells, otherwise gonio::error is thrown. Same bytes for any number of threads.
+/// `appearance` must be over the truth's cells, otherwise gonio::error is thrown. Same bytes for any number of threads.
 template <error_metric Metric>
 [[nodiscard]] comparison compare(const brdf_table& estimate, const brdf_table& truth, const Metric& metric,
-                                 const appearance_metric& judge, thread_count threads = {}) {
+                                 const appearance_metric& appearance, thread_count threads = {}) {
   if (!(estimate.cells() == truth.cells()))
-    return compare(resample(estimate, truth.cells(), threads), truth, metric, judge, threads);
+    return compare(resample(estimate, truth.cells(), threads), truth, metric, appearance, threads);
 
   comparison result;
   const auto cells = static_cast<double>(truth.cells().size());
@@ -98,7 +99,7 @@ template <error_metric Metric>
   result.mapped_rms = (squares.head<3>() / cells).sqrt();
   result.cosine_rms = (squares.tail<3>() / cells).sqrt();
 
-  const appearance_difference seen = judge.difference(estimate, truth, threads);
+  const appearance_difference seen = appearance.difference(estimate, truth, threads);
   result.delta_e_lights = seen.lights;
   result.delta_e_env = seen.environment;
 
@@ -111,6 +112,11 @@ template <error_metric Metric>
   }
   return result;
 }
+
+#if defined(GONIO_COMPILED)
+extern template comparison compare(const brdf_table& estimate, const brdf_table& truth, const log_relative& metric,
+                                   const appearance_metric& appearance, thread_count threads);
+#endif
 
 }  // namespace gonio
 

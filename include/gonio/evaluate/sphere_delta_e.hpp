@@ -30,9 +30,9 @@ struct sphere_appearance {
 ///
 /// ```cpp
 /// const gonio::render::environment_map grace(gonio::io::read_hdr("grace_probe_latlong.hdr"));
-/// const gonio::sphere_delta_e judge(truth.cells(), gonio::render::important_lights(grace, 4096, 1));
-/// const gonio::sphere_appearance seen = judge.expose(truth);  // once for each truth
-/// for (const gonio::brdf_table& estimate : estimates) std::cout << judge.difference(estimate, seen) << '\n';
+/// const gonio::sphere_delta_e delta_e(truth.cells(), gonio::render::important_lights(grace, 4096, 1));
+/// const gonio::sphere_appearance seen = delta_e.expose(truth);  // once for each truth
+/// for (const gonio::brdf_table& estimate : estimates) std::cout << delta_e.difference(estimate, seen) << '\n';
 /// ```
 ///
 /// Directional lights suit rough materials. For mirror-like ones, or all kinds, light the sphere by
@@ -61,7 +61,7 @@ class sphere_delta_e {
   /// What an observer sees of a table at a given exposure. Throws gonio::error if the table is over other cells.
   [[nodiscard]] sphere_appearance look(const brdf_table& table, double exposure, thread_count threads = {}) const;
 
-  /// Delta E*ab (CIE 1976) at each of the sphere's points between two appearances of the same judge.
+  /// Delta E*ab (CIE 1976) at each of the sphere's points between two appearances of the same sphere.
   [[nodiscard]] static Eigen::ArrayXd differences(const sphere_appearance& a, const sphere_appearance& b);
 
   /// Mean Delta E*ab over the sphere's points.

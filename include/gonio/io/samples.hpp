@@ -46,8 +46,7 @@ void write_text(const std::filesystem::path& path, std::string_view text);
 /// another.
 template <sample_range Samples>
 [[nodiscard]] std::string format_samples(const Samples& samples) {
-  bool apart = false;
-  for (const sample& each : samples) apart = apart || !each.weight.is_uniform();
+  const bool apart = weigh_channels_apart(samples);
   std::string text("theta_h,theta_d,phi_d,r,g,b,");
   text += apart ? "weight_r,weight_g,weight_b\n" : "weight\n";
   for (auto&& each : samples) detail::format_sample(text, each, apart);

@@ -6,6 +6,7 @@
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
+#include <gonio/table/brdf_table.hpp>
 
 #include <string>
 #include <string_view>
@@ -50,6 +51,10 @@ namespace detail {
 
 }  // namespace gonio::model
 
-#if !defined(GONIO_COMPILED)
+#if defined(GONIO_COMPILED)
+namespace gonio {
+extern template brdf_table tabulate(const model::formula_brdf& f, const valid_cells& cells, thread_count threads);
+}  // namespace gonio
+#else
 #include <gonio/model/impl/formula_materials.ipp>
 #endif

@@ -54,16 +54,45 @@ struct shape_parameter {
 /// What the compiler cannot check, and a model must keep: `parameters` describes the `members`, in their order; the
 /// value is not negative, and finite unless a cosine underflows; it does not throw.
 ///
-/// The smallest model:
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/model/phong.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::model::lobe<gonio::model::phong_shape> gloss{gonio::rgb::Constant(0.2), {.shininess = 50}};
+///   std::printf("%g sr^-1\n", gloss({0.6, 0, 0.8}, {-0.6, 0, 0.8}).x());
+/// }
+/// ```
+/// With a model of your own, fitted as any other is:
+/// ```cpp
+/// #include <gonio/io/samples.hpp>
+/// #include <gonio/metric/log.hpp>
+/// #include <gonio/model/fit_model.hpp>
+///
+/// #include <cstdio>
+///
 /// template <class Real>
-/// struct lambert_shape {
-///   static constexpr std::string_view name = "lambert";
-///   static constexpr std::array<gonio::model::shape_parameter, 0> parameters{};
-///   static auto members(auto& /*self*/) { return std::tie(); }
-///   Real operator()(const gonio::model::lobe_geometry&) const { return Real(std::numbers::inv_pi); }
+/// struct retroreflection_shape {
+///   Real exponent = Real(10);
+///
+///   static constexpr std::string_view name = "retroreflection";
+///   static constexpr std::array<gonio::model::shape_parameter, 1> parameters{{{"exponent", "", 1, 1e4, 10, true}}};
+///   static auto members(auto& self) { return std::tie(self.exponent); }
+///   Real operator()(const gonio::model::lobe_geometry& at) const {
+///     using std::exp;
+///     return exp(Real(exponent * std::log(at.cosine_d)));
+///   }
 /// };
-/// static_assert(gonio::model::lobe_shape<lambert_shape>);
+/// static_assert(gonio::model::lobe_shape<retroreflection_shape>);
+///
+/// int main() {
+///   const gonio::sample_set samples = gonio::io::read_samples("measurements.csv");
+///   const std::vector kinds{&gonio::model::lobe_kind::of<retroreflection_shape>()};
+///   const auto fit = gonio::model::fit_model(kinds, gonio::model::fit_observations(samples), gonio::log{});
+///   std::printf("loss %g\n", fit.loss);
+/// }
 /// ```
 template <template <class> class Shape>
 concept lobe_shape = requires(Shape<double>& shape, const Shape<double>& constant, const lobe_geometry& at) {

@@ -138,7 +138,7 @@ class model_loss {
   std::span<const fit_observation> observations_;
   chosen_metric metric_;
   const model_fit_options& options_;
-  bool weighs_channels_apart_ = false;
+  bool weighs_channels_apart_;
   double total_weight_ = 0.0, median_size_ = 0.0, loss_of_nothing_ = 0.0;
 };
 

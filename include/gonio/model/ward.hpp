@@ -1,6 +1,6 @@
 #pragma once
 /// The Gaussian lobe of G. J. Ward, "Measuring and Modeling Anisotropic Reflection", SIGGRAPH 1992
-/// (doi:10.1145/133994.134078; J. B. Nielsen's thesis, Eq. 2.17), and two corrections of its albedo at grazing angles.
+/// (doi:10.1145/142920.134078; J. B. Nielsen's thesis, Eq. 2.17), and two corrections of its albedo at grazing angles.
 
 #include <gonio/model/lobe.hpp>
 

@@ -34,23 +34,23 @@ class environment_map {
  public:
   /// Takes an image of linear radiance. Throws gonio::error unless it has shape (n, 2 n, 3) and every value is finite
   /// and not negative and at least one is positive. O(pixels).
-  explicit environment_map(image latitude_longitude);
+  explicit environment_map(gonio::image latitude_longitude);
 
   /// Tabulates radiance given by a function of world directions, at pixel centres: `environment_map::of(
   /// formula_environment{})` for those who have no light probe. Throws gonio::error as the constructor does.
   template <class Radiance>
   requires std::is_invocable_r_v<rgb, const Radiance&, const direction&>
   [[nodiscard]] static environment_map of(const Radiance& radiance, std::size_t rows = 256) {
-    image picture({rows, 2 * rows, std::size_t{3}});
+    gonio::image tabulated({rows, 2 * rows, std::size_t{3}});
     for (std::size_t row = 0; row < rows; ++row)
       for (std::size_t column = 0; column < 2 * rows; ++column)
-        set_pixel(picture, row, column, radiance(towards(row, column, rows)));
-    return environment_map(std::move(picture));
+        set_pixel(tabulated, row, column, radiance(towards(row, column, rows)));
+    return environment_map(std::move(tabulated));
   }
 
-  [[nodiscard]] const image& picture() const noexcept { return picture_; }
-  [[nodiscard]] std::size_t rows() const noexcept { return picture_.shape(0); }
-  [[nodiscard]] std::size_t columns() const noexcept { return picture_.shape(1); }
+  [[nodiscard]] const gonio::image& image() const noexcept { return image_; }
+  [[nodiscard]] std::size_t rows() const noexcept { return image_.shape(0); }
+  [[nodiscard]] std::size_t columns() const noexcept { return image_.shape(1); }
 
   /// The radiance that comes from a world direction other than zero, not necessarily of unit length.
   [[nodiscard]] rgb operator()(const direction& d) const noexcept {
@@ -60,7 +60,7 @@ class environment_map {
     // The south pole, and the direction +z from the left, lie on the far edges of the last row and column.
     const auto row = std::min(static_cast<std::size_t>(polar * scale), rows() - 1);
     const auto column = std::min(static_cast<std::size_t>(longitude * scale), columns() - 1);
-    return pixel(picture_, row, column);
+    return pixel(image_, row, column);
   }
 
   /// Towards the centre of a pixel, a unit vector.
@@ -84,7 +84,7 @@ class environment_map {
 
   /// Radiance times solid angle of a pixel: the irradiance of a surface that faces it.
   [[nodiscard]] rgb irradiance(std::size_t row, std::size_t column) const noexcept {
-    return solid_angle(row) * pixel(picture_, row, column);
+    return solid_angle(row) * pixel(image_, row, column);
   }
 
  private:
@@ -98,7 +98,7 @@ class environment_map {
 
   void check_values() const;
 
-  image picture_;
+  gonio::image image_;
   std::vector<double> row_solid_angles_;
 };
 

@@ -45,7 +45,7 @@ class environment_sampler {
                  bottom = std::cos(static_cast<double>(row + 1) * step);
     const double height = top + share * (bottom - top);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
-    const rgb radiance = pixel(map_.picture(), row, column);
+    const rgb radiance = pixel(map_.image(), row, column);
     return {environment_map::towards({height, across}, static_cast<double>(column) + u2, map_.rows()), radiance,
             luminance(radiance) / reached_.back()};
   }

@@ -13,7 +13,7 @@ namespace gonio::render {
 
 /// The factor at which the brightest of some spheres is white at its 99th percentile: what is brighter, a highlight of
 /// a hundredth of the sphere, is clipped. 1 if all are black.
-[[nodiscard]] double exposure_of_spheres(std::span<const image> pictures);
+[[nodiscard]] double exposure_of_spheres(std::span<const image> images);
 
 /// Multiplies all values.
 void expose(image& picture, double exposure);

@@ -52,8 +52,26 @@ struct surface_frame {
 /// - weight is incident radiance * cos(theta_i) * solid angle, one value per colour channel, not negative;
 /// - the calls depend on the normal alone and come in the same order every time, and the function is thread safe.
 ///
-/// The smallest model, a headlight:
+/// With a model of the library:
 /// ```cpp
+/// #include <gonio/model/formula_materials.hpp>
+/// #include <gonio/render/sphere.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const auto paint = gonio::model::formula_material("red-paint");
+///   const gonio::image seen = gonio::render::render_sphere(paint, gonio::render::two_lights());
+///   std::printf("%g in the middle\n", gonio::pixel(seen, 128, 128).x());
+/// }
+/// ```
+/// With a model of your own, a headlight:
+/// ```cpp
+/// #include <gonio/model/lambert.hpp>
+/// #include <gonio/render/sphere.hpp>
+///
+/// #include <cstdio>
+///
 /// struct headlight {
 ///   template <class Visit>
 ///   void for_each_incident(const gonio::direction& normal, Visit&& visit) const {
@@ -62,6 +80,11 @@ struct surface_frame {
 ///   }
 /// };
 /// static_assert(gonio::render::sphere_lighting<headlight>);
+///
+/// int main() {
+///   const gonio::image seen = gonio::render::render_sphere(gonio::model::lambertian{}, headlight{});
+///   std::printf("%g in the middle\n", gonio::pixel(seen, 128, 128).x());
+/// }
 /// ```
 template <class Lighting>
 concept sphere_lighting = requires(const Lighting& lighting, const direction& normal,

@@ -8,12 +8,58 @@
 
 namespace gonio {
 
-/// One right-hand side on its way to the optimum. Whoever wants convergence plots owns the loop:
-/// ```cpp
-/// for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step()) plot(normal.objective(run.result()));
-/// ```
+/// One right-hand side on its way to the optimum. Whoever wants convergence plots owns the loop.
+///
 /// What the compiler cannot check: a step does not raise the objective (a primal method) or does not lower it (a dual
 /// method) beyond rounding, and `converged` is cheap.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/solve/nnls.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3).cwiseAbs();
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(1, 0, 2));
+///   const gonio::normal_equations& normal = problem.normal();
+///   for (gonio::nnls::iteration run(normal, 0); !run.converged(); run.step())
+///     std::printf("%g\n", normal.objective(run.result())[0]);
+/// }
+/// ```
+/// With a model of your own, steepest descent:
+/// ```cpp
+/// #include <gonio/solve/iteration.hpp>
+///
+/// #include <cstdio>
+///
+/// class steepest_descent {
+///  public:
+///   explicit steepest_descent(const gonio::normal_equations& normal)
+///       : gram_(normal.gram()), x_(Eigen::VectorXd::Zero(gram_.rows())), downhill_(normal.rhs().col(0)) {}
+///
+///   void step() {
+///     const Eigen::VectorXd change = gram_ * downhill_;
+///     const double length = downhill_.squaredNorm() / downhill_.dot(change);
+///     x_ += length * downhill_;
+///     downhill_ -= length * change;
+///   }
+///   bool converged() const { return downhill_.norm() < 1e-9; }
+///   Eigen::VectorXd result() const { return x_; }
+///
+///  private:
+///   Eigen::MatrixXd gram_;
+///   Eigen::VectorXd x_, downhill_;
+/// };
+/// static_assert(gonio::solver_iteration<steepest_descent>);
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3);
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(1, 0, 2));
+///   steepest_descent run(problem.normal());
+///   std::printf("%d steps\n", gonio::run_to_convergence(run, 1000, "steepest descent"));
+/// }
+/// ```
 template <class Iteration>
 concept solver_iteration = requires(Iteration& run, const Iteration& seen) {
   run.step();

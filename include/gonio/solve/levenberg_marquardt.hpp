@@ -55,6 +55,24 @@ namespace detail {
 [[nodiscard]] Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const Eigen::MatrixXd& hessian,
                                            const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest);
 
+/// The step from x to the minimum of the damped parabola, (H + damping diag H) s = -g, within the bounds.
+[[nodiscard]] Eigen::VectorXd damped_parabola_step(const Eigen::VectorXd& x, const local_parabola& here, double damping,
+                                                   const unknown_bounds& bounds);
+
+/// By how much a parabola falls along a step.
+[[nodiscard]] double promised_gain(const local_parabola& here, const Eigen::VectorXd& step);
+
+/// What steps have told of how far the parabola can be trusted.
+struct step_control {
+  static constexpr double largest_damping = 1e12;
+
+  double damping = 1e-3;
+  double bend = 1.0;  ///< the curvature that is met, as a share of the parabola's
+
+  /// Adapts both to a step that changed the value by `change` where `promised` was expected to be gained.
+  void learn(const local_parabola& here, const Eigen::VectorXd& step, double change, double promised);
+};
+
 }  // namespace detail
 
 /// Descends from a start, which is first moved into the bounds. `function(unknowns)` returns a `local_parabola`; every
@@ -68,20 +86,8 @@ template <class Function>
                                                 const unknown_bounds& bounds,
                                                 const levenberg_marquardt_options& options = {}) {
   GONIO_ASSERT(start.size() == bounds.lowest.size() && start.size() == bounds.highest.size());
-  // Prepare the step of the damped parabola (H + damping diag H) s = -g within the bounds, and the gain that it
-  // promises.
   const auto within = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return x.cwiseMax(bounds.lowest).cwiseMin(bounds.highest);
-  };
-  const auto step_from = [&](const Eigen::VectorXd& x, const local_parabola& here, double damping) -> Eigen::VectorXd {
-    Eigen::MatrixXd damped = here.hessian;
-    const Eigen::VectorXd diagonal = here.hessian.diagonal();
-    const double least = std::max(1e-14 * diagonal.maxCoeff(), std::numeric_limits<double>::min());
-    damped.diagonal() += damping * diagonal.cwiseMax(least) + Eigen::VectorXd::Constant(x.size(), least);
-    return detail::bounded_step(here.gradient, damped, bounds.lowest - x, bounds.highest - x);
-  };
-  const auto gain_of = [](const local_parabola& here, const Eigen::VectorXd& step) {
-    return -(here.gradient.dot(step) + 0.5 * step.dot(here.hessian * step));
   };
 
   // Start within the bounds.
@@ -96,45 +102,34 @@ template <class Function>
   local_parabola here = function(found.unknowns);
   found.evaluations = 1;
   const double scale = std::max(std::abs(here.value), std::numeric_limits<double>::min());
-  double damping = 1e-3, bend = 1.0;
-  constexpr double largest_damping = 1e12, least_bend = 0.05;
+  detail::step_control control;
   for (std::size_t iteration = 0; iteration < options.iteration_limit && !found.converged; ++iteration) {
     // Step to the minimum of the damped parabola.
     local_parabola flatter = here;
-    flatter.hessian *= bend;
-    const Eigen::VectorXd step = step_from(found.unknowns, flatter, damping);
+    flatter.hessian *= control.bend;
+    const Eigen::VectorXd step = detail::damped_parabola_step(found.unknowns, flatter, control.damping, bounds);
     if (!step.allFinite()) break;  // a start at which the function is no number
-    const double promised = gain_of(flatter, step);
+    const double promised = detail::promised_gain(flatter, step);
     // Stop where steps are tiny or promise no gain.
     const bool tiny = (step.array().abs() <= options.smallest_step * found.unknowns.array().abs().max(1.0)).all();
     const double least_gain = std::max(options.smallest_gain * here.value, options.resolution);
-    if (tiny || promised <= least_gain || damping > largest_damping) {
+    if (tiny || promised <= least_gain || control.damping > detail::step_control::largest_damping) {
       found.converged = true;
       break;
     }
-    // Evaluate the candidate.
+    // Evaluate the candidate, and accept it if it is better.
     const Eigen::VectorXd candidate = within(found.unknowns + step);
     local_parabola there = function(candidate);
     ++found.evaluations;
-    // A comparison that a value which is no number fails.
-    const bool better = there.value < here.value;
-    const double change = there.value - here.value, kept = -change / promised;
-    // Adapt the damping to the share of the promised gain that was kept.
-    damping *= !better ? 8.0 : kept > 0.75 ? 0.1 : kept > 0.25 ? 1.0 : 3.0;
-    damping = std::max(damping, 1e-15);
-    if (!better) {
-      bend = 1.0;
-      continue;
-    }
-    // Guess the curvature from what the step has met: weighted squares that lie above a norm bend more than it does.
-    const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
-    bend = std::isfinite(met) ? std::clamp(met, least_bend, 1.0) : 1.0;
+    control.learn(here, step, there.value - here.value, promised);
+    if (!(there.value < here.value)) continue;
     found.unknowns = candidate;
     here = std::move(there);
   }
   // Report the value, and the gain that an undamped step still promises.
   found.value = here.value;
-  found.promised_gain = gain_of(here, step_from(found.unknowns, here, 0.0)) / scale;
+  const Eigen::VectorXd undamped = detail::damped_parabola_step(found.unknowns, here, 0.0, bounds);
+  found.promised_gain = detail::promised_gain(here, undamped) / scale;
   return found;
 }
 

@@ -39,6 +39,42 @@ struct linear_constraints {
 
 /// Makes the constraints of a problem with so many unknowns. A policy all of whose constraints include x >= 0 says so
 /// by `static constexpr bool non_negative = true;`.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/solve/quadratic_program.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3);
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(0.2, 0.3, 0.5));
+///   const gonio::solution found = gonio::quadratic_program<gonio::convex_weights>().solve(problem);
+///   std::printf("the weights sum to %g\n", found.weights.sum());
+/// }
+/// ```
+/// With a model of your own, weights from 0 to 1:
+/// ```cpp
+/// #include <gonio/solve/quadratic_program.hpp>
+///
+/// #include <cstdio>
+///
+/// struct shares {
+///   static constexpr bool non_negative = true;
+///   gonio::linear_constraints operator()(Eigen::Index unknowns) const {
+///     return {.D = Eigen::MatrixXd::Identity(unknowns, unknowns),
+///             .d = Eigen::VectorXd::Ones(unknowns),
+///             .non_negative = true};
+///   }
+/// };
+/// static_assert(gonio::constraint_policy<shares>);
+///
+/// int main() {
+///   const gonio::row_matrix rows = gonio::row_matrix::Random(20, 3);
+///   const gonio::least_squares_problem problem(rows, rows * Eigen::Vector3d(2, 0.3, -1));
+///   std::printf("%g\n", gonio::quadratic_program<shares>().solve(problem).weights(0, 0));
+/// }
+/// ```
 template <class Policy>
 concept constraint_policy = requires(const Policy& policy, Eigen::Index unknowns) {
   { policy(unknowns) } -> std::same_as<linear_constraints>;

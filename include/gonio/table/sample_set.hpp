@@ -7,6 +7,7 @@
 #include <concepts>
 #include <cstddef>
 #include <ranges>
+#include <type_traits>
 #include <vector>
 
 namespace gonio {
@@ -62,6 +63,47 @@ struct sample {
 
 /// Any range of measurements. A laboratory with a struct of its own hands it over in place:
 /// `estimator.fit(readings | std::views::transform(to_sample))`.
+///
+/// With a model of the library:
+/// ```cpp
+/// #include <gonio/io/samples.hpp>
+///
+/// #include <cstdio>
+///
+/// int main() {
+///   const gonio::sample_set samples = gonio::io::read_samples("measurements.csv");
+///   gonio::require_usable(samples);
+///   std::printf("%zu samples\n", samples.size());
+/// }
+/// ```
+/// With a model of your own, the readings of a goniometer in a plane:
+/// ```cpp
+/// #include <gonio/estimate/decomposition.hpp>
+/// #include <gonio/io/prior.hpp>
+/// #include <gonio/solve/tikhonov.hpp>
+///
+/// #include <cstdio>
+/// #include <ranges>
+/// #include <vector>
+///
+/// struct in_plane_reading {
+///   double theta_i, theta_o, value;
+/// };
+///
+/// int main() {
+///   const std::vector<in_plane_reading> readings{{0.1, 0.4, 0.2}, {0.7, 0.7, 1.4}};
+///   const auto to_sample = [](const in_plane_reading& r) {
+///     const gonio::direction_pair pair{gonio::spherical_direction(r.theta_i, 0.0),
+///                                      gonio::spherical_direction(r.theta_o, std::numbers::pi)};
+///     return gonio::sample{pair, gonio::rgb::Constant(r.value), 1.0};
+///   };
+///   const auto prior = gonio::io::read_prior("materials.prior");
+///   const auto samples = readings | std::views::transform(to_sample);
+///   static_assert(gonio::sample_range<decltype(samples)>);
+///   const auto paint = gonio::decomposition{prior, gonio::tikhonov{40.0}}.fit(samples);
+///   std::printf("%g sr^-1\n", paint({0, 0, 1}, {0, 0, 1}).x());
+/// }
+/// ```
 template <class Range>
 concept sample_range =
     std::ranges::forward_range<Range> && std::convertible_to<std::ranges::range_reference_t<Range>, sample>;
@@ -84,6 +126,17 @@ void require_usable(const Samples& samples) {
   std::size_t number = 0;
   for (const sample& s : samples) detail::require_usable_sample(s, ++number);
   if (number == 0) detail::refuse_no_samples();
+}
+
+/// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
+/// `weight` of type `channel_weights`.
+template <std::ranges::forward_range Measurements>
+[[nodiscard]] bool weigh_channels_apart(const Measurements& measurements) {
+  using value = std::ranges::range_value_t<Measurements>;
+  using measurement = std::conditional_t<sample_range<Measurements>, sample, value>;
+  for (const measurement& each : measurements)
+    if (!each.weight.is_uniform()) return true;
+  return false;
 }
 
 }  // namespace gonio

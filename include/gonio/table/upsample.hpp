@@ -37,6 +37,49 @@ struct cell_row {
   }
 };
 
+namespace detail {
+
+/// The fields at all cells of a grid, so that blending needs no case for the horizon.
+template <int Fields>
+[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, const cell_fields<Fields>& fields) {
+  const std::size_t size = from.grid().size();
+  cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(size));
+  for (std::size_t linear = 0; linear < size; ++linear)
+    std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
+  return dense;
+}
+
+/// Where the nodes of a grid along phi_d are on the axis of another, and their cosines.
+struct phi_d_nodes {
+  phi_d_nodes(const grid& source, const grid& target) {
+    for (int k = 0; k < target.extents().phi_d; ++k) {
+      along.push_back(periodic_interval(source.phi_d_coordinate(target.phi_d(k)), source.extents().phi_d));
+      cosine.push_back(std::cos(target.phi_d(k)));
+    }
+  }
+
+  std::vector<axis_interval> along;
+  std::vector<double> cosine;
+};
+
+/// Blends a grid's rows around (theta_h, theta_d) into one line over phi_d.
+template <int Fields>
+void blend_rows(const grid& source, const cell_fields<Fields>& dense, double theta_h, double theta_d,
+                cell_fields<Fields>& line) {
+  const grid_extents extents = source.extents();
+  const auto h = clamped_interval(source.theta_h_coordinate(theta_h), extents.theta_h);
+  const auto d = clamped_interval(source.theta_d_coordinate(theta_d), extents.theta_d);
+  std::fill_n(line.data(), line.size(), 0.0f);
+  for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t b = 0; b < 2; ++b) {
+      const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
+      const auto start = static_cast<Eigen::Index>(source.linear({h.node[a], d.node[b], 0}));
+      if (weight != 0.0f) line += weight * dense.middleCols(start, extents.phi_d);
+    }
+}
+
+}  // namespace detail
+
 /// Calls `use(row, values)` for every row of the target's cells, concurrently and in any order; `values` is a
 /// Fields x count array of the fields there, for the callee to write over. Reading and blending costs O(target cells x
 /// Fields).
@@ -45,50 +88,29 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
               thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
-  const grid_extents coarse = source.extents(), fine = target.extents();
   const auto index = [](int i) { return static_cast<std::size_t>(i); };
-
-  // Extend the fields to all cells of the source, so that blending needs no case for the horizon.
-  cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(source.size()));
-  for (std::size_t linear = 0; linear < source.size(); ++linear)
-    std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
-
-  // Find the interval of the source, and the cosine, of each phi_d of the target.
-  std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
-  std::vector<double> cos_phi_d(index(fine.phi_d));
-  for (int k = 0; k < fine.phi_d; ++k) {
-    along_phi[index(k)] = detail::periodic_interval(source.phi_d_coordinate(target.phi_d(k)), coarse.phi_d);
-    cos_phi_d[index(k)] = std::cos(target.phi_d(k));
-  }
+  const std::size_t theta_d_count = index(target.extents().theta_d), phi_d_count = index(target.extents().phi_d);
+  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields);
+  const detail::phi_d_nodes nodes(source, target);
 
   // Visit the target's rows in parallel.
-  const std::size_t rows = index(fine.theta_h) * index(fine.theta_d);
   for_each_block(
-      rows, index(fine.theta_d),
+      index(target.extents().theta_h) * theta_d_count, theta_d_count,
       [&](block range) {
-        cell_fields<Fields> line(Fields, coarse.phi_d), values(Fields, fine.phi_d);
-        std::vector<int> phi_d(index(fine.phi_d));
+        cell_fields<Fields> line(Fields, source.extents().phi_d), values(Fields, target.extents().phi_d);
+        std::vector<int> phi_d(phi_d_count);
         for (std::size_t r = range.begin; r < range.end; ++r) {
           const auto count = static_cast<Eigen::Index>(to.row_begin(r + 1) - to.row_begin(r));
           if (count == 0) continue;
-          const double theta_h = target.theta_h(static_cast<double>(r / index(fine.theta_d)));
-          const double theta_d = target.theta_d(static_cast<double>(r % index(fine.theta_d)));
-          // Blend the source's rows around (theta_h, theta_d) into one line over phi_d.
-          const auto h = detail::clamped_interval(source.theta_h_coordinate(theta_h), coarse.theta_h);
-          const auto d = detail::clamped_interval(source.theta_d_coordinate(theta_d), coarse.theta_d);
-          std::fill_n(line.data(), line.size(), 0.0f);
-          for (std::size_t a = 0; a < 2; ++a)
-            for (std::size_t b = 0; b < 2; ++b) {
-              const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
-              const auto start = static_cast<Eigen::Index>(source.linear({h.node[a], d.node[b], 0}));
-              if (weight != 0.0f) line += weight * dense.middleCols(start, coarse.phi_d);
-            }
-          // Interpolate along it at the row's cells.
-          const std::size_t first = to.row_begin(r), before = r * index(fine.phi_d);
+          const double theta_h = target.theta_h(static_cast<double>(r / theta_d_count));
+          const double theta_d = target.theta_d(static_cast<double>(r % theta_d_count));
+          detail::blend_rows<Fields>(source, dense, theta_h, theta_d, line);
+          // Interpolate along the line at the row's cells.
+          const std::size_t first = to.row_begin(r), before = r * phi_d_count;
           for (Eigen::Index i = 0; i < count; ++i) {
             const std::size_t k = to.linear(first + static_cast<std::size_t>(i)) - before;
             phi_d[static_cast<std::size_t>(i)] = static_cast<int>(k);
-            const detail::axis_interval& p = along_phi[k];
+            const detail::axis_interval& p = nodes.along[k];
             values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
                             static_cast<float>(p.weight[1]) * line.col(p.node[1]);
           }
@@ -101,7 +123,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
                              phi_d.data(),
                              std::cos(theta_h) * std::cos(theta_d),
                              std::sin(theta_h) * std::sin(theta_d),
-                             cos_phi_d.data()};
+                             nodes.cosine.data()};
           use(row, row_values);
         }
       },

@@ -62,8 +62,8 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
   return {value, 1.0 / std::sqrt(weights), false, false};
 }
 
-GONIO_INLINE void require_times(std::size_t pictures, std::span<const double> times, const std::string& what) {
-  if (pictures != times.size() || times.empty())
+GONIO_INLINE void require_times(std::size_t images, std::span<const double> times, const std::string& what) {
+  if (images != times.size() || times.empty())
     refuse(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
@@ -107,11 +107,11 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
   std::vector<detail::exposed> usable;
   bool is_dark = true;
   for (std::size_t j = 0; j < taken.frames.size(); ++j) {
-    const camera_frame& picture = taken.frames[j];
-    if (picture.rows() != pixels || pixels == 0)
+    const camera_frame& frame = taken.frames[j];
+    if (frame.rows() != pixels || pixels == 0)
       refuse("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +
-             " and " + std::to_string(picture.rows()));
-    const auto counts = picture.col(channel);
+             " and " + std::to_string(frame.rows()));
+    const auto counts = frame.col(channel);
     if (counts.maxCoeff() > 0) is_dark = false;
     if (counts.maxCoeff() == 0 || counts.maxCoeff() >= limit) continue;
     double exposure = 0.0, count = 0.0;

@@ -58,8 +58,7 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
       refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count});
   for (std::size_t p = 0; p < count; ++p) {
     sample_set all;
-    for (const std::vector<sample_set>& pictures : materials_)
-      all.insert(all.end(), pictures[p].begin(), pictures[p].end());
+    for (const std::vector<sample_set>& images : materials_) all.insert(all.end(), images[p].begin(), images[p].end());
     require_usable(all);
   }
 }
@@ -79,10 +78,10 @@ GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material
 
 GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
   require_material(material);
-  const std::vector<sample_set>& pictures = materials_[material];
+  const std::vector<sample_set>& images = materials_[material];
   sample_set all;
-  for (std::size_t p = 0; p < pictures.size(); ++p)
-    for (const sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
+  for (std::size_t p = 0; p < images.size(); ++p)
+    for (const sample& s : images[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
 
@@ -104,13 +103,13 @@ GONIO_INLINE void pose_iteration::solve(const reader& read) {
   for (int i = 0; i < options_.iterations && !converged_; ++i) step(read);
 }
 
-GONIO_INLINE void pose_iteration::add_image(const sample_set& picture, const pose_correction& turns, const reader& read,
+GONIO_INLINE void pose_iteration::add_image(const sample_set& samples, const pose_correction& turns, const reader& read,
                                             Eigen::Index begin, equations& out) const {
   for_each_index(
-      picture.size(), 64,
+      samples.size(), 64,
       [&](std::size_t i) {
         const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
-        const sample seen = turned(picture[i], turns);
+        const sample seen = turned(samples[i], turns);
         const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
         rgb right;
         auto column = out.columns.col(at);
@@ -121,16 +120,16 @@ GONIO_INLINE void pose_iteration::add_image(const sample_set& picture, const pos
       options_.threads);
 }
 
-GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample_set>& pictures,
+GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample_set>& images,
                                                         const std::vector<pose_correction>& turns,
                                                         const reader& read) const {
   Eigen::Index n = 0;
-  for (const sample_set& picture : pictures) n += std::ssize(picture);
+  for (const sample_set& samples : images) n += std::ssize(samples);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
-    add_image(pictures[p], turns[p], read, begin, found.system);
-    begin += std::ssize(pictures[p]);
+  for (std::size_t p = 0; p < images.size(); ++p) {
+    add_image(images[p], turns[p], read, begin, found.system);
+    begin += std::ssize(images[p]);
   }
   const equations& system = found.system;
   found.normal = product_with_transpose(system.columns);
@@ -145,8 +144,8 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample
 GONIO_INLINE pose_iteration::state pose_iteration::at(const std::vector<pose_correction>& turns,
                                                       const reader& read) const {
   state found;
-  for (const std::vector<sample_set>& pictures : materials_) {
-    found.fits.push_back(fit_of(pictures, turns, read));
+  for (const std::vector<sample_set>& images : materials_) {
+    found.fits.push_back(fit_of(images, turns, read));
     found.objective += found.fits.back().objective;
   }
   for (const pose_correction& t : turns)
@@ -170,12 +169,12 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
 
 /// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
-                                                        const reader& read) const {
-  const sample_set& samples = materials_[material][picture];
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t image_number,
+                                                        Eigen::Index unknown, const reader& read) const {
+  const sample_set& samples = materials_[material][image_number];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
-    pose_correction turns = turns_[picture];
+    pose_correction turns = turns_[image_number];
     (unknown < 3 ? turns.light[unknown] : turns.camera[unknown - 3]) += offset;
     equations there(components_, std::ssize(samples));
     add_image(samples, turns, read, 0, there);
@@ -190,12 +189,12 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, st
 /// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
 /// unknowns.
 GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
-  const std::vector<sample_set>& pictures = materials_[material];
+  const std::vector<sample_set>& images = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures));
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(images));
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
-    const auto count = std::ssize(pictures[p]);
+  for (std::size_t p = 0; p < images.size(); ++p) {
+    const auto count = std::ssize(images[p]);
     for (Eigen::Index u = 0; u < unknowns; ++u) {
       const Eigen::MatrixXd change = derivative(material, p, u, read);
       auto column = all.col(unknowns * static_cast<Eigen::Index>(p) + u);

@@ -42,13 +42,16 @@ namespace gonio::model::detail {
 
 GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::span<const fit_observation> observations,
                                     chosen_metric metric, const model_fit_options& options)
-    : kinds_(std::move(kinds)), observations_(observations), metric_(std::move(metric)), options_(options) {
+    : kinds_(std::move(kinds)),
+      observations_(observations),
+      metric_(std::move(metric)),
+      options_(options),
+      weighs_channels_apart_(weigh_channels_apart(observations)) {
   for (std::size_t l = 0; l < kinds_.size(); ++l)
     for (std::size_t p = 0; p < kinds_[l]->parameters().size(); ++p) owners_.push_back({l, p});
   std::vector<double> sizes;
   for (const fit_observation& seen : observations_) {
     total_weight_ += seen.weight.of_each().sum();
-    weighs_channels_apart_ = weighs_channels_apart_ || !seen.weight.is_uniform();
     for (Eigen::Index c = 0; c < 3; ++c) sizes.push_back(std::abs(mapped(seen, seen.value[c])));
   }
   median_size_ = upper_median(sizes);

@@ -22,7 +22,7 @@
 
 namespace gonio::render {
 
-GONIO_INLINE environment_map::environment_map(image latitude_longitude) : picture_(std::move(latitude_longitude)) {
+GONIO_INLINE environment_map::environment_map(gonio::image latitude_longitude) : image_(std::move(latitude_longitude)) {
   check_shape();
   check_values();
   row_solid_angles_.reserve(rows());
@@ -35,21 +35,21 @@ GONIO_INLINE environment_map::environment_map(image latitude_longitude) : pictur
 }
 
 GONIO_INLINE void environment_map::check_shape() const {
-  if (rows() == 0 || columns() != 2 * rows() || picture_.shape(2) != 3)
+  if (rows() == 0 || columns() != 2 * rows() || image_.shape(2) != 3)
     refuse("an environment map of shape (" + std::to_string(rows()) + ", " + std::to_string(columns()) + ", " +
-           std::to_string(picture_.shape(2)) +
+           std::to_string(image_.shape(2)) +
            "): a latitude-longitude image is twice as wide as high and has 3 channels");
 }
 
 GONIO_INLINE void environment_map::check_values() const {
-  const float* end = picture_.data() + picture_.size();
-  const float* bad = std::find_if(picture_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
+  const float* end = image_.data() + image_.size();
+  const float* bad = std::find_if(image_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
   if (bad != end) {
-    const auto at = static_cast<std::size_t>(bad - picture_.data()) / 3;
+    const auto at = static_cast<std::size_t>(bad - image_.data()) / 3;
     refuse("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
            ") of an environment map is " + std::to_string(*bad) + ": radiance must be finite and must not be negative");
   }
-  if (std::all_of(picture_.data(), end, [](float v) { return v == 0.0f; }))
+  if (std::all_of(image_.data(), end, [](float v) { return v == 0.0f; }))
     refuse("an environment map is black everywhere: there must be some light");
 }
 

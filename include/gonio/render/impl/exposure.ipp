@@ -24,9 +24,9 @@ GONIO_INLINE double brightness_of_sphere(const image& picture, double share) {
   return quantile(brightest, share);
 }
 
-GONIO_INLINE double exposure_of_spheres(std::span<const image> pictures) {
+GONIO_INLINE double exposure_of_spheres(std::span<const image> images) {
   double brightest = 0.0;
-  for (const image& picture : pictures) brightest = std::max(brightest, brightness_of_sphere(picture));
+  for (const image& picture : images) brightest = std::max(brightest, brightness_of_sphere(picture));
   return brightest > 0.0 ? 1.0 / brightest : 1.0;
 }
 

@@ -17,30 +17,30 @@ GONIO_INLINE void paste(image& canvas, const image& picture, std::size_t row, st
     std::copy_n(picture.data() + r * width, width, canvas.data() + 3 * ((row + r) * canvas.shape(1) + column));
 }
 
-GONIO_INLINE image side_by_side(std::span<const image> pictures, std::size_t margin, const rgb& background) {
+GONIO_INLINE image side_by_side(std::span<const image> images, std::size_t margin, const rgb& background) {
   std::size_t rows = 0, columns = margin;
-  for (const image& picture : pictures) {
+  for (const image& picture : images) {
     rows = std::max(rows, picture.shape(0));
     columns += picture.shape(1) + margin;
   }
   image canvas = uniform_image(rows + 2 * margin, columns, background);
   std::size_t column = margin;
-  for (const image& picture : pictures) {
+  for (const image& picture : images) {
     paste(canvas, picture, margin, column);
     column += picture.shape(1) + margin;
   }
   return canvas;
 }
 
-GONIO_INLINE image stacked(std::span<const image> pictures, std::size_t margin, const rgb& background) {
+GONIO_INLINE image stacked(std::span<const image> images, std::size_t margin, const rgb& background) {
   std::size_t rows = margin, columns = 0;
-  for (const image& picture : pictures) {
+  for (const image& picture : images) {
     rows += picture.shape(0) + margin;
     columns = std::max(columns, picture.shape(1));
   }
   image canvas = uniform_image(rows, columns + 2 * margin, background);
   std::size_t row = margin;
-  for (const image& picture : pictures) {
+  for (const image& picture : images) {
     paste(canvas, picture, row, margin);
     row += picture.shape(0) + margin;
   }

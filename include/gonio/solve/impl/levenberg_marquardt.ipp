@@ -60,4 +60,33 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
   return step;
 }
 
+GONIO_INLINE Eigen::VectorXd damped_parabola_step(const Eigen::VectorXd& x, const local_parabola& here, double damping,
+                                                  const unknown_bounds& bounds) {
+  Eigen::MatrixXd damped = here.hessian;
+  const Eigen::VectorXd diagonal = here.hessian.diagonal();
+  const double least = std::max(1e-14 * diagonal.maxCoeff(), std::numeric_limits<double>::min());
+  damped.diagonal() += damping * diagonal.cwiseMax(least) + Eigen::VectorXd::Constant(x.size(), least);
+  return bounded_step(here.gradient, damped, bounds.lowest - x, bounds.highest - x);
+}
+
+GONIO_INLINE double promised_gain(const local_parabola& here, const Eigen::VectorXd& step) {
+  return -(here.gradient.dot(step) + 0.5 * step.dot(here.hessian * step));
+}
+
+GONIO_INLINE void step_control::learn(const local_parabola& here, const Eigen::VectorXd& step, double change,
+                                      double promised) {
+  // A comparison that a value which is no number fails.
+  const bool better = change < 0.0;
+  const double kept = -change / promised;
+  // Adapt the damping to the share of the promised gain that was kept.
+  damping *= !better ? 8.0 : kept > 0.75 ? 0.1 : kept > 0.25 ? 1.0 : 3.0;
+  damping = std::max(damping, 1e-15);
+  bend = 1.0;
+  if (!better) return;
+  // Guess the curvature from what the step has met: weighted squares that lie above a norm bend more than it does.
+  constexpr double least_bend = 0.05;
+  const double met = 2.0 * (change - here.gradient.dot(step)) / step.dot(here.hessian * step);
+  if (std::isfinite(met)) bend = std::clamp(met, least_bend, 1.0);
+}
+
 }  // namespace gonio::detail

@@ -38,5 +38,5 @@ void write_mesh(const std::filesystem::path& path, const shape::triangle_mesh& m
 }  // namespace gonio::io
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/impl/mesh.ipp>
+#include <gonio/shape/io/impl/mesh.ipp>
 #endif

@@ -1,14 +1,14 @@
 #pragma once
-/// Bodies of io/mesh.hpp.
+/// Bodies of shape/io/mesh.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/file.hpp>
-#include <gonio/io/mesh.hpp>
-#include <gonio/io/obj.hpp>
-#include <gonio/io/ply.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/obj.hpp>
+#include <gonio/shape/io/ply.hpp>
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <algorithm>

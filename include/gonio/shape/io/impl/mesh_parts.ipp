@@ -1,8 +1,8 @@
 #pragma once
-/// Bodies of io/mesh_parts.hpp.
+/// Bodies of shape/io/mesh_parts.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/mesh_parts.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
 
 #include <algorithm>
 #include <cstddef>

@@ -1,12 +1,12 @@
 #pragma once
-/// Bodies of io/ply.hpp.
+/// Bodies of shape/io/ply.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/io/byte_stream.hpp>
-#include <gonio/io/mesh_parts.hpp>
-#include <gonio/io/ply.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
+#include <gonio/shape/io/ply.hpp>
 
 #include <algorithm>
 #include <array>

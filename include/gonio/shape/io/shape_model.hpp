@@ -34,5 +34,5 @@ void write_shape_model(const std::filesystem::path& path, const shape::shape_mod
 }  // namespace gonio::io
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/impl/shape_model.ipp>
+#include <gonio/shape/io/impl/shape_model.ipp>
 #endif

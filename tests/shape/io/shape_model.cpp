@@ -1,6 +1,6 @@
-#include "../shape/synthetic_shapes.hpp"
-#include "scratch.hpp"
-#include <gonio/io/shape_model.hpp>
+#include "../../io/scratch.hpp"
+#include "../synthetic_shapes.hpp"
+#include <gonio/shape/io/shape_model.hpp>
 
 #include <doctest/doctest.h>
 

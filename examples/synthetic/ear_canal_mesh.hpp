@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lab {
+namespace synthetic {
 
 /// (u, v) of a vertex for each column.
 using parameter_columns = Eigen::Matrix2Xd;
@@ -280,4 +280,4 @@ class ear_canal_template {
   parametric_mesh on_mean_;
 };
 
-}  // namespace lab
+}  // namespace synthetic

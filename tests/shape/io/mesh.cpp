@@ -1,5 +1,5 @@
-#include "scratch.hpp"
-#include <gonio/io/mesh.hpp>
+#include "../../io/scratch.hpp"
+#include <gonio/shape/io/mesh.hpp>
 
 #include <rapidcheck.h>
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
-#include <lab/ear_canal_scans.hpp>
 #include <rapidcheck.h>
+#include <synthetic/ear_canal_scans.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +18,15 @@
 namespace {
 
 /// Scans that are quick to make.
-lab::scan_options quick_ear_scan() {
-  lab::scan_options options;
+synthetic::scan_options quick_ear_scan() {
+  synthetic::scan_options options;
   options.vertices = 1500;
   options.complete_vertices = 0;
   return options;
 }
 
-const lab::ear_canal_template& ear_template() {
-  static const lab::ear_canal_template common;
+const synthetic::ear_canal_template& ear_template() {
+  static const synthetic::ear_canal_template common;
   return common;
 }
 
@@ -62,8 +62,8 @@ bool uses_all_vertices(const gonio::shape::triangle_mesh& mesh) {
 }
 
 /// The share of triangles whose normals agree with those of the surface.
-double share_outwards(const lab::ear_canal& individual, const gonio::shape::triangle_mesh& mesh,
-                      const lab::parameter_columns& places) {
+double share_outwards(const synthetic::ear_canal& individual, const gonio::shape::triangle_mesh& mesh,
+                      const synthetic::parameter_columns& places) {
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mesh);
   double outwards = 0.0;
   for (Eigen::Index t = 0; t < normals.cols(); ++t) {
@@ -102,7 +102,7 @@ bool equal_columns(const Columns& first, const Columns& second) {
   return first.cols() == second.cols() && first == second;
 }
 
-bool equal_scans(const lab::ear_scan& first, const lab::ear_scan& second) {
+bool equal_scans(const synthetic::ear_scan& first, const synthetic::ear_scan& second) {
   return equal_columns(first.mesh.vertices, second.mesh.vertices) &&
          equal_columns(first.mesh.triangles, second.mesh.triangles) && equal_columns(first.places, second.places) &&
          equal_columns(first.truth, second.truth) && first.covered == second.covered &&
@@ -111,7 +111,7 @@ bool equal_scans(const lab::ear_scan& first, const lab::ear_scan& second) {
 }
 
 /// Distances of a scan's vertices from where they are on the individual, along the normal.
-std::vector<double> offsets_of(const lab::ear_scan& scan) {
+std::vector<double> offsets_of(const synthetic::ear_scan& scan) {
   const Eigen::Affine3d back = scan.placement.inverse();
   std::vector<double> offsets;
   for (Eigen::Index i = 0; i < scan.places.cols(); ++i) {
@@ -143,24 +143,24 @@ TEST_CASE("the template of ear canals has 3096 vertices and near-equilateral tri
   CHECK_NOTHROW(gonio::shape::mesh_topology{mesh});
   CHECK(euler_number(mesh) == 1);  // a disc: open outside, closed at the tip
   CHECK(uses_all_vertices(mesh));
-  CHECK(share_outwards(lab::ear_canal_family::mean(), mesh, ear_template().places()) == 1.0);
+  CHECK(share_outwards(synthetic::ear_canal_family::mean(), mesh, ear_template().places()) == 1.0);
   const std::vector<double> angles = smallest_angles(mesh);
   MESSAGE("smallest angles of the template in degrees: least " << angles.front() << ", 20th percentile "
                                                                << angles[angles.size() / 5]);
   CHECK(angles[angles.size() / 5] > 40.0);
   CHECK(angles.front() > 20.0);
   for (const std::size_t vertices : {50U, 51U, 52U, 313U, 1000U})
-    CHECK(static_cast<std::size_t>(lab::ear_canal_template(vertices).mesh().vertices.cols()) == vertices);
+    CHECK(static_cast<std::size_t>(synthetic::ear_canal_template(vertices).mesh().vertices.cols()) == vertices);
 }
 
 TEST_CASE("ear canals differ by one or two millimetres once they are aligned") {
-  const lab::ear_canal_template coarse(300);
+  const synthetic::ear_canal_template coarse(300);
   constexpr int count = 100;
   std::vector<gonio::shape::point_columns> shapes;
   gonio::shape::point_columns mean = gonio::shape::point_columns::Zero(3, 300);
   int odd = 0;
   for (int seed = 0; seed < count; ++seed) {
-    const lab::ear_canal individual = lab::ear_canal_family().draw(static_cast<std::uint64_t>(seed));
+    const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(static_cast<std::uint64_t>(seed));
     odd += individual.oddity() ? 1 : 0;
     gonio::shape::point_columns points = coarse.corresponded(individual);
     points.colwise() -= points.rowwise().mean().eval();
@@ -185,9 +185,9 @@ TEST_CASE("ear canals differ by one or two millimetres once they are aligned") {
 }
 
 TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itself") {
-  const lab::ear_canal_template coarse(500);
+  const synthetic::ear_canal_template coarse(500);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {
-    const lab::ear_canal individual = lab::ear_canal_family(1.0, 0.5).draw(seed);
+    const synthetic::ear_canal individual = synthetic::ear_canal_family(1.0, 0.5).draw(seed);
     gonio::shape::triangle_mesh mesh = coarse.mesh();
     mesh.vertices = coarse.corresponded(individual);
     CHECK(individual.regularity() > 0.15);
@@ -209,21 +209,22 @@ TEST_CASE("an ear canal is regular, inwards, upright and does not intersect itse
 }
 
 TEST_CASE("ear canals are functions of a seed and of their latent numbers") {
-  const lab::ear_canal first = lab::ear_canal_family().draw(5), again = lab::ear_canal_family().draw(5),
-                       other = lab::ear_canal_family().draw(6);
+  const synthetic::ear_canal first = synthetic::ear_canal_family().draw(5),
+                             again = synthetic::ear_canal_family().draw(5),
+                             other = synthetic::ear_canal_family().draw(6);
   CHECK(first.latents() == again.latents());
   CHECK(first.at(0.3, 1.0) == again.at(0.3, 1.0));
   CHECK(first.latents() != other.latents());
-  CHECK(lab::ear_canal(first.latents(), first.oddity()).at(0.7, 2.0) == first.at(0.7, 2.0));
-  CHECK(lab::ear_canal_family(0.0, 0.0).draw(3).at(0.2, 4.0) == lab::ear_canal_family::mean().at(0.2, 4.0));
+  CHECK(synthetic::ear_canal(first.latents(), first.oddity()).at(0.7, 2.0) == first.at(0.7, 2.0));
+  CHECK(synthetic::ear_canal_family(0.0, 0.0).draw(3).at(0.2, 4.0) == synthetic::ear_canal_family::mean().at(0.2, 4.0));
   CHECK((first.at(0.4, 0.0) - first.at(0.4, 2.0 * std::numbers::pi)).norm() < 1e-12);
   CHECK(first.at(1.0, 0.0) == first.at(1.0, 2.0));
   // Each latent number does something, and none too much.
-  const lab::ear_canal plain = lab::ear_canal_family::mean();
-  for (std::size_t i = 0; i < lab::ear_canal::latent_count; ++i) {
-    std::vector<double> latents(lab::ear_canal::latent_count, 0.0);
+  const synthetic::ear_canal plain = synthetic::ear_canal_family::mean();
+  for (std::size_t i = 0; i < synthetic::ear_canal::latent_count; ++i) {
+    std::vector<double> latents(synthetic::ear_canal::latent_count, 0.0);
     latents[i] = 1.0;
-    const lab::ear_canal changed(latents);
+    const synthetic::ear_canal changed(latents);
     double most = 0.0;
     for (int ring = 0; ring < 10; ++ring)
       for (int sector = 0; sector < 7; ++sector)
@@ -231,18 +232,18 @@ TEST_CASE("ear canals are functions of a seed and of their latent numbers") {
     CHECK(most > 0.02);
     CHECK(most < 3.0);
   }
-  const lab::abnormality bump{0.5, 1.0, 1.5, 2.0};
-  const lab::ear_canal odd(plain.latents(), bump);
+  const synthetic::abnormality bump{0.5, 1.0, 1.5, 2.0};
+  const synthetic::ear_canal odd(plain.latents(), bump);
   CHECK((odd.at(0.5, 1.0) - plain.at(0.5, 1.0)).norm() == doctest::Approx(1.5).epsilon(1e-6));
   CHECK((odd.at(0.1, 1.0) - plain.at(0.1, 1.0)).norm() < 1e-3);
 }
 
 TEST_CASE("scans of ear canals are surfaces, with and without holes") {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
-    const lab::ear_canal individual = lab::ear_canal_family().draw(seed);
-    lab::scan_options options = quick_ear_scan();
+    const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(seed);
+    synthetic::scan_options options = quick_ear_scan();
     options.noise = 0.0;
-    const lab::ear_scan whole = lab::scan_of(individual, ear_template(), seed, options);
+    const synthetic::ear_scan whole = synthetic::scan_of(individual, ear_template(), seed, options);
     CHECK(whole.mesh.vertices.cols() == 1500);
     CHECK_NOTHROW(gonio::shape::mesh_topology{whole.mesh});
     CHECK(euler_number(whole.mesh) == 1);
@@ -251,11 +252,11 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
     CHECK(share_outwards(individual, unplaced, whole.places) > 0.999);
 
     for (const bool large : {false, true}) {
-      options.hole = large ? lab::hole_options::large() : lab::hole_options::small();
+      options.hole = large ? synthetic::hole_options::large() : synthetic::hole_options::small();
       options.hole->edge_noise = 0.5;
       options.hole->ragged = 0.45;
       options.hole->flaps = large ? 0.3 : 0.0;
-      const lab::ear_scan holed = lab::scan_of(individual, ear_template(), seed, options);
+      const synthetic::ear_scan holed = synthetic::scan_of(individual, ear_template(), seed, options);
       CHECK_NOTHROW(gonio::shape::mesh_topology{holed.mesh});
       CHECK(euler_number(holed.mesh) == 0);  // a disc with a hole
       CHECK(uses_all_vertices(holed.mesh));
@@ -266,12 +267,12 @@ TEST_CASE("scans of ear canals are surfaces, with and without holes") {
 }
 
 TEST_CASE("scans are triangulated by chance") {
-  const lab::ear_canal individual = lab::ear_canal_family().draw(1);
-  lab::scan_options options;
+  const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(1);
+  synthetic::scan_options options;
   options.complete_vertices = 0;
-  const lab::ear_scan first = lab::scan_of(individual, ear_template(), 1, options),
-                      second = lab::scan_of(individual, ear_template(), 2, options);
-  for (const lab::ear_scan* scan : {&first, &second}) {
+  const synthetic::ear_scan first = synthetic::scan_of(individual, ear_template(), 1, options),
+                            second = synthetic::scan_of(individual, ear_template(), 2, options);
+  for (const synthetic::ear_scan* scan : {&first, &second}) {
     CHECK(scan->mesh.vertices.cols() >= 8000);
     CHECK(scan->mesh.vertices.cols() <= 15000);
   }
@@ -281,11 +282,12 @@ TEST_CASE("scans are triangulated by chance") {
 }
 
 TEST_CASE("the truth of a scan lies on the complete surface") {
-  lab::scan_options options = quick_ear_scan();
+  synthetic::scan_options options = quick_ear_scan();
   options.complete_vertices = 6000;
-  for (const auto defect : {lab::scan_defect::none, lab::scan_defect::mirrored}) {
+  for (const auto defect : {synthetic::scan_defect::none, synthetic::scan_defect::mirrored}) {
     options.defect = defect;
-    const lab::ear_scan scan = lab::scan_of(lab::ear_canal_family().draw(2), ear_template(), 7, options);
+    const synthetic::ear_scan scan =
+        synthetic::scan_of(synthetic::ear_canal_family().draw(2), ear_template(), 7, options);
     const gonio::shape::surface_index complete(scan.complete), scanned(scan.mesh);
     double farthest = 0.0, to_scan = 0.0;
     for (Eigen::Index i = 0; i < scan.truth.cols(); i += 7) {
@@ -301,20 +303,20 @@ TEST_CASE("the truth of a scan lies on the complete surface") {
 }
 
 TEST_CASE("a scan's noise and pose are those asked for") {
-  const lab::ear_canal individual = lab::ear_canal_family().draw(3);
-  lab::scan_options options = quick_ear_scan();
-  CHECK(root_mean_square(offsets_of(lab::scan_of(individual, ear_template(), 1, options))) ==
+  const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(3);
+  synthetic::scan_options options = quick_ear_scan();
+  CHECK(root_mean_square(offsets_of(synthetic::scan_of(individual, ear_template(), 1, options))) ==
         doctest::Approx(0.03).epsilon(0.1));
   options.noise = 0.2;
-  CHECK(root_mean_square(offsets_of(lab::scan_of(individual, ear_template(), 1, options))) ==
+  CHECK(root_mean_square(offsets_of(synthetic::scan_of(individual, ear_template(), 1, options))) ==
         doctest::Approx(0.2).epsilon(0.1));
-  options.defect = lab::scan_defect::heavy_noise;
-  CHECK(root_mean_square(offsets_of(lab::scan_of(individual, ear_template(), 1, options))) ==
+  options.defect = synthetic::scan_defect::heavy_noise;
+  CHECK(root_mean_square(offsets_of(synthetic::scan_of(individual, ear_template(), 1, options))) ==
         doctest::Approx(0.6).epsilon(0.1));
 
   options = quick_ear_scan();
   options.turn = options.tilt = options.shift = options.noise = options.cut = 0.0;
-  const lab::ear_scan still = lab::scan_of(individual, ear_template(), 1, options);
+  const synthetic::ear_scan still = synthetic::scan_of(individual, ear_template(), 1, options);
   CHECK(still.placement.matrix() == Eigen::Matrix4d::Identity());
   CHECK(still.truth == ear_template().corresponded(individual));
   CHECK(root_mean_square(offsets_of(still)) < 1e-12);
@@ -324,7 +326,7 @@ TEST_CASE("a scan's noise and pose are those asked for") {
   double farthest = 0.0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     options.vertices = 60;
-    const Eigen::Matrix3d turn = lab::scan_of(individual, ear_template(), seed, options).placement.linear();
+    const Eigen::Matrix3d turn = synthetic::scan_of(individual, ear_template(), seed, options).placement.linear();
     CHECK((turn.transpose() * turn - Eigen::Matrix3d::Identity()).norm() < 1e-12);
     CHECK(turn(1, 1) > std::cos(13.0 * std::numbers::pi / 180.0));  // up stays up
     farthest = std::max(farthest, std::abs(std::atan2(turn(0, 2), turn(0, 0))) * 180.0 / std::numbers::pi);
@@ -334,15 +336,15 @@ TEST_CASE("a scan's noise and pose are those asked for") {
 }
 
 TEST_CASE("holes are where they were asked for, with disturbed edges") {
-  const lab::ear_canal individual = lab::ear_canal_family().draw(4);
-  lab::scan_options options = quick_ear_scan();
+  const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(4);
+  synthetic::scan_options options = quick_ear_scan();
   options.vertices = 4000;
   options.noise = 0.0;
-  const lab::ear_scan whole = lab::scan_of(individual, ear_template(), 9, options);
-  options.hole = lab::hole_options::large();
+  const synthetic::ear_scan whole = synthetic::scan_of(individual, ear_template(), 9, options);
+  options.hole = synthetic::hole_options::large();
   options.hole->v = 1.0;
-  const lab::ear_scan holed = lab::scan_of(individual, ear_template(), 9, options);
-  const auto lost = [](const lab::ear_scan& scan) { return std::ranges::count(scan.covered, false); };
+  const synthetic::ear_scan holed = synthetic::scan_of(individual, ear_template(), 9, options);
+  const auto lost = [](const synthetic::ear_scan& scan) { return std::ranges::count(scan.covered, false); };
   CHECK(lost(holed) > lost(whole) + 150);
   CHECK(lost(holed) < lost(whole) + 600);
   const gonio::shape::surface_index scanned(holed.mesh);
@@ -359,7 +361,7 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
     CHECK(std::hypot((place.x() - 0.5) / 0.05, std::remainder(place.y() - 1.0, 2.0 * std::numbers::pi) / 0.8) > 1.0);
 
   options.hole->edge_noise = 0.5;
-  const lab::ear_scan rough = lab::scan_of(individual, ear_template(), 9, options);
+  const synthetic::ear_scan rough = synthetic::scan_of(individual, ear_template(), 9, options);
   CHECK(rough.mesh.triangles == holed.mesh.triangles);
   std::vector<double> offsets = offsets_of(rough);
   std::erase_if(offsets, [](double offset) { return std::abs(offset) < 1e-9; });
@@ -368,18 +370,18 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   CHECK(root_mean_square(offsets) == doctest::Approx(0.5).epsilon(0.15));
 
   options.hole->flaps = 0.5;
-  const lab::ear_scan flapped = lab::scan_of(individual, ear_template(), 9, options);
+  const synthetic::ear_scan flapped = synthetic::scan_of(individual, ear_template(), 9, options);
   CHECK(flapped.mesh.triangles.cols() > holed.mesh.triangles.cols() + 10);
   CHECK_NOTHROW(gonio::shape::mesh_topology{flapped.mesh});
 }
 
 TEST_CASE("parts that touch in a point or are cut off are removed from a scan") {
   // Two triangles that share vertex 2 only, and a larger strip apart from them.
-  lab::sampled_surface sampled;
+  synthetic::sampled_surface sampled;
   sampled.mesh.vertices = gonio::shape::point_columns::Random(3, 10);
   sampled.mesh.triangles.resize(3, 5);
   sampled.mesh.triangles << 0, 2, 5, 7, 8, 1, 3, 6, 6, 6, 2, 4, 7, 8, 9;
-  sampled.places = lab::parameter_columns::Random(2, 10);
+  sampled.places = synthetic::parameter_columns::Random(2, 10);
   sampled.normals = sampled.mesh.vertices;
   const gonio::shape::point_columns before = sampled.mesh.vertices;
   const std::vector<Eigen::Index> left = sampled.keep_where([](Eigen::Index) { return true; });
@@ -391,20 +393,20 @@ TEST_CASE("parts that touch in a point or are cut off are removed from a scan") 
 }
 
 TEST_CASE("defective scans have their defect") {
-  const lab::ear_canal individual = lab::ear_canal_family().draw(11);
-  lab::scan_options options = quick_ear_scan();
+  const synthetic::ear_canal individual = synthetic::ear_canal_family().draw(11);
+  synthetic::scan_options options = quick_ear_scan();
   options.noise = 0.0;
-  const lab::ear_scan good = lab::scan_of(individual, ear_template(), 4, options);
-  const auto with = [&](lab::scan_defect defect) {
+  const synthetic::ear_scan good = synthetic::scan_of(individual, ear_template(), 4, options);
+  const auto with = [&](synthetic::scan_defect defect) {
     options.defect = defect;
-    lab::ear_scan scan = lab::scan_of(individual, ear_template(), 4, options);
+    synthetic::ear_scan scan = synthetic::scan_of(individual, ear_template(), 4, options);
     CHECK(scan.defect == defect);
     CHECK_NOTHROW(gonio::shape::mesh_topology{scan.mesh});
     return scan;
   };
 
   // No rotation brings a mirrored ear near the other, a reflection does; triangles still face outwards.
-  const lab::ear_scan mirrored = with(lab::scan_defect::mirrored);
+  const synthetic::ear_scan mirrored = with(synthetic::scan_defect::mirrored);
   CHECK(mirrored.placement.linear().determinant() == doctest::Approx(-1.0));
   const gonio::shape::point_columns normals = gonio::shape::area_normals(mirrored.mesh);
   double outwards = 0.0;
@@ -419,18 +421,18 @@ TEST_CASE("defective scans have their defect") {
          ((turn * (good.truth.colwise() - good.placement.translation())).colwise() + mirrored.placement.translation()))
             .norm() < 1e-9);
 
-  const lab::ear_scan half = with(lab::scan_defect::half);
+  const synthetic::ear_scan half = with(synthetic::scan_defect::half);
   CHECK(half.mesh.vertices.cols() < 1200);
   CHECK(half.mesh.vertices.cols() > 300);
   CHECK((half.places.row(0).maxCoeff() < 0.5 || half.places.row(0).minCoeff() >= 0.5));
 
-  const lab::ear_scan turned = with(lab::scan_defect::upside_down);
+  const synthetic::ear_scan turned = with(synthetic::scan_defect::upside_down);
   CHECK(turned.placement.linear()(1, 1) < -0.9);
   CHECK(turned.placement.linear()(0, 0) > 0.9);
   CHECK(turned.placement.linear().determinant() == doctest::Approx(1.0));
 
   options.complete_vertices = 500;
-  const lab::ear_scan other = with(lab::scan_defect::other_object);
+  const synthetic::ear_scan other = with(synthetic::scan_defect::other_object);
   CHECK(other.truth.cols() == 0);
   CHECK(other.covered.empty());
   CHECK(euler_number(other.mesh) == 1);
@@ -443,65 +445,67 @@ TEST_CASE("defective scans have their defect") {
 }
 
 TEST_CASE("populations are functions of a seed, whatever their size") {
-  lab::scan_options options = quick_ear_scan();
+  synthetic::scan_options options = quick_ear_scan();
   options.vertices = 200;
-  options.hole = lab::hole_options::small();
-  const lab::ear_canal_template coarse(200);
-  const auto all = lab::population(lab::ear_canal_family(), coarse, 60, 3, 0.4, options);
-  const auto few = lab::population(lab::ear_canal_family(), coarse, 5, 3, 0.4, options);
+  options.hole = synthetic::hole_options::small();
+  const synthetic::ear_canal_template coarse(200);
+  const auto all = synthetic::population(synthetic::ear_canal_family(), coarse, 60, 3, 0.4, options);
+  const auto few = synthetic::population(synthetic::ear_canal_family(), coarse, 5, 3, 0.4, options);
   REQUIRE(all.size() == 60);
   for (std::size_t i = 0; i < few.size(); ++i) CHECK(equal_scans(all[i], few[i]));
-  CHECK_FALSE(equal_scans(all[0], lab::population(lab::ear_canal_family(), coarse, 1, 4, 0.4, options)[0]));
-  std::map<lab::scan_defect, int> kinds;
-  for (const lab::ear_scan& scan : all) {
+  CHECK_FALSE(equal_scans(all[0], synthetic::population(synthetic::ear_canal_family(), coarse, 1, 4, 0.4, options)[0]));
+  std::map<synthetic::scan_defect, int> kinds;
+  for (const synthetic::ear_scan& scan : all) {
     ++kinds[scan.defect];
     CHECK_NOTHROW(gonio::shape::mesh_topology{scan.mesh});
   }
   CHECK(kinds.size() == 6);
-  CHECK(kinds[lab::scan_defect::none] > 26);
-  CHECK(kinds[lab::scan_defect::none] < 46);
-  for (const lab::ear_scan& scan : lab::population(lab::ear_canal_family(), coarse, 5, 3, 0.0, options))
-    CHECK(scan.defect == lab::scan_defect::none);
+  CHECK(kinds[synthetic::scan_defect::none] > 26);
+  CHECK(kinds[synthetic::scan_defect::none] < 46);
+  for (const synthetic::ear_scan& scan :
+       synthetic::population(synthetic::ear_canal_family(), coarse, 5, 3, 0.0, options))
+    CHECK(scan.defect == synthetic::scan_defect::none);
 }
 
 TEST_CASE("scans of any size and hole are surfaces") {
   rc::check("a scan is a surface that uses all its vertices", [] {
-    lab::scan_options options = quick_ear_scan();
+    synthetic::scan_options options = quick_ear_scan();
     options.vertices = static_cast<std::size_t>(*rc::gen::inRange(50, 800));
     options.noise = 0.0;
-    lab::hole_options hole;
+    synthetic::hole_options hole;
     hole.length = *rc::gen::inRange(1, 12);
     hole.share = 0.1 * *rc::gen::inRange(1, 12);
     hole.ragged = 0.4;
     hole.flaps = 0.1 * *rc::gen::inRange(0, 10);
     options.hole = hole;
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
-    static const lab::ear_canal_template coarse(50);
-    const lab::ear_scan scan = lab::scan_of(lab::ear_canal_family().draw(seed), coarse, seed, options);
+    static const synthetic::ear_canal_template coarse(50);
+    const synthetic::ear_scan scan =
+        synthetic::scan_of(synthetic::ear_canal_family().draw(seed), coarse, seed, options);
     RC_ASSERT(uses_all_vertices(scan.mesh));
     (void)gonio::shape::mesh_topology{scan.mesh};
   });
 }
 
 TEST_CASE("what cannot be an ear canal or a scan of one is refused") {
-  CHECK_THROWS_WITH_AS((void)lab::ear_canal({1.0, 2.0}), "an ear canal was given 2 latent numbers, not 56",
+  CHECK_THROWS_WITH_AS((void)synthetic::ear_canal({1.0, 2.0}), "an ear canal was given 2 latent numbers, not 56",
                        gonio::error);
-  CHECK_THROWS_AS((void)lab::ear_canal(std::vector<double>(56, std::numeric_limits<double>::quiet_NaN())),
+  CHECK_THROWS_AS((void)synthetic::ear_canal(std::vector<double>(56, std::numeric_limits<double>::quiet_NaN())),
                   gonio::error);
-  CHECK_THROWS_AS((void)lab::ear_canal_family(1.5), gonio::error);
-  CHECK_THROWS_AS((void)lab::ear_canal_family(1.0, -0.1), gonio::error);
-  CHECK_THROWS_AS((void)lab::ear_canal_template(49), gonio::error);
-  const lab::ear_canal mean = lab::ear_canal_family::mean();
-  lab::scan_options options = quick_ear_scan();
+  CHECK_THROWS_AS((void)synthetic::ear_canal_family(1.5), gonio::error);
+  CHECK_THROWS_AS((void)synthetic::ear_canal_family(1.0, -0.1), gonio::error);
+  CHECK_THROWS_AS((void)synthetic::ear_canal_template(49), gonio::error);
+  const synthetic::ear_canal mean = synthetic::ear_canal_family::mean();
+  synthetic::scan_options options = quick_ear_scan();
   options.noise = -1.0;
-  CHECK_THROWS_WITH_AS((void)lab::scan_of(mean, ear_template(), 1, options),
+  CHECK_THROWS_WITH_AS((void)synthetic::scan_of(mean, ear_template(), 1, options),
                        "a scan's noise must be finite and not negative, not -1.000000", gonio::error);
   options = quick_ear_scan();
-  options.hole = lab::hole_options{};
+  options.hole = synthetic::hole_options{};
   options.hole->length = 0.0;
-  CHECK_THROWS_AS((void)lab::scan_of(mean, ear_template(), 1, options), gonio::error);
-  options.hole = lab::hole_options{};
+  CHECK_THROWS_AS((void)synthetic::scan_of(mean, ear_template(), 1, options), gonio::error);
+  options.hole = synthetic::hole_options{};
   options.hole->ragged = 0.5;
-  CHECK_THROWS_AS((void)lab::scan_of(mean, ear_template(), 1, options), gonio::error);
-  CHECK_THROWS_AS((void)lab::population(lab::ear_canal_family(), ear_template(), 1, 1, 1.5), gonio::error);
+  CHECK_THROWS_AS((void)synthetic::scan_of(mean, ear_template(), 1, options), gonio::error);
+  CHECK_THROWS_AS((void)synthetic::population(synthetic::ear_canal_family(), ear_template(), 1, 1, 1.5), gonio::error);
 }

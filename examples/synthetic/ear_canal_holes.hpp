@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lab {
+namespace synthetic {
 
 /// A hole like an ellipse in (u, v). Millimetres.
 struct hole_options {
@@ -254,4 +254,4 @@ class ear_hole {
   std::array<wave, 7> waves_{};
 };
 
-}  // namespace lab
+}  // namespace synthetic

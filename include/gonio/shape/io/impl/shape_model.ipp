@@ -1,9 +1,9 @@
 #pragma once
-/// Bodies of io/shape_model.hpp.
+/// Bodies of shape/io/shape_model.hpp.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/io/checked_file.hpp>
-#include <gonio/io/shape_model.hpp>
+#include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/shape_model.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 /// The reader of Wavefront OBJ files. Wavefront Technologies, "Advanced Visualizer Manual", appendix B1.
 
-#include <gonio/io/mesh_parts.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
 
 #include <string>
 #include <string_view>
@@ -15,5 +15,5 @@ namespace gonio::io::detail {
 }  // namespace gonio::io::detail
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/impl/obj.ipp>
+#include <gonio/shape/io/impl/obj.ipp>
 #endif

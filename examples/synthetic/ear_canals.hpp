@@ -23,7 +23,7 @@
 #include <utility>
 #include <vector>
 
-namespace lab {
+namespace synthetic {
 
 /// Random numbers that are the same on every standard library.
 class number_source {
@@ -375,4 +375,4 @@ class ear_canal_family {
   double variation_, abnormal_share_;
 };
 
-}  // namespace lab
+}  // namespace synthetic

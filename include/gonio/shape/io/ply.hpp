@@ -1,8 +1,8 @@
 #pragma once
 /// The reader of PLY files, ascii and binary of either byte order. Turk, "The PLY Polygon File Format", 1994.
 
-#include <gonio/io/mesh_parts.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
 
 #include <string_view>
 
@@ -14,5 +14,5 @@ namespace gonio::io::detail {
 }  // namespace gonio::io::detail
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/impl/ply.ipp>
+#include <gonio/shape/io/impl/ply.ipp>
 #endif

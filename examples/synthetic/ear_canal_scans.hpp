@@ -1,6 +1,6 @@
 #pragma once
-/// Scans of the ear canals of `lab::ear_canal_family`: triangulated by chance, somewhere in space, noisy, with holes
-/// and of the kinds that a bootstrap must reject, and what is true about each of them.
+/// Scans of the ear canals of `synthetic::ear_canal_family`: triangulated by chance, somewhere in space, noisy, with
+/// holes and of the kinds that a bootstrap must reject, and what is true about each of them.
 
 #include "ear_canal_holes.hpp"
 #include "ear_canal_mesh.hpp"
@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-namespace lab {
+namespace synthetic {
 
 /// What is wrong with a scan.
 enum class scan_defect {
@@ -251,4 +251,4 @@ class scanner {
   return scans;
 }
 
-}  // namespace lab
+}  // namespace synthetic

@@ -39,5 +39,5 @@ inline constexpr int mesh_vertex_limit = std::numeric_limits<int>::max();
 }  // namespace gonio::io::detail
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/io/impl/mesh_parts.ipp>
+#include <gonio/shape/io/impl/mesh_parts.ipp>
 #endif

@@ -1,10 +1,10 @@
 #pragma once
-/// Bodies of io/obj.hpp.
+/// Bodies of shape/io/obj.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/io/mesh_parts.hpp>
-#include <gonio/io/obj.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/shape/io/mesh_parts.hpp>
+#include <gonio/shape/io/obj.hpp>
 
 #include <algorithm>
 #include <array>
