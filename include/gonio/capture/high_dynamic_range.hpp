@@ -5,6 +5,8 @@
 #include <gonio/capture/camera_response.hpp>
 #include <gonio/capture/device.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -56,7 +58,7 @@ struct exposed {
 [[nodiscard]] measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                               const sensor_noise& noise, double saturation, double pixels);
 
-void require_times(std::size_t pictures, std::span<const double> times, const std::string& what);
+void require_times(Eigen::Index pictures, std::span<const double> times, const std::string& what);
 
 /// Even the longest exposure shows nothing.
 [[nodiscard]] inline measured_radiance dark_radiance(const camera_response& response, std::span<const double> times) {

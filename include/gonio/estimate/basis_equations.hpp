@@ -6,6 +6,8 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/solver.hpp>
 
+#include <Eigen/Core>
+
 #include <memory>
 #include <utility>
 #include <vector>
@@ -25,28 +27,26 @@ class basis_equations {
         threads_(threads) {}
 
   /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
-  [[nodiscard]] std::size_t systems() const noexcept {
-    return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : static_cast<std::size_t>(channels());
+  [[nodiscard]] Eigen::Index systems() const noexcept {
+    return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : channels();
   }
 
   /// A system over all functions of the basis: of a channel, or of all if there is but one.
-  [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const {
+  [[nodiscard]] least_squares_problem problem(Eigen::Index system = 0) const {
     const auto functions = channel_of(basis_, system);
     const std::shared_ptr<const located_samples> measured = measured_;
-    const row_source rows{
-        static_cast<Eigen::Index>(measured->locations.size()), static_cast<Eigen::Index>(functions.size()),
-        [functions, measured](block range, row_block out) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            read_row_at(functions, measured->locations[i], out.row(static_cast<Eigen::Index>(i - range.begin)));
-        }};
-    const auto first = static_cast<Eigen::Index>(system);
-    return {rows, mapped(functions, first), measured->weights_of(first), threads_};
+    const Eigen::Index unknowns = functions.size();
+    const row_source rows{std::ssize(measured->locations), unknowns, [functions, measured](block range, row_block out) {
+                            for (Eigen::Index i = range.begin; i < range.end; ++i)
+                              read_row_at(functions, measured->locations[i], out.row(i - range.begin));
+                          }};
+    return {rows, mapped(functions, system), measured->weights_of(system), threads_};
   }
 
   /// All systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
     std::vector<least_squares_problem> all;
-    for (std::size_t system = 0; system < systems(); ++system) all.push_back(problem(system));
+    for (Eigen::Index system = 0; system < systems(); ++system) all.push_back(problem(system));
     return all;
   }
 
@@ -55,13 +55,13 @@ class basis_equations {
   template <solver Solver>
   [[nodiscard]] solution solve(const Solver& solver) const {
     const std::vector<Eigen::Index> columns = columns_of(basis_);
-    const auto unknowns = static_cast<Eigen::Index>(basis_.size());
+    const Eigen::Index unknowns = basis_.size();
     std::vector<solution> found(systems());
     for_each_block(
         found.size(), 1,
         [&](block system) {
           const least_squares_problem whole = problem(system.begin);
-          const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
+          const bool all = std::ssize(columns) == unknowns;
           found[system.begin] = solver.solve(all ? whole : whole.subset(columns));
         },
         threads_);
@@ -78,12 +78,11 @@ class basis_equations {
     Eigen::MatrixXd right(measured_->values.rows(), together);
     for_each_index(
         measured_->locations.size(), 4096,
-        [&](std::size_t i) {
+        [&](Eigen::Index i) {
           const location& at = measured_->locations[i];
           const double offset = offset_at(functions, at);
-          const auto row = static_cast<Eigen::Index>(i);
           for (Eigen::Index c = 0; c < together; ++c)
-            right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
+            right(i, c) = functions.metric().forward(measured_->values(i, first + c), at) - offset;
         },
         threads_);
     return right;

@@ -8,6 +8,8 @@
 #include <gonio/solve/vector_kernels.hpp>
 #include <gonio/table/upsample.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <concepts>
@@ -38,7 +40,7 @@ class fitted_brdf {
         weights_(std::move(weights)),
         report_(std::move(report)),
         float_weights_(weights_.rows(), weights_.cols()) {
-    if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
+    if (weights_.rows() != basis_.size() || weights_.cols() != 3)
       refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
     if (computed && weights_.rows() > most_computed_functions)
       refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
@@ -69,7 +71,7 @@ class fitted_brdf {
   [[nodiscard]] rgb at(const location& place) const noexcept { return reflectance(mapped_at(place), place); }
 
   /// The value at a cell of the basis in the metric's domain.
-  [[nodiscard]] rgb mapped(std::size_t cell) const noexcept {
+  [[nodiscard]] rgb mapped(Eigen::Index cell) const noexcept {
     if constexpr (computed)
       return mapped_at(locate_cell(basis_.cells(), cell));
     else
@@ -96,14 +98,13 @@ class fitted_brdf {
         return mapped_at(at);
       else
         return interpolate(
-            at, [&](std::size_t cell) { return field.col(static_cast<Eigen::Index>(cell)).template cast<double>(); },
-            rgb(rgb::Zero()));
+            at, [&](Eigen::Index cell) { return field.col(cell).template cast<double>(); }, rgb(rgb::Zero()));
     };
     const bool own = cells == basis_.cells();
     brdf_table table(cells);
     for_each_index(
         cells.size(), 4096,
-        [&](std::size_t cell) {
+        [&](Eigen::Index cell) {
           const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
           table.set(cell, reflectance(value_at(at), at));
         },
@@ -115,13 +116,13 @@ class fitted_brdf {
   using mapped_fields = Eigen::Array<float, 3, Eigen::Dynamic>;
 
   [[nodiscard]] mapped_fields mapped_field(thread_count threads = {}) const {
-    mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
+    mapped_fields field(3, basis_.cells().size());
     for_each_index(
         basis_.cells().size(), 4096,
-        [&](std::size_t cell) {
+        [&](Eigen::Index cell) {
           const rgb value = mapped(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel)
-            field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
+            field(channel, cell) = static_cast<float>(value[channel]);
         },
         threads);
     return field;
@@ -133,8 +134,8 @@ class fitted_brdf {
   static constexpr bool computed = computed_basis<channel_type>;
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
-  [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {
-    const float* weights = float_weights_.data() + static_cast<Eigen::Index>(channel) * weights_.rows();
+  [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept {
+    const float* weights = float_weights_.data() + channel * weights_.rows();
     return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
            static_cast<float>(channels_[channel].offset(cell));
   }
@@ -150,9 +151,8 @@ class fitted_brdf {
   [[nodiscard]] rgb interpolated_value(const location& at) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
     for (int corner = 0; corner < at.count; ++corner) {
-      const auto slot = static_cast<std::size_t>(corner);
-      const rgb value = mapped(at.cell[slot]);
-      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[slot] * value[channel];
+      const rgb value = mapped(at.cell[corner]);
+      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[corner] * value[channel];
     }
     return sum;
   }
@@ -162,7 +162,7 @@ class fitted_brdf {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const channel_type& functions = channels_[static_cast<std::size_t>(c)];
+      const channel_type& functions = channels_[c];
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
       value[c] = row.dot(weights_.col(c)) + offset_at(functions, at);
     }
@@ -173,13 +173,13 @@ class fitted_brdf {
   [[nodiscard]] brdf_table tabulate_rows(const valid_cells& cells, thread_count threads) const {
     const metric_type& metric = basis_.metric();
     constexpr int fields_count = 3 + metric_type::companions;
-    cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
+    cell_fields<fields_count> fields(fields_count, basis_.cells().size());
     const mapped_fields channels = mapped_field(threads);
     for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
       float* field = &fields(0, cell);
       std::copy_n(&channels(0, cell), 3, field);
       if constexpr (metric_type::companions > 0) {
-        const auto companions = metric.companion(static_cast<std::size_t>(cell));
+        const auto companions = metric.companion(cell);
         std::copy(companions.begin(), companions.end(), field + 3);
       }
     }

@@ -7,6 +7,8 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/nearest_material.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -29,12 +31,12 @@ class reweighted_combination {
 
   /// Weights of the materials, k x 3, with x >= 0.
   [[nodiscard]] solution solve(const channel_values& inlier_weights) const {
-    return combine([&](std::size_t c) { return equations(c, inlier_weights); });
+    return combine([&](Eigen::Index c) { return equations(c, inlier_weights); });
   }
   /// Weights that follow other samples as well, all of which are inliers.
   [[nodiscard]] solution solve(const channel_values& inlier_weights, const reweighted_combination& others) const {
     const channel_values all = channel_values::Ones(3, std::ssize(others.locations_));
-    return combine([&](std::size_t c) { return equations(c, inlier_weights) + others.equations(c, all); });
+    return combine([&](Eigen::Index c) { return equations(c, inlier_weights) + others.equations(c, all); });
   }
 
   /// The combination's reflectance at the samples.
@@ -42,9 +44,8 @@ class reweighted_combination {
     channel_values values = functions_.apply(found.weights);
     for (Eigen::Index i = 0; i < values.cols(); ++i)
       for (float& value : values.col(i))
-        value =
-            static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[static_cast<std::size_t>(i)]),
-                                          0.0, double{correction_factor::largest_estimate}));
+        value = static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[i]), 0.0,
+                                              double{correction_factor::largest_estimate}));
     return values;
   }
 
@@ -55,7 +56,7 @@ class reweighted_combination {
     channel_values factors(3, estimates.cols());
     for (Eigen::Index i = 0; i < estimates.cols(); ++i)
       for (Eigen::Index c = 0; c < 3; ++c) {
-        const location& at = locations_[static_cast<std::size_t>(i)];
+        const location& at = locations_[i];
         const double rho = estimates(c, i), next = rho + step * (rho + offsets[c]);
         const double slope = materials_.metric().forward(next, at) - materials_.metric().forward(rho, at);
         factors(c, i) = static_cast<float>(std::pow(step / slope, 2));
@@ -64,9 +65,8 @@ class reweighted_combination {
   }
 
  private:
-  [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& inlier_weights) const {
-    const auto row = static_cast<Eigen::Index>(channel);
-    return functions_.normal(channel, inlier_weights.row(row) * confidence_.row(row), mapped_.row(row))
+  [[nodiscard]] normal_equations equations(Eigen::Index channel, const channel_values& inlier_weights) const {
+    return functions_.normal(channel, inlier_weights.row(channel) * confidence_.row(channel), mapped_.row(channel))
         .subset(functions_.columns());
   }
 
@@ -99,9 +99,9 @@ correction_round damped_step(Run& run, const channel_values& inlier_weights) {
 /// al. 2015 (doi:10.1145/2816795.2818085) and fifteen difficult ones (docs/results/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random,
-  std::size_t samples = 20'000;
+  Eigen::Index samples = 20'000;
   /// and those that the final iteration looks at: more do not make a hundred unknowns any better known.
-  std::size_t most_samples = 50'000;
+  Eigen::Index most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
   /// As many samples as this say, all over the cells, that the surface is like the nearest material. It decides where
@@ -210,7 +210,7 @@ class robust_reconstruction {
     return {.regions = std::make_shared<const sample_regions>(samples.locations)};
   }
 
-  [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const {
+  [[nodiscard]] located_samples some_of(const located_samples& samples, Eigen::Index count) const {
     return samples.subset(random_choice(samples.size(), count, options_.seed));
   }
 
@@ -242,9 +242,9 @@ class robust_reconstruction {
   [[nodiscard]] located_samples expectation(const nearest_material<Metric>& nearest,
                                             const std::array<scaled_material, 3>& chosen) const {
     const valid_cells& cells = materials_.cells();
-    const std::size_t count = std::min<std::size_t>(cells.size(), 1'000);
+    const Eigen::Index count = std::min<Eigen::Index>(cells.size(), 1'000);
     located_samples expected;
-    for (std::size_t i = 0; i < count; ++i) expected.locations.push_back(locate_cell(cells, i * cells.size() / count));
+    for (Eigen::Index i = 0; i < count; ++i) expected.locations.push_back(locate_cell(cells, i * cells.size() / count));
     expected.values = nearest.values(chosen, expected.locations).template cast<double>().matrix().transpose();
     expected.weights =
         Eigen::MatrixXd::Constant(std::ssize(expected.locations), 1, options_.expectation / static_cast<double>(count));

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -21,8 +20,8 @@ using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
 
 /// The valid cells of a grid with one theta_h and theta_d: consecutive numbers, increasing phi_d.
 struct cell_row {
-  std::size_t first = 0;       ///< number of the first cell
-  std::size_t count = 0;       ///< number of cells, at least 1
+  Eigen::Index first = 0;      ///< number of the first cell
+  Eigen::Index count = 0;      ///< number of cells, at least 1
   double theta_h = 0.0;        ///< radians
   double theta_d = 0.0;        ///< radians
   const int* phi_d = nullptr;  ///< index along phi_d of each cell
@@ -31,7 +30,7 @@ struct cell_row {
   const double* cos_phi_d = nullptr;  ///< by index along phi_d
 
   /// The cosines of the i-th cell of the row.
-  [[nodiscard]] cosine_pair cosine(std::size_t i) const noexcept {
+  [[nodiscard]] cosine_pair cosine(Eigen::Index i) const noexcept {
     const double part = difference * cos_phi_d[phi_d[i]];
     return {sum - part, sum + part};
   }
@@ -46,48 +45,47 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
   const grid& source = from.grid();
   const grid& target = to.grid();
   const grid_extents coarse = source.extents(), fine = target.extents();
-  const auto index = [](int i) { return static_cast<std::size_t>(i); };
 
   // Extend the fields to all cells of the source, so that blending needs no case for the horizon.
-  cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(source.size()));
-  for (std::size_t linear = 0; linear < source.size(); ++linear)
+  cell_fields<Fields> dense(Fields, source.size());
+  for (Eigen::Index linear = 0; linear < source.size(); ++linear)
     std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
 
   // Find the interval of the source, and the cosine, of each phi_d of the target.
-  std::vector<detail::axis_interval> along_phi(index(fine.phi_d));
-  std::vector<double> cos_phi_d(index(fine.phi_d));
+  std::vector<detail::axis_interval> along_phi(fine.phi_d);
+  std::vector<double> cos_phi_d(fine.phi_d);
   for (int k = 0; k < fine.phi_d; ++k) {
-    along_phi[index(k)] = detail::periodic_interval(source.phi_d_coordinate(target.phi_d(k)), coarse.phi_d);
-    cos_phi_d[index(k)] = std::cos(target.phi_d(k));
+    along_phi[k] = detail::periodic_interval(source.phi_d_coordinate(target.phi_d(k)), coarse.phi_d);
+    cos_phi_d[k] = std::cos(target.phi_d(k));
   }
 
   // Visit the target's rows in parallel.
-  const std::size_t rows = index(fine.theta_h) * index(fine.theta_d);
+  const Eigen::Index rows = Eigen::Index{fine.theta_h} * fine.theta_d;
   for_each_block(
-      rows, index(fine.theta_d),
+      rows, fine.theta_d,
       [&](block range) {
         cell_fields<Fields> line(Fields, coarse.phi_d), values(Fields, fine.phi_d);
-        std::vector<int> phi_d(index(fine.phi_d));
-        for (std::size_t r = range.begin; r < range.end; ++r) {
-          const auto count = static_cast<Eigen::Index>(to.row_begin(r + 1) - to.row_begin(r));
+        std::vector<int> phi_d(fine.phi_d);
+        for (Eigen::Index r = range.begin; r < range.end; ++r) {
+          const Eigen::Index count = to.row_begin(r + 1) - to.row_begin(r);
           if (count == 0) continue;
-          const double theta_h = target.theta_h(static_cast<double>(r / index(fine.theta_d)));
-          const double theta_d = target.theta_d(static_cast<double>(r % index(fine.theta_d)));
+          const double theta_h = target.theta_h(static_cast<double>(r / fine.theta_d));
+          const double theta_d = target.theta_d(static_cast<double>(r % fine.theta_d));
           // Blend the source's rows around (theta_h, theta_d) into one line over phi_d.
           const auto h = detail::clamped_interval(source.theta_h_coordinate(theta_h), coarse.theta_h);
           const auto d = detail::clamped_interval(source.theta_d_coordinate(theta_d), coarse.theta_d);
           std::fill_n(line.data(), line.size(), 0.0f);
-          for (std::size_t a = 0; a < 2; ++a)
-            for (std::size_t b = 0; b < 2; ++b) {
+          for (Eigen::Index a = 0; a < 2; ++a)
+            for (Eigen::Index b = 0; b < 2; ++b) {
               const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
-              const auto start = static_cast<Eigen::Index>(source.linear({h.node[a], d.node[b], 0}));
+              const Eigen::Index start = source.linear({h.node[a], d.node[b], 0});
               if (weight != 0.0f) line += weight * dense.middleCols(start, coarse.phi_d);
             }
           // Interpolate along it at the row's cells.
-          const std::size_t first = to.row_begin(r), before = r * index(fine.phi_d);
+          const Eigen::Index first = to.row_begin(r), before = r * fine.phi_d;
           for (Eigen::Index i = 0; i < count; ++i) {
-            const std::size_t k = to.linear(first + static_cast<std::size_t>(i)) - before;
-            phi_d[static_cast<std::size_t>(i)] = static_cast<int>(k);
+            const Eigen::Index k = to.linear(first + i) - before;
+            phi_d[i] = static_cast<int>(k);
             const detail::axis_interval& p = along_phi[k];
             values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
                             static_cast<float>(p.weight[1]) * line.col(p.node[1]);
@@ -95,7 +93,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
           // Hand the row to the caller.
           auto row_values = values.leftCols(count);
           const cell_row row{first,
-                             static_cast<std::size_t>(count),
+                             count,
                              theta_h,
                              theta_d,
                              phi_d.data(),

@@ -62,8 +62,8 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
   return {value, 1.0 / std::sqrt(weights), false, false};
 }
 
-GONIO_INLINE void require_times(std::size_t pictures, std::span<const double> times, const std::string& what) {
-  if (pictures != times.size() || times.empty())
+GONIO_INLINE void require_times(Eigen::Index pictures, std::span<const double> times, const std::string& what) {
+  if (pictures != std::ssize(times) || times.empty())
     refuse(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
@@ -86,7 +86,7 @@ GONIO_INLINE measured_radiance merge_exposures(std::span<const std::uint16_t> co
   noise.require_usable();
   const std::uint16_t limit = saturation > 0 ? saturation : response.largest_count();
   std::vector<detail::exposed> usable;
-  for (std::size_t j = 0; j < counts.size(); ++j)
+  for (Eigen::Index j = 0; j < std::ssize(counts); ++j)
     if (counts[j] > 0 && counts[j] < limit)
       usable.push_back({times[j], response.exposure(counts[j]), static_cast<double>(counts[j])});
   const measured_radiance merged = detail::mean_radiance(std::move(usable), response, noise, limit, 1.0);
@@ -106,7 +106,7 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
   const Eigen::Index pixels = taken.frames.front().rows();
   std::vector<detail::exposed> usable;
   bool is_dark = true;
-  for (std::size_t j = 0; j < taken.frames.size(); ++j) {
+  for (Eigen::Index j = 0; j < std::ssize(taken.frames); ++j) {
     const camera_frame& picture = taken.frames[j];
     if (picture.rows() != pixels || pixels == 0)
       refuse("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +

@@ -52,11 +52,11 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
     refuse("light and camera may be off by 0 to 45 degrees, not by " + std::to_string(degrees(options_.deviation)));
   if (materials_.empty() || materials_.front().empty()) refuse("there is no image");
-  const std::size_t count = materials_.front().size();
-  for (std::size_t m = 0; m < materials_.size(); ++m)
-    if (materials_[m].size() != count)
+  const Eigen::Index count = materials_.front().size();
+  for (Eigen::Index m = 0; m < std::ssize(materials_); ++m)
+    if (std::ssize(materials_[m]) != count)
       refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count});
-  for (std::size_t p = 0; p < count; ++p) {
+  for (Eigen::Index p = 0; p < count; ++p) {
     sample_set all;
     for (const std::vector<sample_set>& pictures : materials_)
       all.insert(all.end(), pictures[p].begin(), pictures[p].end());
@@ -68,20 +68,21 @@ GONIO_INLINE sample pose_iteration::turned(const sample& s, const pose_correctio
   return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
 }
 
-GONIO_INLINE void pose_iteration::require_material(std::size_t material) const {
-  if (material >= materials_.size()) refuse({"there is no material ", material, " of ", materials_.size()});
+GONIO_INLINE void pose_iteration::require_material(Eigen::Index material) const {
+  if (material < 0 || material >= std::ssize(materials_))
+    refuse({"there is no material ", material, " of ", materials_.size()});
 }
 
-GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material) const {
+GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(Eigen::Index material) const {
   require_material(material);
   return state_.fits[material].weights;
 }
 
-GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
+GONIO_INLINE sample_set pose_iteration::samples(Eigen::Index material) const {
   require_material(material);
   const std::vector<sample_set>& pictures = materials_[material];
   sample_set all;
-  for (std::size_t p = 0; p < pictures.size(); ++p)
+  for (Eigen::Index p = 0; p < std::ssize(pictures); ++p)
     for (const sample& s : pictures[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
@@ -108,8 +109,8 @@ GONIO_INLINE void pose_iteration::add_image(const sample_set& picture, const pos
                                             Eigen::Index begin, equations& out) const {
   for_each_index(
       picture.size(), 64,
-      [&](std::size_t i) {
-        const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
+      [&](Eigen::Index i) {
+        const Eigen::Index at = begin + i;
         const sample seen = turned(picture[i], turns);
         const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
         rgb right;
@@ -128,7 +129,7 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample
   for (const sample_set& picture : pictures) n += std::ssize(picture);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
+  for (Eigen::Index p = 0; p < std::ssize(pictures); ++p) {
     add_image(pictures[p], turns[p], read, begin, found.system);
     begin += std::ssize(pictures[p]);
   }
@@ -160,8 +161,8 @@ GONIO_INLINE double pose_iteration::turn_penalty() const {
 
 GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::VectorXd& by) const {
   std::vector<pose_correction> turns = turns_;
-  for (std::size_t p = 0; p < turns.size(); ++p) {
-    const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+  for (Eigen::Index p = 0; p < std::ssize(turns); ++p) {
+    const Eigen::Index first = unknowns * p;
     turns[p].light += by.segment<3>(first);
     turns[p].camera += by.segment<3>(first + 3);
   }
@@ -170,8 +171,8 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
 
 /// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t picture, Eigen::Index unknown,
-                                                        const reader& read) const {
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(Eigen::Index material, Eigen::Index picture,
+                                                        Eigen::Index unknown, const reader& read) const {
   const sample_set& samples = materials_[material][picture];
   const double width = options_.deviation / 2.0;
   const auto misfit_at = [&](double offset) {
@@ -189,16 +190,16 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, st
 
 /// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
 /// unknowns.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
+GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(Eigen::Index material, const reader& read) const {
   const std::vector<sample_set>& pictures = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(pictures));
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < pictures.size(); ++p) {
+  for (Eigen::Index p = 0; p < std::ssize(pictures); ++p) {
     const auto count = std::ssize(pictures[p]);
     for (Eigen::Index u = 0; u < unknowns; ++u) {
       const Eigen::MatrixXd change = derivative(material, p, u, read);
-      auto column = all.col(unknowns * static_cast<Eigen::Index>(p) + u);
+      auto column = all.col(unknowns * p + u);
       for (Eigen::Index c = 0; c < 3; ++c) column.segment(c * n + begin, count) = change.col(c);
     }
     begin += count;
@@ -206,7 +207,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, cons
   return all;
 }
 
-GONIO_INLINE void pose_iteration::add_curvature(std::size_t material, const reader& read, Eigen::MatrixXd& hessian,
+GONIO_INLINE void pose_iteration::add_curvature(Eigen::Index material, const reader& read, Eigen::MatrixXd& hessian,
                                                 Eigen::MatrixXd& gradient) const {
   const fit& here = state_.fits[material];
   const Eigen::Index n = here.system.right.rows();
@@ -228,13 +229,13 @@ GONIO_INLINE Eigen::VectorXd pose_iteration::newton_step(const reader& read) con
   const Eigen::Index all = unknowns * std::ssize(turns_);
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(all, all), gradient(all, 1);
   for (Eigen::Index i = 0; i < all; ++i) hessian(i, i) = turn_penalty();
-  for (std::size_t p = 0; p < turns_.size(); ++p)
+  for (Eigen::Index p = 0; p < std::ssize(turns_); ++p)
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+      const Eigen::Index first = unknowns * p;
       gradient(first + i, 0) = turn_penalty() * turns_[p].light[i];
       gradient(first + 3 + i, 0) = turn_penalty() * turns_[p].camera[i];
     }
-  for (std::size_t m = 0; m < materials_.size(); ++m) add_curvature(m, read, hessian, gradient);
+  for (Eigen::Index m = 0; m < std::ssize(materials_); ++m) add_curvature(m, read, hessian, gradient);
   return -cholesky(hessian).solve(gradient);
 }
 
