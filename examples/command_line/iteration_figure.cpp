@@ -55,9 +55,9 @@ double distance_to_slice(const gonio::sample& s) {
 
 /// The samples that a slice shows, the nearest last: those within half a degree or, if these are fewer than 400, the
 /// 400 nearest.
-std::vector<std::size_t> samples_near_slice(const gonio::sample_set& samples) {
+std::vector<Eigen::Index> samples_near_slice(const gonio::sample_set& samples) {
   constexpr std::size_t enough = 400;
-  std::vector<std::size_t> order(samples.size());
+  std::vector<Eigen::Index> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(distance_to_slice(samples[i]), i); });
   std::size_t count = std::min(enough, order.size());
@@ -80,7 +80,7 @@ gonio::image sparse_slice(const gonio::sample_set& samples, const gonio::rgb& no
     const int left = 2 * cell.theta_h, top = tile - 2 - 2 * cell.theta_d;
     for (int row = std::max(top - reach, 0); row < std::min(top + 2 + reach, tile); ++row)
       for (int column = std::max(left - reach, 0); column < std::min(left + 2 + reach, tile); ++column)
-        gonio::set_pixel(picture, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour(i));
+        gonio::set_pixel(picture, row, column, colour(i));
   }
   return picture;
 }

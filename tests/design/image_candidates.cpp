@@ -18,16 +18,16 @@ constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 
 
 /// E of all samples of some images, one row each.
 template <class Geometry>
-double of_all_samples(const Geometry& geometry, const std::vector<std::size_t>& pictures) {
+double of_all_samples(const Geometry& geometry, const std::vector<Eigen::Index>& pictures) {
   std::vector<Eigen::RowVectorXd> rows;
   for (const std::size_t picture : pictures)
     for (const auto& angles : geometry.directions(picture)) {
       const auto& grid = small_cells().grid();
       const std::size_t cell = small_cells().representative(grid.linear(grid.nearest(angles)));
-      rows.push_back(candidate_basis().components().row(static_cast<Eigen::Index>(cell)).cast<double>());
+      rows.push_back(candidate_basis().components().row(cell).cast<double>());
     }
-  Eigen::MatrixXd all(std::ssize(rows), static_cast<Eigen::Index>(candidate_basis().size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) all.row(static_cast<Eigen::Index>(i)) = rows[i];
+  Eigen::MatrixXd all(std::ssize(rows), std::ssize(candidate_basis()));
+  for (std::size_t i = 0; i < rows.size(); ++i) all.row(i) = rows[i];
   return expected_error(candidate_basis(), with_noise)(all);
 }
 
@@ -44,17 +44,17 @@ auto objective_of(const Geometry& geometry) {
 
 TEST_CASE("compressed images are worth what all of their samples are") {
   const sphere_geometry spheres(small_cells());
-  for (const std::vector<std::size_t>& pictures : {std::vector<std::size_t>{0}, {3}, {1, 5}, {0, 2, 6}})
+  for (const std::vector<Eigen::Index>& pictures : {std::vector<Eigen::Index>{0}, {3}, {1, 5}, {0, 2, 6}})
     CHECK(objective_of(spheres)(pictures) == doctest::Approx(of_all_samples(spheres, pictures)).epsilon(2e-3));
   const auto near_field = coarse_near_field();
-  for (const std::vector<std::size_t>& pictures : {std::vector<std::size_t>{45}, {30, 170}})
+  for (const std::vector<Eigen::Index>& pictures : {std::vector<Eigen::Index>{45}, {30, 170}})
     CHECK(objective_of(near_field)(pictures) == doctest::Approx(of_all_samples(near_field, pictures)).epsilon(2e-3));
 }
 
 TEST_CASE("prepared images, images beside others and sweeps agree") {
   const auto objective = objective_of(coarse_near_field());
   const gonio::design::image_candidates prepared(objective);
-  const std::vector<std::size_t> two{30, 170};
+  const std::vector<Eigen::Index> two{30, 170};
   CHECK(prepared(two) == doctest::Approx(objective(two)).epsilon(1e-12));
   const auto errors = prepared.errors_with_each(two);
   const auto with = objective.beside(two);
@@ -64,7 +64,7 @@ TEST_CASE("prepared images, images beside others and sweeps agree") {
       continue;
     }
     CHECK(double{errors[candidate]} == doctest::Approx(with(candidate)).epsilon(1e-6));
-    CHECK(with(candidate) == doctest::Approx(objective(std::vector<std::size_t>{30, 170, candidate})).epsilon(1e-12));
+    CHECK(with(candidate) == doctest::Approx(objective(std::vector<Eigen::Index>{30, 170, candidate})).epsilon(1e-12));
   }
   CHECK(errors == gonio::design::image_candidates(objective, {1}).errors_with_each(two));
 }
@@ -73,7 +73,7 @@ TEST_CASE("two images: exchange comes to the best pair of all") {
   const gonio::design::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
   double best = 1e9;
   for (std::size_t a = 0; a < 7; ++a)
-    for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<std::size_t>{a, b}));
+    for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<Eigen::Index>{a, b}));
   double found = 1e9;
   for (std::size_t first = 0; first < 7; ++first)
     found = std::min(found, gonio::design::exchange(spheres, {{first, (first + 3) % 7}}).value);
@@ -86,10 +86,10 @@ TEST_CASE("an image is worth more than its centre") {
   const auto near_field = coarse_near_field();
   const expected_error criterion(candidate_basis(), {.eta = 0.5});
   const gonio::design::image_objective objective(candidate_basis(), criterion, near_field);
-  for (const std::size_t picture : {std::size_t{45}, std::size_t{88}}) {
+  for (const Eigen::Index picture : {Eigen::Index{45}, Eigen::Index{88}}) {
     const std::vector<gonio::half_difference> centre{
         gonio::to_half_difference(near_field.centre(picture).wi, near_field.centre(picture).wo)};
-    CHECK(objective(std::vector<std::size_t>{picture}) <
+    CHECK(objective(std::vector<Eigen::Index>{picture}) <
           criterion(gonio::design::rows_at(candidate_basis(), centre).components));
   }
 }

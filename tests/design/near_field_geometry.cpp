@@ -22,7 +22,7 @@ std::size_t candidate_at(const near_field_geometry& geometry, double light, doub
 TEST_CASE("a candidate is where it says, and nearest finds it again") {
   const near_field_geometry geometry({.step = radians(5)});
   CHECK(geometry.size() == 18 * 18 * 37);
-  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+  for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) REQUIRE(geometry.nearest(geometry.centre(candidate)) == candidate);
   const auto pose = geometry.centre(candidate_at(geometry, 30, 45, 180));
   CHECK(degrees(std::acos(pose.wi.z())) == doctest::Approx(30));
@@ -97,9 +97,9 @@ TEST_CASE("steps there and back; nothing beyond the ends; one azimuth at the zen
 TEST_CASE("a fixed camera or light is where it is fixed") {
   const near_field_geometry camera({.fixed_camera = radians(64)}), light({.fixed_light = radians(33)});
   CHECK(camera.size() == 18 * 37);
-  for (std::size_t candidate = 0; candidate < camera.size(); candidate += 11)
+  for (Eigen::Index candidate = 0; candidate < camera.size(); candidate += 11)
     CHECK(degrees(std::acos(camera.centre(candidate).wo.z())) == doctest::Approx(64));
-  for (std::size_t candidate = 0; candidate < light.size(); candidate += 11)
+  for (Eigen::Index candidate = 0; candidate < light.size(); candidate += 11)
     CHECK(degrees(std::acos(light.centre(candidate).wi.z())) == doctest::Approx(33));
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("constraints hold for the centre of the image") {
   constraint.light_step = radians(15);
   constraint.smallest_separation = radians(20);
   const near_field_geometry geometry({.constraint = constraint});
-  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+  for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) REQUIRE(constraint(geometry.centre(candidate)));
 }
 

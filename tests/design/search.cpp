@@ -11,7 +11,7 @@ using gonio::design::capture_plan;
 namespace {
 
 /// How far, in cells, each of three places is from the nearest cell of a design.
-double distance_from_places(std::span<const std::size_t> cells) {
+double distance_from_places(std::span<const Eigen::Index> cells) {
   const auto& grid = small_cells().grid();
   double sum = 0.0;
   for (const gonio::cell_index& place : {gonio::cell_index{1, 1, 0}, {4, 3, 5}, {6, 1, 2}}) {
@@ -46,12 +46,12 @@ TEST_CASE("descent ends where no step improves") {
   CHECK(rc::check([] {
     const auto any = rc::gen::inRange<std::size_t>(0, small_cells().size());
     const auto n = *rc::gen::inRange<std::size_t>(1, 5);
-    const auto cells = *rc::gen::unique<std::vector<std::size_t>>(n, any);
+    const auto cells = *rc::gen::unique<std::vector<Eigen::Index>>(n, any);
     const capture_plan found = gonio::design::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
     RC_ASSERT(found.value <= distance_from_places(cells));
     RC_ASSERT(found.value == distance_from_places(found.candidates));
     RC_ASSERT(no_step_improves(found));
-    RC_ASSERT(std::set<std::size_t>(found.candidates.begin(), found.candidates.end()).size() == n);
+    RC_ASSERT(std::set<Eigen::Index>(found.candidates.begin(), found.candidates.end()).size() == n);
   }));
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
   CHECK_FALSE(improves(infinity, infinity));
   CHECK(improves(-1e-300, 0.0));
 
-  const auto below_zero = [](std::span<const std::size_t> cells) { return distance_from_places(cells) - 100.0; };
+  const auto below_zero = [](std::span<const Eigen::Index> cells) { return distance_from_places(cells) - 100.0; };
   const capture_plan found = gonio::design::grow_and_descend(small_points(), below_zero, 3, 20, 6),
                      same = gonio::design::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
   CHECK(found.candidates == same.candidates);

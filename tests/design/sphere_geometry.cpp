@@ -7,7 +7,7 @@ TEST_CASE("the slices of theta_d hold all valid cells, each once") {
   const gonio::design::sphere_geometry spheres(small_cells());
   CHECK(spheres.size() == 7);
   std::vector<int> seen(small_cells().size(), 0);
-  for (std::size_t slice = 0; slice < spheres.size(); ++slice) {
+  for (Eigen::Index slice = 0; slice < spheres.size(); ++slice) {
     REQUIRE(spheres.allows(slice));
     const auto cells = spheres.cells_of(slice);
     const auto directions = spheres.directions(slice);

@@ -11,7 +11,7 @@ using gonio::sample_regions;
 
 TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
   CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 600));
+    const std::size_t n = *rc::gen::inRange(1, 600);
     std::mt19937 generator(static_cast<unsigned>(n));
     std::vector<gonio::location> locations;
     for (std::size_t i = 0; i < n; ++i)

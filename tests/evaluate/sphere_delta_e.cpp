@@ -130,7 +130,7 @@ TEST_CASE("a black truth is seen at exposure 1") {
 
 TEST_CASE("negative reflectance counts as zero for a sphere judge, cell by cell") {
   brdf_table negative = matte(rgb::Constant(0.3)), clamped = negative;
-  for (std::size_t cell = 0; cell < judged_cells().size(); cell += 3) {
+  for (Eigen::Index cell = 0; cell < judged_cells().size(); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }
@@ -148,7 +148,7 @@ TEST_CASE("the image of differences has the false colour of each point's differe
   CHECK((gonio::pixel(picture, 0, 0) == background).all());
   const auto& points = room_judge().sphere().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     const double difference = (estimate.lab.row(at) - truth.lab.row(at)).matrix().norm();
     const rgb expected = gonio::render::false_colour(difference, {.red = 40.0});
     CHECK((gonio::pixel(picture, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);

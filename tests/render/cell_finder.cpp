@@ -57,7 +57,7 @@ TEST_CASE("cell finder: every cell is found from its node") {
   const gonio::valid_cells cells;
   const cell_finder<double> find;
   std::size_t wrong = 0;
-  for (std::size_t cell = 0; cell < cells.size(); cell += 7) {
+  for (Eigen::Index cell = 0; cell < cells.size(); cell += 7) {
     const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
     wrong += find(wi, wo) == cells.linear(cell) ? 0u : 1u;
   }

@@ -28,11 +28,11 @@ namespace cli {
 namespace {
 
 struct shape_demo_command {
-  std::size_t shapes = 310, held_out = 10;
+  Eigen::Index shapes = 310, held_out = 10;
   std::uint64_t seed = 1;
   std::string hole = "large";
   double edge_noise = 0.0;
-  std::size_t trials = 0;
+  Eigen::Index trials = 0;
   std::filesystem::path folder;
   bool as_json = false;
   gonio::thread_count threads;
@@ -48,7 +48,7 @@ struct judged_surface {
 /// All ways, and how sure ours says that it is.
 struct judged_ear {
   std::vector<judged_surface> ways;
-  std::size_t missing = 0;       ///< vertices in the hole
+  Eigen::Index missing = 0;      ///< vertices in the hole
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
@@ -57,7 +57,7 @@ gonio::shape::shape_model learn_ear_canals(const lab::ear_canal_template& common
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   lab::number_source seeds(options.seed);
-  for (std::size_t i = 0; i < options.shapes; ++i) {
+  for (Eigen::Index i = 0; i < options.shapes; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("ear-" + std::to_string(i + 1));
   }
@@ -78,8 +78,7 @@ lab::ear_scan scan_held_out(const lab::ear_canal_template& common, const shape_d
 std::vector<Eigen::Index> hole_of(const lab::ear_canal_template& common, const lab::ear_scan& scan) {
   std::vector<Eigen::Index> hole;
   for (std::size_t v = 0; v < scan.covered.size(); ++v)
-    if (!scan.covered[v] && common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
-      hole.push_back(static_cast<Eigen::Index>(v));
+    if (!scan.covered[v] && common.places()(0, v) > 0.1) hole.push_back(v);
   return hole;
 }
 
@@ -202,7 +201,7 @@ void show_shapes(const shape_demo_command& options) {
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
   std::vector<judged_ear> ears;
-  for (std::size_t i = 0; i < options.held_out; ++i) {
+  for (Eigen::Index i = 0; i < options.held_out; ++i) {
     const lab::ear_scan scan = scan_held_out(common, options, i);
     judged_ear ear = judge_ear(model, common, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);

@@ -28,7 +28,7 @@ namespace {
 struct sampling_options {
   studied_networks networks;
   std::vector<std::filesystem::path> environments, tables;
-  std::size_t points = 10'000, draws = 200;
+  Eigen::Index points = 10'000, draws = 200;
   std::uint64_t seed = 1;
   bool print_json = false;
   gonio::thread_count threads;
@@ -126,7 +126,7 @@ void run_sampling(const sampling_options& options) {
   const auto tables = tables_of(options);
   std::vector<std::vector<double>> ratios(tables.size(), std::vector<double>(lights.size()));
   std::mutex reporting;
-  std::size_t done = 0;
+  Eigen::Index done = 0;
   gonio::for_each_block(
       tables.size(), 1,
       [&](gonio::block range) {

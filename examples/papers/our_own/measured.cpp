@@ -32,10 +32,10 @@ namespace {
 
 struct measured_options {
   std::filesystem::path tables, prior, picture;
-  std::vector<std::size_t> counts{20, 500};
+  std::vector<Eigen::Index> counts{20, 500};
   double eta = 40.0;
   std::uint64_t seed = 1;
-  std::size_t repetitions = 5;
+  Eigen::Index repetitions = 5;
   bool print_json = false;
   gonio::thread_count threads;
 };
@@ -65,7 +65,7 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
                                                             gonio::render::two_lights(),
                                                             {.size = 128, .supersampling = 2}, options.threads));
   };
-  for (const std::size_t count : options.counts) {
+  for (const Eigen::Index count : options.counts) {
     auto& repetitions = result.errors.emplace_back();
     const std::size_t times = count >= many_samples ? 1 : options.repetitions;
     for (std::size_t r = 0; r < times; ++r) {

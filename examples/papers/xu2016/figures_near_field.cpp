@@ -143,7 +143,7 @@ std::vector<gonio::design::capture_plan> plans_by_descent(const Geometry& geomet
 /// Half and difference angles of the images of a plan in degrees, as the paper tabulates them.
 std::vector<std::vector<json>> printed_angles(const std::string& name,
                                               const gonio::design::near_field_geometry& geometry,
-                                              const std::vector<std::size_t>& candidates) {
+                                              const std::vector<Eigen::Index>& candidates) {
   std::vector<std::vector<json>> rows;
   for (const std::size_t candidate : candidates) {
     const auto [wi, wo] = geometry.centre(candidate);
@@ -173,12 +173,12 @@ class with_one_in_place {
       : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
 
   [[nodiscard]] const gonio::design::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
-  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return std::ranges::all_of(candidates, [&](std::size_t c) { return in_place(c); })
                ? all_(candidates)
                : std::numeric_limits<double>::infinity();
   }
-  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
     std::vector<float> errors(geometry().size(), std::numeric_limits<float>::infinity());
     const auto with = all_.beside(candidates);
     for (std::size_t candidate = 0; candidate < errors.size(); ++candidate)

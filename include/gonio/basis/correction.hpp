@@ -120,7 +120,7 @@ class leave_one_out_approximations {
   void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
     for (Eigen::Index c = 0; c < 3; ++c) {
       auto channel = tables.middleCols(c * functions, functions);
-      if (renewed_[c].size() == materials_.size())  // no need to look columns up one by one
+      if (std::ssize(renewed_[c]) == materials_.size())  // no need to look columns up one by one
         write_columns(c, Eigen::seqN(Eigen::Index{0}, weights_[c].cols()), factor, channel);
       else
         write_columns(c, renewed_[c], factor, channel);

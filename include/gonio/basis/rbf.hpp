@@ -96,7 +96,7 @@ class rbf {
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
     if (centres.empty()) refuse("radial basis functions need at least one centre");
     coordinate_rows places(3, std::ssize(centres));
-    for (Eigen::Index i = 0; i < centres.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(centres); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
       if (!place.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
       places.col(i) = place.array();

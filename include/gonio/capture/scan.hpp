@@ -47,7 +47,7 @@ template <goniometer Machine>
 [[nodiscard]] scan_plan plan_scan(const Machine& machine, std::span<const direction_pair> pairs) {
   scan_plan plan;
   std::vector<direction_pair> reachable;
-  for (Eigen::Index i = 0; i < pairs.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(pairs); ++i) {
     const placement found = place_either_way(machine, pairs[i]);
     if (found.is_reachable())
       reachable.push_back(found.at);
@@ -57,7 +57,8 @@ template <goniometer Machine>
   const auto order = short_way(
       reachable.size(), [&](Eigen::Index i, Eigen::Index j) { return machine.travel(reachable[i], reachable[j]); });
   for (const Eigen::Index i : order) plan.poses.push_back(reachable[i]);
-  for (Eigen::Index i = 1; i < plan.poses.size(); ++i) plan.length += machine.travel(plan.poses[i - 1], plan.poses[i]);
+  for (Eigen::Index i = 1; i < std::ssize(plan.poses); ++i)
+    plan.length += machine.travel(plan.poses[i - 1], plan.poses[i]);
   return plan;
 }
 
@@ -114,7 +115,7 @@ scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Recor
   GONIO_ASSERT(options.attempts > 0 && options.failures_in_a_row > 0);
   scan_outcome outcome;
   int failures = 0;
-  for (Eigen::Index number = 0; number < poses.size(); ++number) {
+  for (Eigen::Index number = 0; number < std::ssize(poses); ++number) {
     report(listener, "scanning", static_cast<double>(number) / static_cast<double>(poses.size()));
     if (record.has(number)) {
       ++outcome.kept_before;

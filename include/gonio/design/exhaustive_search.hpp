@@ -36,7 +36,7 @@ template <sweeping_objective Objective>
 [[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
                                          const progress& listener = {}) {
   detail::require_choice(n, objective.geometry());
-  while (plan.candidates.size() < n) {
+  while (std::ssize(plan.candidates) < n) {
     plan.candidates.push_back(detail::best_addition(objective, plan.candidates));
     report(listener, "measurements", static_cast<double>(plan.candidates.size()) / static_cast<double>(n));
   }
@@ -50,7 +50,7 @@ template <sweeping_objective Objective>
 [[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
   plan.value = objective(plan.candidates);
   Eigen::Index without_improvement = 0, position = 0;
-  while (without_improvement < plan.candidates.size()) {
+  while (without_improvement < std::ssize(plan.candidates)) {
     capture_plan other = plan;
     other.candidates[position] = detail::best_addition(objective, detail::all_but(plan.candidates, position));
     other.value = objective(other.candidates);

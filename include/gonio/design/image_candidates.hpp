@@ -83,7 +83,7 @@ class image_candidates {
                             const progress& listener = {})
       : objective_(std::move(objective)), rows_(objective_.geometry().size()), threads_(threads) {
     constexpr Eigen::Index batch = 64;
-    for (Eigen::Index begin = 0; begin < rows_.size(); begin += batch) {
+    for (Eigen::Index begin = 0; begin < std::ssize(rows_); begin += batch) {
       const Eigen::Index count = std::min(batch, std::ssize(rows_) - begin);
       for_each_block(
           count, 1,

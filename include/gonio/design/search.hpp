@@ -148,7 +148,7 @@ template <capture_geometry Geometry, plan_objective Objective>
   detail::require_choice(n, geometry);
   std::mt19937_64 generator(seed);
   capture_plan plan;
-  while (plan.candidates.size() < n) {
+  while (std::ssize(plan.candidates) < n) {
     const Eigen::Index added = plan.candidates.size();
     plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
     const auto value_with = detail::value_of_replacement(objective, plan.candidates, added);
@@ -176,7 +176,7 @@ template <capture_geometry Geometry, plan_objective Objective>
   detail::require_choice(n, geometry);
   std::mt19937_64 generator(seed);
   capture_plan plan;
-  while (plan.candidates.size() < n)
+  while (std::ssize(plan.candidates) < n)
     plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
   plan.value = objective(std::span<const Eigen::Index>(plan.candidates));
   std::uniform_int_distribution<Eigen::Index> any_position(0, n - 1);

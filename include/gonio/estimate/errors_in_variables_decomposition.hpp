@@ -72,7 +72,7 @@ class errors_in_variables_decomposition {
   [[nodiscard]] displaced around(const location& meant) const {
     const direction_pair pair = to_directions(meant.angles);
     displaced all;
-    for (Eigen::Index place = 0; place < all.rows.size(); ++place) {
+    for (Eigen::Index place = 0; place < std::ssize(all.rows); ++place) {
       const direction wi = turned_above_horizon(pair.wi, angle_, side(place / sides)),
                       wo = turned_above_horizon(pair.wo, angle_, side(place % sides));
       const location there = locate(prior_.cells(), to_half_difference(wi, wo));
@@ -96,11 +96,11 @@ class errors_in_variables_decomposition {
     system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 3), Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
       constexpr double share = 1.0 / static_cast<double>(sides * sides);
-      for (Eigen::Index place = 0; place < seen.rows.size(); ++place) {
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
         means.rows.row(i) += share * seen.rows[place];
         means.offsets[i] += share * seen.offsets[place];
       }
-      for (Eigen::Index place = 0; place < seen.rows.size(); ++place)
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place)
         means.sample_noise_penalty[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
                                                   m * square(seen.offsets[place] - means.offsets[i]));
       for (Eigen::Index c = 0; c < 3; ++c)
@@ -114,7 +114,7 @@ class errors_in_variables_decomposition {
                                                        const Eigen::MatrixXd& weights) const {
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
-      for (Eigen::Index place = 0; place < seen.rows.size(); ++place) {
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
         const Eigen::RowVectorXd change = seen.rows[place] - means.rows.row(i);
         for (Eigen::Index c = 0; c < 3; ++c)
           etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) / 3.0;

@@ -88,7 +88,7 @@ class nearest_material {
     channel_values found(3, std::ssize(locations));
     for (Eigen::Index c = 0; c < 3; ++c) {
       const auto functions = materials_.channel(c);
-      for (Eigen::Index i = 0; i < locations.size(); ++i)
+      for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
         found(c, i) = static_cast<float>(
             std::min(chosen[c].factor * reflectance(functions, chosen[c].material, locations[i]), largest));
     }
@@ -127,7 +127,7 @@ class nearest_material {
   [[nodiscard]] Eigen::ArrayXd differences(const evidence& seen, const material_channel<Metric>& functions,
                                            Eigen::Index material) const {
     Eigen::ArrayXd values(seen.logarithms.size());
-    for (Eigen::Index i = 0; i < seen.locations->size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(*seen.locations); ++i)
       values[i] = std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
     return seen.logarithms - values;
   }
@@ -146,7 +146,7 @@ class nearest_material {
     constexpr Eigen::Index shortlist = 20;
     const auto likelihood = [](const candidate& each) { return each.found.log_likelihood; };
     std::ranges::sort(candidates, std::greater{}, likelihood);
-    candidates.resize(std::min(candidates.size(), shortlist));
+    candidates.resize(std::min(std::ssize(candidates), shortlist));
     for_each_candidate([&](candidate& each) {
       each.found = detail::locate_mixture(differences(many, functions, each.material), many.outliers,
                                           each.found.logarithm_of_factor);

@@ -31,7 +31,7 @@ class sampled_functions {
     rows_.fill(std::vector<const float*>(locations.size()));
     interpolate_between_cells(locations);
     for (Eigen::Index c = 0; c < 3; ++c)
-      for (Eigen::Index i = 0; i < locations.size(); ++i)
+      for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
         if (locations[i].count == 1) rows_[c][i] = channels_[c].row(locations[i].cell[0]).data();
   }
 
@@ -117,7 +117,7 @@ class sampled_functions {
 
   void interpolate_between_cells(const std::vector<location>& locations) {
     std::vector<Eigen::Index> between;
-    for (Eigen::Index i = 0; i < locations.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
       if (locations[i].count != 1) between.push_back(i);
     interpolated_ = std::make_shared<cell_matrix>(3 * std::ssize(between), unknowns_);
     for_each_block(

@@ -124,7 +124,7 @@ class lobe {
   explicit lobe(rgb colour = rgb::Ones(), const shape_type& shape = {}) : colour_(std::move(colour)), shape_(shape) {
     require_usable_colour(shape_type::name, colour_);
     const auto values = values_of<Shape, double>(shape_);
-    for (Eigen::Index i = 0; i < values.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(values); ++i)
       require_within_bounds(shape_type::name, shape_type::parameters[i], values[i]);
   }
 

@@ -96,7 +96,7 @@ template <class Lobe>
   }
   constexpr int side = 12;
   weighed_lobe weighed{techniques, {}};
-  for (Eigen::Index interval = 0; interval < weighed.albedo.size(); ++interval) {
+  for (Eigen::Index interval = 0; interval < std::ssize(weighed.albedo); ++interval) {
     double sum = 0.0;
     for (int draw = 0; draw < side * side; ++draw) {
       const direction wo = spherical_direction(std::acos(direction_mixture::cosine_of(interval)), 2.4 * draw);

@@ -48,7 +48,7 @@ class border_counter {
     bins_per_unit_ = static_cast<Real>(bins) / end;
     before_.assign(bins + 1, 0);  // the last is for `end` itself
     std::vector<int> in_bin(bins + 1, 0);
-    for (Eigen::Index i = 0; i + 1 < borders_.size(); ++i)
+    for (Eigen::Index i = 0; i + 1 < std::ssize(borders_); ++i)
       ++in_bin[static_cast<Eigen::Index>(borders_[i] * bins_per_unit_)];
     if (std::ranges::any_of(in_bin, [](int count) { return count > 1; })) return false;
     for (Eigen::Index bin = 1; bin <= bins; ++bin)

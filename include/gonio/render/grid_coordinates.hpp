@@ -157,7 +157,7 @@ class grid_coordinates_block {
     // The last few are filled up with the normal.
     std::array<lanes, 6> copies;
     const std::array sources{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
-    for (Eigen::Index k = 0; k < copies.size(); ++k) {
+    for (Eigen::Index k = 0; k < std::ssize(copies); ++k) {
       copies[k].fill(k % 3 == 2 ? Real(1) : Real(0));
       std::copy_n(sources[k].begin() + first, count, copies[k].begin());
     }

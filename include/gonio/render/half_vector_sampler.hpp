@@ -250,7 +250,7 @@ class half_vector_sampler {
           if (!(wi.z() > 0)) continue;
           const double by_half = half_vector_pdf(viewer, wi, wo), by_cosine = cosine_weighted_pdf(wi);
           const double value = mean_of(wi, wo), drawn = 0.5 * (by_half + by_cosine);
-          for (Eigen::Index r = 0; r < ratios.size(); ++r)
+          for (Eigen::Index r = 0; r < std::ssize(ratios); ++r)
             second_moment[r] += value * value / (ratios[r] * by_half + (1.0 - ratios[r]) * by_cosine) / drawn;
         }
     return static_cast<Real>(ratios[std::ranges::min_element(second_moment) - second_moment.begin()]);

@@ -66,7 +66,7 @@ class lookup_table {
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes,
                                               const gonio::grid& cells = gonio::grid()) {
     const Eigen::Index plane = cells.size();
-    if (planes.size() != 3 * plane)
+    if (std::ssize(planes) != 3 * plane)
       refuse("three planes of " + std::to_string(plane) + " values were expected of a MERL table, not " +
              std::to_string(planes.size()) + " values");
     return lookup_table(cells, [&](const cell_index& cell) {

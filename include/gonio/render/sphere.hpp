@@ -80,12 +80,12 @@ template <brdf Brdf, sphere_lighting Lighting>
   const auto samples = static_cast<std::uint32_t>(view.supersampling);
   const double exposure = detail::exposure_from(white);
   std::vector<rgb> pixels(side * side, view.background);
-  for (Eigen::Index point = 0; point < points.size(); ++point) {
+  for (Eigen::Index point = 0; point < std::ssize(points); ++point) {
     const Eigen::Index row = points[point].row / samples, column = points[point].column / samples;
     pixels[row * side + column] += (exposure * radiance[point] - view.background) / (samples * samples);
   }
   image picture({side, side, std::size_t{3}});
-  for (Eigen::Index i = 0; i < pixels.size(); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
+  for (Eigen::Index i = 0; i < std::ssize(pixels); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
   return picture;
 }
 
@@ -141,7 +141,7 @@ class sphere_operator {
   /// reflectance times weight.
   template <class Visit>
   void for_each_entry(Eigen::Index point, Visit&& visit) const {
-    GONIO_ASSERT(point < rows_.size());
+    GONIO_ASSERT(point < std::ssize(rows_));
     for (const auto& [cell, weight] : rows_[point])
       visit(Eigen::Index{cell}, rgb(exposure_ * rgb(weight[0], weight[1], weight[2])));
   }
