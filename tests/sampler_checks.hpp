@@ -184,7 +184,7 @@ template <gonio::direction_sampler Sampler>
   double statistic = 0.0, pooled_expected = 0.0, pooled_found = 0.0, still_expected = 0.0;
   for (const double count : expected) still_expected += count;
   int pools = 0;
-  for (const std::size_t bin : order) {
+  for (const Eigen::Index bin : order) {
     pooled_expected += expected[bin];
     pooled_found += found[bin];
     still_expected -= expected[bin];

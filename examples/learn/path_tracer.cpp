@@ -145,7 +145,7 @@ std::vector<material> measured_and_reconstructed(const std::filesystem::path& pr
   const gonio::decomposition estimator{gonio::learn_pca(std::move(learned), metric, 60), gonio::tikhonov{40.0}};
 
   std::vector<material> materials;
-  for (const std::size_t i : tested) {
+  for (const Eigen::Index i : tested) {
     const gonio::brdf_table truth = all.table(i);
     gonio::sample_set samples;
     for (const auto& angles : gonio::design::nielsen_directions(20)) {

@@ -7,12 +7,12 @@ namespace {
 
 /// The smallest geometry there can be: numbers in a row, all in one direction.
 struct line_of_candidates {
-  [[nodiscard]] std::size_t size() const { return 3; }
-  [[nodiscard]] bool allows(std::size_t) const { return true; }
-  [[nodiscard]] gonio::direction_pair centre(std::size_t) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
-  [[nodiscard]] std::size_t nearest(const gonio::direction_pair&) const { return 0; }
-  [[nodiscard]] std::vector<gonio::half_difference> directions(std::size_t) const { return {{0.1, 0.2, 0.3}}; }
-  [[nodiscard]] std::optional<Eigen::Index> stepped(std::size_t from, const gonio::design::grid_step& step) const {
+  [[nodiscard]] Eigen::Index size() const { return 3; }
+  [[nodiscard]] bool allows(Eigen::Index) const { return true; }
+  [[nodiscard]] gonio::direction_pair centre(Eigen::Index) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
+  [[nodiscard]] Eigen::Index nearest(const gonio::direction_pair&) const { return 0; }
+  [[nodiscard]] std::vector<gonio::half_difference> directions(Eigen::Index) const { return {{0.1, 0.2, 0.3}}; }
+  [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const gonio::design::grid_step& step) const {
     const int to = static_cast<int>(from) + step[0];
     if (to < 0 || to > 2 || step[1] != 0 || step[2] != 0) return {};
     return to;
@@ -38,7 +38,7 @@ TEST_CASE("a point sample is in the direction of its cell; steps do not lead to 
   gonio::design::capture_constraint constraint;
   constraint.light.largest = gonio::radians(45);
   const gonio::design::point_geometry points(small_cells(), constraint);
-  std::size_t allowed = 0;
+  Eigen::Index allowed = 0;
   for (Eigen::Index cell = 0; cell < points.size(); ++cell) {
     const auto angles = points.directions(cell);
     REQUIRE(angles.size() == 1);

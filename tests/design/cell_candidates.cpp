@@ -25,11 +25,11 @@ TEST_CASE("all additions at once are what each is by itself") {
         {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, sample_noise_penalties);
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
-      const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
-      const auto n = *rc::gen::inRange<std::size_t>(0, 8);
+      const auto any = rc::gen::inRange<Eigen::Index>(0, candidates.size());
+      const auto n = *rc::gen::inRange<Eigen::Index>(0, 8);
       const auto cells = *rc::gen::container<std::vector<Eigen::Index>>(n, any);
       const std::vector<float> errors = candidates.errors_with_each(cells);
-      RC_ASSERT(errors.size() == candidates.size());
+      RC_ASSERT(std::ssize(errors) == candidates.size());
       auto longer = cells;
       longer.push_back(0);
       for (Eigen::Index cell = 0; cell < candidates.size(); cell += 13) {

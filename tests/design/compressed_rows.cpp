@@ -38,7 +38,7 @@ TEST_CASE("cells that are met several times count as often") {
   const std::vector<Eigen::Index> cells{3, 60, 60, 60, 200, 3};
   std::vector<gonio::half_difference> directions;
   Eigen::MatrixXd each(6, std::ssize(candidate_basis()));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(cells); ++i) {
     directions.push_back(small_cells().angles(cells[i]));
     each.row(i) = candidate_basis().components().row(cells[i]).cast<double>();
   }

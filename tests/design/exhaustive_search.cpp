@@ -8,9 +8,9 @@ namespace {
 /// The best pair of all.
 gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& candidates) {
   gonio::design::capture_plan best;
-  for (std::size_t a = 0; a < candidates.size(); ++a) {
+  for (Eigen::Index a = 0; a < candidates.size(); ++a) {
     const std::vector<float> errors = candidates.errors_with_each(std::vector<Eigen::Index>{a});
-    const std::size_t b = std::ranges::min_element(errors) - errors.begin();
+    const Eigen::Index b = std::ranges::min_element(errors) - errors.begin();
     const std::vector<Eigen::Index> pair{a, b};
     if (const double value = candidates(pair); value < best.value) best = {pair, value};
   }
@@ -52,7 +52,7 @@ TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of al
 TEST_CASE("after exchange no single replacement improves") {
   const auto candidates = synthetic_candidates({.eta = 0.1, .common_shift = 0.2});
   const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
-  for (std::size_t position = 0; position < 4; ++position)
+  for (Eigen::Index position = 0; position < 4; ++position)
     for (Eigen::Index cell = 0; cell < candidates.size(); ++cell) {
       auto other = found.candidates;
       other[position] = cell;
@@ -66,7 +66,7 @@ TEST_CASE("cells that the constraint excludes are no candidates") {
   const gonio::design::cell_candidates candidates(
       candidate_basis(), gonio::design::expected_error(candidate_basis(), {.eta = 0.5}), constraint);
   const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
-  for (const std::size_t cell : found.candidates) {
+  for (const Eigen::Index cell : found.candidates) {
     const gonio::direction_pair pair = gonio::to_directions(small_cells().angles(cell));
     CHECK(std::max(pair.wi.z(), pair.wo.z()) >= std::cos(gonio::radians(40.001)));
   }

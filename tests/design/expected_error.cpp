@@ -15,7 +15,7 @@ namespace {
 
 Eigen::MatrixXd components_at(const std::vector<Eigen::Index>& cells) {
   Eigen::MatrixXd rows(std::ssize(cells), std::ssize(candidate_basis()));
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(cells); ++i)
     rows.row(i) = candidate_basis().components().row(cells[i]).cast<double>();
   return rows;
 }
@@ -172,7 +172,7 @@ TEST_CASE("out of sample it is the error of each material with the prior of the 
 TEST_CASE("out of sample it is what eta is chosen by") {
   const std::vector<Eigen::Index> cells{3, 60, 200, 222, 310};
   std::vector<gonio::location> places;
-  for (const std::size_t cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
+  for (const Eigen::Index cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
   const gonio::leave_one_material_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
   for (const double eta : {0.1, 3.0}) {
     const expected_error criterion(candidate_basis(), {.eta = eta, .leave_out = true});
@@ -188,7 +188,7 @@ TEST_CASE("nothing measured: the mean distance of the materials from their mean;
   };
   CHECK(error({}) == doctest::Approx(criterion.energies().cwiseSqrt().mean()));
   std::vector<Eigen::Index> every(small_cells().size());
-  std::iota(every.begin(), every.end(), std::size_t{0});
+  std::iota(every.begin(), every.end(), Eigen::Index{0});
   CHECK(error(every) < 1e-3 * error({}));
   CHECK(error({5}) < error({}));
 }

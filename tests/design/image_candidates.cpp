@@ -20,14 +20,14 @@ constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 
 template <class Geometry>
 double of_all_samples(const Geometry& geometry, const std::vector<Eigen::Index>& pictures) {
   std::vector<Eigen::RowVectorXd> rows;
-  for (const std::size_t picture : pictures)
+  for (const Eigen::Index picture : pictures)
     for (const auto& angles : geometry.directions(picture)) {
       const auto& grid = small_cells().grid();
-      const std::size_t cell = small_cells().representative(grid.linear(grid.nearest(angles)));
+      const Eigen::Index cell = small_cells().representative(grid.linear(grid.nearest(angles)));
       rows.push_back(candidate_basis().components().row(cell).cast<double>());
     }
   Eigen::MatrixXd all(std::ssize(rows), std::ssize(candidate_basis()));
-  for (std::size_t i = 0; i < rows.size(); ++i) all.row(i) = rows[i];
+  for (Eigen::Index i = 0; i < std::ssize(rows); ++i) all.row(i) = rows[i];
   return expected_error(candidate_basis(), with_noise)(all);
 }
 
@@ -58,7 +58,7 @@ TEST_CASE("prepared images, images beside others and sweeps agree") {
   CHECK(prepared(two) == doctest::Approx(objective(two)).epsilon(1e-12));
   const auto errors = prepared.errors_with_each(two);
   const auto with = objective.beside(two);
-  for (std::size_t candidate = 0; candidate < errors.size(); candidate += 7) {
+  for (Eigen::Index candidate = 0; candidate < std::ssize(errors); candidate += 7) {
     if (!objective.geometry().allows(candidate)) {
       CHECK(std::isinf(errors[candidate]));
       continue;
@@ -72,10 +72,10 @@ TEST_CASE("prepared images, images beside others and sweeps agree") {
 TEST_CASE("two images: exchange comes to the best pair of all") {
   const gonio::design::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
   double best = 1e9;
-  for (std::size_t a = 0; a < 7; ++a)
-    for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<Eigen::Index>{a, b}));
+  for (Eigen::Index a = 0; a < 7; ++a)
+    for (Eigen::Index b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<Eigen::Index>{a, b}));
   double found = 1e9;
-  for (std::size_t first = 0; first < 7; ++first)
+  for (Eigen::Index first = 0; first < 7; ++first)
     found = std::min(found, gonio::design::exchange(spheres, {{first, (first + 3) % 7}}).value);
   CHECK(found == doctest::Approx(best).epsilon(1e-6));
   const auto slid = gonio::design::descend(spheres.geometry(), spheres, gonio::design::grow_greedily(spheres, 2));

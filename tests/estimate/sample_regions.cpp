@@ -29,7 +29,7 @@ TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
         const auto region = regions[strip * parts + part];
         RC_ASSERT(region.size() >= n / regions.count());
         RC_ASSERT(region.size() <= n / regions.count() + 2);
-        for (const std::size_t sample : region) {
+        for (const Eigen::Index sample : region) {
           RC_ASSERT(!seen[sample]);
           seen[sample] = true;
           RC_ASSERT(locations[sample].angles.theta_h >= largest_h);

@@ -191,7 +191,7 @@ TEST_CASE("bad MERL files are refused") {
   for (const std::size_t size : {0u, 1u, 11u})
     refused({valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(size)},
             {std::to_string(size) + " bytes", "at least 12"});
-  for (const Eigen::Index size : {Eigen::Index{12}, Eigen::Index{13}, valid.size() / 2, valid.size() - 1})
+  for (const std::size_t size : {std::size_t{12}, std::size_t{13}, valid.size() / 2, valid.size() - 1})
     refused({valid.begin(), valid.begin() + static_cast<std::ptrdiff_t>(size)},
             {"has " + std::to_string(size) + " bytes", "expected 2892", "5 x 4 x 6"});
   auto longer = valid;

@@ -203,7 +203,7 @@ TEST_CASE("cells may count by the pairs of directions in them, or by these times
   const auto share_near_highlight = [&](gonio::model::cell_weighting weighting) {
     const auto all = gonio::model::fit_observations(table, {}, weighting);
     double near = 0.0, sum = 0.0;
-    for (Eigen::Index cell = 0; cell < all.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) {
       sum += all[cell].weight.mean();
       if (table.cells().angles(cell).theta_h < gonio::radians(22.5)) near += all[cell].weight.mean();
     }
@@ -228,7 +228,7 @@ TEST_CASE("weights decide what a model that does not describe a table follows") 
   const auto loss_of = [&](const gonio::model::model_fit& fit, gonio::model::cell_weighting weighting) {
     double sum = 0.0, weights = 0.0;
     const auto all = gonio::model::fit_observations(table, {}, weighting);
-    for (Eigen::Index cell = 0; cell < all.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) {
       const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
       sum += all[cell].weight[0] * std::abs(std::log1p(all[cell].value[0]) - std::log1p(fit.model(wi, wo)[0]));
       weights += all[cell].weight[0];

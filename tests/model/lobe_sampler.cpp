@@ -311,7 +311,7 @@ TEST_CASE("sampler checks: p values of a correct sampler are uniform, and slight
     std::array<int, 4> quarters{};
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       const double p = sampler_checks::chi_square_p_value(right, wo, shares, 20'000, seed);
-      ++quarters[std::min<std::size_t>(3, 4.0 * p)];
+      ++quarters[std::min<std::size_t>(3, static_cast<std::size_t>(4.0 * p))];
     }
     // Of 40 about ten; outside of 2 to 20 with a probability of 0.002.
     for (const int count : quarters) CHECK((count >= 2 && count <= 20));

@@ -44,8 +44,9 @@ TEST_CASE("environment sampler: its density integrates to 1, and draws fall wher
   for (std::size_t i = 0; i < draws; ++i) {
     const double u1 = number(), u2 = number();
     const direction d = lit_windows().sample(u1, u2).towards;
-    const std::size_t row = std::acos(d.y()) / std::numbers::pi * 32.0;
-    const std::size_t column = ((std::atan2(d.x(), -d.z()) + std::numbers::pi) / std::numbers::pi * 32.0);
+    const auto row = static_cast<std::size_t>(std::acos(d.y()) / std::numbers::pi * 32.0);
+    const auto column =
+        static_cast<std::size_t>((std::atan2(d.x(), -d.z()) + std::numbers::pi) / std::numbers::pi * 32.0);
     ++found[std::min<std::size_t>(row, 31) * 64 + std::min<std::size_t>(column, 63)];
     within_pixels += d - map.towards(std::min<std::size_t>(row, 31), std::min<std::size_t>(column, 63));
   }

@@ -145,7 +145,7 @@ std::vector<std::vector<json>> printed_angles(const std::string& name,
                                               const gonio::design::near_field_geometry& geometry,
                                               const std::vector<Eigen::Index>& candidates) {
   std::vector<std::vector<json>> rows;
-  for (const std::size_t candidate : candidates) {
+  for (const Eigen::Index candidate : candidates) {
     const auto [wi, wo] = geometry.centre(candidate);
     const gonio::half_difference at = gonio::to_half_difference(wi, wo);
     rows.push_back({name, candidates.size(), gonio::degrees(at.theta_h), gonio::degrees(at.theta_d),
@@ -275,10 +275,10 @@ tables xu_7(const options& given, const gonio::progress& listener) {
   std::ranges::shuffle(order, generator);
   table shown{"Two images at 25 degrees by number of materials learned",
               {{"materials", 0}, {"components", 0}, {"mapped error"}, {"projection: mapped error"}}};
-  const std::size_t largest = given.most > 0 ? std::min(given.most, order.size()) : order.size();
-  const std::size_t step = std::min<std::size_t>(largest, 10);
-  for (std::size_t count = step; count <= largest; count += step) {
-    const std::vector<std::string> names(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+  const Eigen::Index largest = given.most > 0 ? std::min(given.most, std::ssize(order)) : std::ssize(order);
+  const Eigen::Index step = std::min<Eigen::Index>(largest, 10);
+  for (Eigen::Index count = step; count <= largest; count += step) {
+    const std::vector<std::string> names(order.begin(), order.begin() + count);
     const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
     const pictures all = read_images(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);

@@ -40,7 +40,7 @@ class fitted_brdf {
         weights_(std::move(weights)),
         report_(std::move(report)),
         float_weights_(weights_.rows(), weights_.cols()) {
-    if (weights_.rows() != basis_.size() || weights_.cols() != 3)
+    if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != 3)
       refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
     if (computed && weights_.rows() > most_computed_functions)
       refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
