@@ -15,8 +15,8 @@ namespace {
 const std::array<rgb, 3> paints{rgb(0.6, 0.6, 0.55), rgb(0.1, 0.4, 0.1), rgb(0.5, 0.1, 0.05)};
 
 /// Which paint a synthetic greeting card has at a pixel: half, a third and a sixth of it.
-std::size_t paint_at(Eigen::Index pixel) {
-  constexpr std::array<std::size_t, 6> pattern{0, 1, 0, 2, 0, 1};
+int paint_at(Eigen::Index pixel) {
+  constexpr std::array<int, 6> pattern{0, 1, 0, 2, 0, 1};
   return pattern[pixel % 6];
 }
 

@@ -13,7 +13,7 @@ TEST_CASE("horizon index: numbers and representatives are those of the valid cel
     std::size_t other = 0;
     for (Eigen::Index linear = 0; linear < cells.size(); ++linear) {
       const auto [h, d, p] = cells.cell(linear);
-      const std::size_t number = index(h, d, p);
+      const Eigen::Index number = index(h, d, p);
       other += number == expected.representative(linear) ? 0u : 1u;
     }
     CHECK(other == 0u);

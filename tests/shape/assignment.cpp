@@ -47,7 +47,7 @@ std::ptrdiff_t pairs_of(const std::vector<Eigen::Index>& columns) {
   std::set<Eigen::Index> distinct(columns.begin(), columns.end());
   distinct.erase(-1);
   const auto assigned = std::ranges::count_if(columns, [](Eigen::Index column) { return column >= 0; });
-  return assigned == distinct.size() ? assigned : -1;
+  return assigned == std::ssize(distinct) ? assigned : -1;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -98,7 +99,7 @@ class cell_finder {
   }
 
   /// The number where there is no cell.
-  static constexpr Eigen::Index none = -1;
+  static constexpr Eigen::Index none = std::numeric_limits<Eigen::Index>::max();
 
   /// The cell of a pair, and whether there is one.
   struct place {
