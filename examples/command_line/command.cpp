@@ -135,6 +135,11 @@ option command::add_option(const std::string& names, std::vector<int>& values, c
   return option(*known_->add_option(names, values, description));
 }
 
+option command::add_option(const std::string& names, std::vector<unsigned long>& values,
+                           const std::string& description) {
+  return option(*known_->add_option(names, values, description));
+}
+
 option command::add_option(const std::string& names, std::vector<unsigned long long>& values,
                            const std::string& description) {
   return option(*known_->add_option(names, values, description));

@@ -93,6 +93,7 @@ class command {
   option add_option(const std::string& names, std::optional<double>& value, const std::string& description);
   option add_option(const std::string& names, std::vector<std::string>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<int>& values, const std::string& description);
+  option add_option(const std::string& names, std::vector<unsigned long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<unsigned long long>& values, const std::string& description);
   option add_option(const std::string& names, std::vector<double>& values, const std::string& description);
   option add_option(const std::string& names, std::pair<int, int>& values, const std::string& description);

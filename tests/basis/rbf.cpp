@@ -175,7 +175,8 @@ TEST_CASE("each farthest-point centre is farther from those before it than any c
     return least;
   };
   double separation = 100.0, covering = 0.0;
-  for (Eigen::Index i = 1; i < std::ssize(centres); ++i) separation = std::min(separation, distance_to_first(i, centres[i]));
+  for (Eigen::Index i = 1; i < std::ssize(centres); ++i)
+    separation = std::min(separation, distance_to_first(i, centres[i]));
   for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     covering = std::max(covering, distance_to_first(centres.size(), small_cells().angles(cell)));
   CHECK(separation > 0.05);

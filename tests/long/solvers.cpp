@@ -26,8 +26,8 @@ TEST_CASE("16 families x 6,300 random problems: every solver is right from the r
                          solver == "non_negative_lasso, no penalty" || solver == "least_squares";
       if (!shown) others += sum.refused;
     }
-    std::printf("| %s | %.0e | %.0e | %d | %d | %d |\n", hard_problems::names[static_cast<std::size_t>(what)], violation, apart,
-                tallies["nnls"].refused, tallies["least_squares"].refused, others);
+    std::printf("| %s | %.0e | %.0e | %d | %d | %d |\n", hard_problems::names[static_cast<std::size_t>(what)],
+                violation, apart, tallies["nnls"].refused, tallies["least_squares"].refused, others);
     std::fflush(stdout);
   }
 }

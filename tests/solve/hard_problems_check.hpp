@@ -81,15 +81,16 @@ inline void check(family what, unsigned seed, std::map<std::string, tally>& tall
       tally& sum = tallies[each.name];
       const auto wrong = [&](const std::string& why) {
         if (sum.wrong++ == 0)
-          sum.first_wrong = std::string(names[static_cast<std::size_t>(what)]) + ", seed " + std::to_string(seed) + ": " + why;
+          sum.first_wrong =
+              std::string(names[static_cast<std::size_t>(what)]) + ", seed " + std::to_string(seed) + ": " + why;
       };
       gonio::solution found;
       try {
         found = each.solve(given);
       } catch (const gonio::error& refused) {
         if (sum.refused++ == 0 && sum.wrong == 0)
-          sum.first_wrong =
-              "(refused) " + std::string(names[static_cast<std::size_t>(what)]) + ", seed " + std::to_string(seed) + ": " + refused.what();
+          sum.first_wrong = "(refused) " + std::string(names[static_cast<std::size_t>(what)]) + ", seed " +
+                            std::to_string(seed) + ": " + refused.what();
         continue;
       }
       if (!(found.report.kkt_residual[0] <= 1e-9))

@@ -66,7 +66,7 @@ std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given,
                                                 const std::string& set, std::size_t count) {
   std::vector<std::vector<Eigen::Index>> drawn;
   if (set == "random") {
-    for (std::size_t r = 0; r < given.repetitions; ++r)
+    for (Eigen::Index r = 0; r < given.repetitions; ++r)
       drawn.push_back(gonio::random_cells(cells, count, given.seed + r));
   } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(gonio::cells_at(cells, *directions));
@@ -151,7 +151,7 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
                                   std::size_t count) {
   std::vector<stand_ins> drawn;
   if (set == "random") {
-    for (std::size_t r = 0; r < given.repetitions; ++r)
+    for (Eigen::Index r = 0; r < given.repetitions; ++r)
       drawn.push_back({gonio::random_choice(all.size(), count, given.seed + r), std::vector<double>(count, 0.0)});
   } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(nearest_measured(all, *directions));

@@ -88,7 +88,7 @@ double ratio_of_variances(const sampled_material& f, const gonio::render::enviro
   std::mt19937_64 generator(options.seed);
   const auto number = [&] { return gonio::uniform_number(generator); };
   variances sum;
-  for (std::size_t point = 0; point < options.points; ++point) {
+  for (Eigen::Index point = 0; point < options.points; ++point) {
     const double within = number(), turn = 2.0 * std::numbers::pi * number();
     const double squared = (static_cast<double>(point) + within) / static_cast<double>(options.points);
     const double radius = std::sqrt(squared);

@@ -41,7 +41,7 @@ struct measured_options {
 };
 
 /// The lower bound that the prior allows: a fit to a random tenth of the cells.
-constexpr std::size_t many_samples = 100'000;
+constexpr Eigen::Index many_samples = 100'000;
 
 gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
                               const gonio::brdf_table& truth, std::size_t count, std::uint64_t seed) {
@@ -67,8 +67,8 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
   };
   for (const Eigen::Index count : options.counts) {
     auto& repetitions = result.errors.emplace_back();
-    const std::size_t times = count >= many_samples ? 1 : options.repetitions;
-    for (std::size_t r = 0; r < times; ++r) {
+    const Eigen::Index times = count >= many_samples ? 1 : options.repetitions;
+    for (Eigen::Index r = 0; r < times; ++r) {
       const auto estimate = reconstruct(options, prior, truth, count, options.seed + r);
       repetitions.push_back({name, gonio::compare(estimate, truth, prior.metric(), judge, options.threads)});
       if (r == 0) draw(estimate);

@@ -119,7 +119,7 @@ json recover(const gonio::model::lobe_kind& kind, const recovery_options& given)
   Eigen::Index found = 0, evaluations = 0;
   double worst = 0.0;
   std::vector<double> passed_on;
-  for (std::size_t draw = 0; draw < given.draws; ++draw) {
+  for (Eigen::Index draw = 0; draw < given.draws; ++draw) {
     // Draw a model, and recover it from exact values.
     const gonio::model::analytic_brdf truth({draw_lobe(lambert, random), draw_lobe(kind, random)});
     const Eigen::VectorXd exact = unknowns_of(truth);
