@@ -35,7 +35,7 @@ struct golden_noell {
   /// Root mean square over all cells of the log-relative difference from the truth, as the reference computes it.
   [[nodiscard]] double mapped_error(const gonio::brdf_table& estimate, std::size_t channel) const {
     double sum = 0.0;
-    for (Eigen::Index cell = 0; cell < cosine_weights.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < std::ssize(cosine_weights); ++cell) {
       const double truth = double{materials.values(cell, materials.values.cols() - 3 + channel)};
       const double found = double{estimate.values()[3 * cell + channel]}, weight = cosine_weights[cell];
       sum += std::pow(std::log((found * weight + 1e-3) / (truth * weight + 1e-3)), 2);

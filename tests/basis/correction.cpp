@@ -54,7 +54,7 @@ void check_that_materials_come_back(const gonio::material_set& set, const Metric
   for (Eigen::Index i = 0; i < std::ssize(set.names); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const auto estimates = approximation.of(i, c);
-      for (Eigen::Index cell = 0; cell < estimates.size(); ++cell) {
+      for (Eigen::Index cell = 0; cell < std::ssize(estimates); ++cell) {
         const float sigma = corrections.channel(c).row(cell)[i];
         const double shifted = std::max(estimates[cell] + double{rule.factor.offset}, double{rule.factor.smallest});
         const double material = double{set.values(cell, 3 * i + c)};
@@ -237,7 +237,7 @@ TEST_CASE("corrections are the same for any number of threads") {
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({12, 10, 12})), 6);
   const gonio::measured basis{set, gonio::log{}};
   const correction one{basis, {}, gonio::nnls{}, {1}}, three{basis, {}, gonio::nnls{}, {3}};
-  for (std::size_t f = 0; f < std::ssize(one); ++f) CHECK(function_values(one, f) == function_values(three, f));
+  for (Eigen::Index f = 0; f < one.size(); ++f) CHECK(function_values(one, f) == function_values(three, f));
 }
 
 TEST_CASE("fewer than two materials have no corrections") {

@@ -9,7 +9,7 @@ namespace {
 /// Some cells have none, others much more than eta.
 std::vector<double> synthetic_sample_noise_penalties() {
   std::vector<double> etas(small_cells().size());
-  for (Eigen::Index cell = 0; cell < etas.size(); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
+  for (Eigen::Index cell = 0; cell < std::ssize(etas); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
   return etas;
 }
 

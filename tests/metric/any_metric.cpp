@@ -19,7 +19,8 @@ const gonio::valid_cells& small_cells() {
 
 gonio::log_relative relative_to_something() {
   std::vector<float> reference(small_cells().size());
-  for (Eigen::Index cell = 0; cell < reference.size(); ++cell) reference[cell] = 0.01f * static_cast<float>(cell % 13);
+  for (Eigen::Index cell = 0; cell < std::ssize(reference); ++cell)
+    reference[cell] = 0.01f * static_cast<float>(cell % 13);
   return {small_cells(), reference};
 }
 

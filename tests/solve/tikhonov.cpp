@@ -59,7 +59,7 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
     return table.at(names[material] + "_" + "RGB"[channel]);
   };
   std::vector<double> median(cosine.size());
-  for (Eigen::Index cell = 0; cell < median.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(median); ++cell) {
     std::vector<double> row;
     for (std::size_t m = 0; m < 11; ++m)
       for (int c = 0; c < 3; ++c) row.push_back(column(m, c)[cell]);
