@@ -27,13 +27,13 @@ static_assert(gonio::smooth_metric<smooth_identity_metric>);
 struct constant_basis {
   gonio::valid_cells over;
   double mean = 0.0;
-  std::size_t size() const { return 1; }
+  Eigen::Index size() const { return 1; }
   const gonio::valid_cells& cells() const { return over; }
-  std::span<const float> row(std::size_t) const {
+  std::span<const float> row(Eigen::Index) const {
     static constexpr float one = 1;
     return {&one, 1};
   }
-  double offset(std::size_t) const { return mean; }
+  double offset(Eigen::Index) const { return mean; }
   identity_metric metric() const { return {}; }
 };
 static_assert(gonio::tabulated_basis<constant_basis> && !gonio::computed_basis<constant_basis>);
@@ -42,10 +42,10 @@ static_assert(gonio::tabulated_basis<constant_basis> && !gonio::computed_basis<c
 struct theta_d_polynomial {
   gonio::valid_cells over;
   double mean = 0.0;
-  std::size_t size() const { return 2; }
+  Eigen::Index size() const { return 2; }
   const gonio::valid_cells& cells() const { return over; }
   void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
-  double offset(std::size_t) const { return mean; }
+  double offset(Eigen::Index) const { return mean; }
   identity_metric metric() const { return {}; }
 };
 static_assert(gonio::computed_basis<theta_d_polynomial> && !gonio::tabulated_basis<theta_d_polynomial>);

@@ -23,10 +23,10 @@ struct golden_noell {
   [[nodiscard]] gonio::sample_set samples(bool with_outliers) const {
     const auto truth = materials.table(materials.names.size() - 1);
     gonio::sample_set all;
-    for (const auto row : expected["measured_rows"].get<std::vector<std::size_t>>())
+    for (const auto row : expected["measured_rows"].get<std::vector<Eigen::Index>>())
       all.push_back({materials.cells.angles(row), truth.at(row)});
-    const auto positions = expected["outlier_positions"].get<std::vector<std::size_t>>();
-    const auto sources = expected["outlier_source_rows"].get<std::vector<std::size_t>>();
+    const auto positions = expected["outlier_positions"].get<std::vector<Eigen::Index>>();
+    const auto sources = expected["outlier_source_rows"].get<std::vector<Eigen::Index>>();
     if (with_outliers)
       for (std::size_t i = 0; i < positions.size(); ++i) all[positions[i]].value = truth.at(sources[i]);
     return all;
@@ -35,9 +35,8 @@ struct golden_noell {
   /// Root mean square over all cells of the log-relative difference from the truth, as the reference computes it.
   [[nodiscard]] double mapped_error(const gonio::brdf_table& estimate, std::size_t channel) const {
     double sum = 0.0;
-    for (std::size_t cell = 0; cell < cosine_weights.size(); ++cell) {
-      const double truth = double{materials.values(static_cast<Eigen::Index>(cell),
-                                                   materials.values.cols() - 3 + static_cast<Eigen::Index>(channel))};
+    for (Eigen::Index cell = 0; cell < std::ssize(cosine_weights); ++cell) {
+      const double truth = double{materials.values(cell, materials.values.cols() - 3 + channel)};
       const double found = double{estimate.values()[3 * cell + channel]}, weight = cosine_weights[cell];
       sum += std::pow(std::log((found * weight + 1e-3) / (truth * weight + 1e-3)), 2);
     }
@@ -51,9 +50,9 @@ inline const golden_noell& small_golden_noell() {
     const auto columns = golden_csv("small_brdf.csv");
     const auto names = golden_json("small_ridge.json")["materials"].get<std::vector<std::string>>();
     const std::vector<double>& weights = columns.at("cosweight");
-    const auto rows = static_cast<Eigen::Index>(weights.size());
+    const Eigen::Index rows = std::ssize(weights);
     golden_noell read{{gonio::valid_cells(gonio::grid({1, 1, static_cast<int>(rows)})), names,
-                       gonio::cell_matrix(rows, static_cast<Eigen::Index>(3 * names.size()))},
+                       gonio::cell_matrix(rows, 3 * names.size())},
                       weights,
                       golden_json("small_noell.json")};
     REQUIRE(read.materials.cells.size() == weights.size());
@@ -61,8 +60,7 @@ inline const golden_noell& small_golden_noell() {
       for (std::size_t c = 0; c < 3; ++c) {
         const std::vector<double>& column = columns.at(names[m] + "_" + "RGB"[c]);
         for (Eigen::Index row = 0; row < rows; ++row)
-          read.materials.values(row, static_cast<Eigen::Index>(3 * m + c)) =
-              static_cast<float>(column[static_cast<std::size_t>(row)]);
+          read.materials.values(row, 3 * m + c) = static_cast<float>(column[row]);
       }
     return read;
   }();

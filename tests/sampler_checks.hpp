@@ -114,7 +114,7 @@ class half_vector_chart {
 /// Bins of the chart: so many of t, and so many of turn.
 inline constexpr int rows = 20, columns = 12;
 
-[[nodiscard]] constexpr std::size_t bins() { return static_cast<std::size_t>(rows) * columns; }
+[[nodiscard]] constexpr std::size_t bins() { return rows * columns; }
 
 /// The bin of a direction, or `bins()` for one that is not finite.
 [[nodiscard]] inline std::size_t bin_of(const half_vector_chart& chart, const gonio::direction& wi) {
@@ -122,7 +122,7 @@ inline constexpr int rows = 20, columns = 12;
   const auto [t, turn] = chart.place_of(wi);
   const int row = std::min(static_cast<int>(t * rows), rows - 1);
   const int column = std::min(static_cast<int>(turn * columns), columns - 1);
-  return static_cast<std::size_t>(row * columns + column);
+  return row * columns + column;
 }
 
 /// The bins in their order.
@@ -178,13 +178,13 @@ template <gonio::direction_sampler Sampler>
 /// pooled, those that expect least first, until each expects 20 or more: Pearson's statistic has then the chi-square
 /// distribution.
 [[nodiscard]] inline double chi_square_p_value(const std::vector<double>& expected, const std::vector<double>& found) {
-  std::vector<std::size_t> order(expected.size());
+  std::vector<Eigen::Index> order(expected.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t bin) { return expected[bin]; });
   double statistic = 0.0, pooled_expected = 0.0, pooled_found = 0.0, still_expected = 0.0;
   for (const double count : expected) still_expected += count;
   int pools = 0;
-  for (const std::size_t bin : order) {
+  for (const Eigen::Index bin : order) {
     pooled_expected += expected[bin];
     pooled_found += found[bin];
     still_expected -= expected[bin];

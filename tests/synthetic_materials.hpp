@@ -18,18 +18,15 @@ inline const gonio::valid_cells& small_cells() {
 inline gonio::material_set synthetic_materials(const gonio::valid_cells& cells, std::size_t count, unsigned seed = 7) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform;
-  gonio::material_set set{
-      cells, {}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), static_cast<Eigen::Index>(3 * count))};
+  gonio::material_set set{cells, {}, gonio::cell_matrix(cells.size(), 3 * count)};
   for (std::size_t m = 0; m < count; ++m) {
     set.names.push_back("material-" + std::to_string(m));
     const double width = 0.05 + 0.4 * uniform(generator), peak = std::exp(4 * uniform(generator) - 1);
     const double colour[3] = {uniform(generator), uniform(generator), uniform(generator)};
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
       const auto angles = cells.angles(cell);
       const double lobe = peak * std::exp(-std::pow(angles.theta_h / width, 2)) * (1 + std::pow(angles.theta_d, 5));
-      for (std::size_t c = 0; c < 3; ++c)
-        set.values(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(3 * m + c)) =
-            static_cast<float>(0.3 * colour[c] + lobe);
+      for (std::size_t c = 0; c < 3; ++c) set.values(cell, 3 * m + c) = static_cast<float>(0.3 * colour[c] + lobe);
     }
   }
   return set;

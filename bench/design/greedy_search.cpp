@@ -22,7 +22,7 @@ constexpr gonio::thread_count threads{2};
 const gonio::log_relative_pca& prior() {
   static const auto learned = [] {
     gonio::material_set materials = real_materials();
-    std::vector<std::size_t> first(std::min<std::size_t>(materials.names.size(), 90));
+    std::vector<Eigen::Index> first(std::min<std::size_t>(materials.names.size(), 90));
     std::iota(first.begin(), first.end(), std::size_t{0});
     gonio::material_set training = materials.subset(first);
     const auto metric = gonio::log_relative::to_median_of(training, threads);
@@ -40,8 +40,8 @@ const gonio::design::cell_candidates& candidates() {
 }
 
 /// A choice of cells far from one another.
-std::vector<std::size_t> some_cells(std::size_t count) {
-  std::vector<std::size_t> cells;
+std::vector<Eigen::Index> some_cells(std::size_t count) {
+  std::vector<Eigen::Index> cells;
   for (std::size_t i = 0; i < count; ++i) cells.push_back((i * 7919 + 13) * 137 % candidates().size());
   return cells;
 }
@@ -72,7 +72,7 @@ BENCHMARK(set_up)->UseRealTime()->Unit(benchmark::kSecond)->Iterations(2);
 
 /// The bytes of Y and W, which a sweep reads once, and its operations.
 void sweep(benchmark::State& state) {
-  const auto n = static_cast<std::size_t>(state.range(0));
+  const std::size_t n = state.range(0);
   const auto cells = some_cells(n);
   for (auto _ : state) benchmark::DoNotOptimize(candidates().errors_with_each(cells).data());
   const double entries = static_cast<double>(candidates().size()) * static_cast<double>(prior().coefficients().rows());
@@ -84,7 +84,7 @@ BENCHMARK(sweep)->Arg(0)->Arg(1)->Arg(10)->Arg(19)->UseRealTime()->Unit(benchmar
 
 /// The yardsticks of this machine: reading as many bytes, and a product of floats by Eigen on both cores.
 void read_as_many_bytes(benchmark::State& state) {
-  const auto count = static_cast<std::size_t>(2 * prior().coefficients().rows()) * candidates().size();
+  const std::size_t count = (2 * prior().coefficients().rows()) * candidates().size();
   const std::vector<float> values(count, 1.0f);
   for (auto _ : state) {
     std::vector<float> sums((count + 65535) / 65536);
@@ -92,8 +92,7 @@ void read_as_many_bytes(benchmark::State& state) {
         sums.size(), 1,
         [&](gonio::block range) {
           const std::size_t begin = range.begin * 65536, size = std::min<std::size_t>(65536, count - begin);
-          sums[range.begin] =
-              Eigen::Map<const Eigen::ArrayXf>(values.data() + begin, static_cast<Eigen::Index>(size)).sum();
+          sums[range.begin] = Eigen::Map<const Eigen::ArrayXf>(values.data() + begin, size).sum();
         },
         threads);
     benchmark::DoNotOptimize(sums.data());

@@ -33,7 +33,7 @@ const gonio::correction& corrections() {
 /// Blue acrylic at one cell in `step`, a fifth of the measurements outliers.
 gonio::located_samples samples(std::int64_t step) {
   const auto truth = materials().table(materials().find("blue-acrylic"));
-  const std::size_t count = truth.cells().size() / static_cast<std::size_t>(step);
+  const std::size_t count = truth.cells().size() / step;
   return gonio::locate_samples(truth.cells(), gonio::sample_table(truth, gonio::random_cells(truth.cells(), count, 1),
                                                                   {.outlier_ratio = 0.2}, 1));
 }
@@ -78,8 +78,7 @@ void whole_robust_reconstruction(benchmark::State& state) {
   const auto measured = samples(state.range(0));
   gonio::sample_set set;
   for (std::size_t i = 0; i < measured.size(); ++i)
-    set.push_back(
-        {measured.locations[i].angles, measured.values.row(static_cast<Eigen::Index>(i)).transpose().array(), 1.0});
+    set.push_back({measured.locations[i].angles, measured.values.row(i).transpose().array(), 1.0});
   const gonio::robust_reconstruction estimator{others(), corrections()};
   for (auto _ : state) benchmark::DoNotOptimize(estimator.fit(set).tabulate(materials().cells));
 }
@@ -88,13 +87,12 @@ BENCHMARK(whole_robust_reconstruction)->Arg(1)->Arg(10)->Arg(1000)->UseRealTime(
 /// The yardstick: Eigen's rank update in float over the same rows, in blocks that fit into the cache, on two threads.
 void eigen_rank_update(benchmark::State& state) {
   const auto channel = corrections().channel(1);
-  const auto rows = static_cast<std::size_t>(channel.values().rows());
-  const auto k = static_cast<Eigen::Index>(corrections().size());
+  const std::size_t rows = channel.values().rows();
+  const Eigen::Index k = std::ssize(corrections());
   const Eigen::MatrixXf zero = Eigen::MatrixXf::Zero(k, k);
   for (auto _ : state) {
     const Eigen::MatrixXf sum = gonio::sum_over_blocks(rows, 256, zero, [&](Eigen::MatrixXf& part, gonio::block range) {
-      const Eigen::MatrixXf block =
-          channel.values().middleRows(static_cast<Eigen::Index>(range.begin), static_cast<Eigen::Index>(range.size()));
+      const Eigen::MatrixXf block = channel.values().middleRows(range.begin, range.size());
       part.selfadjointView<Eigen::Lower>().rankUpdate(block.transpose());
     });
     benchmark::DoNotOptimize(sum.data());
@@ -107,13 +105,10 @@ BENCHMARK(eigen_rank_update)->UseRealTime()->Unit(benchmark::kMillisecond);
 /// The other yardstick: reading a channel's rows.
 void read_rows(benchmark::State& state) {
   const auto channel = corrections().channel(1);
-  const auto rows = static_cast<std::size_t>(channel.values().rows());
+  const std::size_t rows = channel.values().rows();
   for (auto _ : state) {
     const double sum = gonio::sum_over_blocks(rows, 4096, 0.0, [&](double& part, gonio::block range) {
-      part += static_cast<double>(
-          channel.values()
-              .middleRows(static_cast<Eigen::Index>(range.begin), static_cast<Eigen::Index>(range.size()))
-              .sum());
+      part += static_cast<double>(channel.values().middleRows(range.begin, range.size()).sum());
     });
     benchmark::DoNotOptimize(sum);
   }

@@ -63,7 +63,7 @@ BENCHMARK(expand_cell_by_cell)->UseRealTime()->Unit(benchmark::kMillisecond);
 
 /// The yardstick: writing a new table by copying as many bytes as an expansion reads and writes.
 void copy(benchmark::State& state) {
-  const std::vector<char> from(static_cast<std::size_t>(moved_bytes() / 2), 1);
+  const std::vector<char> from(moved_bytes() / 2, 1);
   for (auto _ : state) {
     std::vector<char> to(from.size());
     std::memcpy(to.data(), from.data(), from.size());

@@ -13,7 +13,7 @@ const std::vector<gonio::model::fit_observation>& observations() {
   static const auto all = [] {
     const gonio::material_set materials = real_materials();
     const auto nickel = std::ranges::find(materials.names, "nickel") - materials.names.begin();
-    return gonio::model::fit_observations(materials.table(static_cast<std::size_t>(nickel)));
+    return gonio::model::fit_observations(materials.table(nickel));
   }();
   return all;
 }
@@ -26,7 +26,7 @@ const std::vector<const gonio::model::lobe_kind*>& kinds() {
 
 /// Of `state.range(0)` random starts beside the consecutive one, in `state.range(1)` threads.
 void fit_table(benchmark::State& state) {
-  const gonio::model::model_fit_options options{.random_starts = static_cast<std::size_t>(state.range(0)),
+  const gonio::model::model_fit_options options{.random_starts = state.range(0),
                                                 .threads = {static_cast<unsigned>(state.range(1))}};
   static_cast<void>(observations());
   gonio::model::model_fit fit;

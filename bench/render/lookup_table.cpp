@@ -33,8 +33,8 @@ struct pairs_of {
       wi.push_back(a.cast<Real>());
       wo.push_back(b.cast<Real>());
       for (std::size_t k = 0; k < 3; ++k) {
-        arrays[k].push_back(wi.back()[static_cast<Eigen::Index>(k)]);
-        arrays[3 + k].push_back(wo.back()[static_cast<Eigen::Index>(k)]);
+        arrays[k].push_back(wi.back()[k]);
+        arrays[3 + k].push_back(wo.back()[k]);
       }
     }
   }
@@ -58,10 +58,10 @@ struct some_material {
 class obvious_lookup {
  public:
   obvious_lookup() : planes_(3 * cells_.size()) {
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
+    for (Eigen::Index i = 0; i < cells_.size(); ++i) {
       const auto [wi, wo] = gonio::to_directions(cells_.angles(cells_.cell(i)));
       const gonio::rgb value = some_material{}(wi, wo);
-      for (std::size_t c = 0; c < 3; ++c) planes_[c * cells_.size() + i] = value[static_cast<Eigen::Index>(c)] * 1500.0;
+      for (std::size_t c = 0; c < 3; ++c) planes_[c * cells_.size() + i] = value[c] * 1500.0;
     }
   }
 
@@ -100,7 +100,7 @@ void look_up_all(benchmark::State& state, const Brdf& f) {
   const auto& all = pairs<Real>();
   for (auto _ : state) {
     Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-    for (std::size_t i = 0; i < all.count; ++i) sum += Eigen::Array<Real, 3, 1>(f(all.wi[i], all.wo[i]));
+    for (Eigen::Index i = 0; i < all.count; ++i) sum += Eigen::Array<Real, 3, 1>(f(all.wi[i], all.wo[i]));
     benchmark::DoNotOptimize(sum);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.count));
@@ -199,7 +199,7 @@ void draw_directions(benchmark::State& state) {
   for (double& number : numbers) number = static_cast<double>(generator() >> 11) * 0x1p-53;
   for (auto _ : state) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < all.count; ++i)
+    for (Eigen::Index i = 0; i < all.count; ++i)
       sum += material.sample(all.wo[i], numbers[2 * i], numbers[2 * i + 1]).pdf;
     benchmark::DoNotOptimize(sum);
   }

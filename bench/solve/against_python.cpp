@@ -75,24 +75,24 @@ void print_row(const std::string& what, double ours, const std::string& rival, d
 
 int main() {
   auto materials = real_materials();
-  const auto target = static_cast<Eigen::Index>(materials.find("blue-acrylic"));
+  const Eigen::Index target = materials.find("blue-acrylic");
   const gonio::measured basis{std::move(materials), gonio::log{}};
   const auto functions = basis.channel(0);
-  const auto count = static_cast<Eigen::Index>(basis.size());
-  gonio::cell_matrix rows(static_cast<Eigen::Index>(basis.cells().size()), count - 1);
+  const Eigen::Index count = basis.size();
+  gonio::cell_matrix rows(std::ssize(basis.cells()), count - 1);
   for (Eigen::Index cell = 0; cell < rows.rows(); ++cell) {
-    const auto row = functions.row(static_cast<std::size_t>(cell));
+    const auto row = functions.row(cell);
     Eigen::Index column = 0;
     for (Eigen::Index i = 0; i < count; ++i)
-      if (i != target) rows(cell, column++) = row[static_cast<std::size_t>(i)];
+      if (i != target) rows(cell, column++) = row[i];
   }
   const Eigen::MatrixXd products = functions.products();
   const auto normal = gonio::leave_one_out(products, target, gonio::all_but(count, target));
 
   const auto folder = std::filesystem::temp_directory_path() / "gonio-against-python";
   std::filesystem::create_directories(folder);
-  const auto k = static_cast<std::size_t>(count - 1);
-  save(folder / "rows.npy", rows.data(), static_cast<std::size_t>(rows.rows()), k);
+  const std::size_t k = count - 1;
+  save(folder / "rows.npy", rows.data(), rows.rows(), k);
   save(folder / "gram.npy", normal.gram().data(), k, k);
   save(folder / "moment.npy", normal.rhs().data(), k, 1);
 

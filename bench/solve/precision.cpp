@@ -70,7 +70,7 @@ class study {
     std::ranges::sort(weights);
     std::printf("| %s | %s | %.1e | %.1e | %.1e | %.1e | %d of %zu |\n", metric_.c_str(), name.c_str(),
                 residuals[residuals.size() / 2], residuals.back(), weights[weights.size() / 2], weights.back(), refused,
-                residuals.size() + static_cast<std::size_t>(refused));
+                residuals.size() + refused);
   }
 
  private:
@@ -81,19 +81,18 @@ class study {
 
 template <class Metric>
 study make_study(const std::string& name, const gonio::material_set& materials, const Metric& metric) {
-  const auto count = static_cast<Eigen::Index>(materials.names.size());
+  const Eigen::Index count = std::ssize(materials.names);
   const gonio::measured basis{materials, metric};
   std::vector<products> channels;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto functions = basis.channel(c);
     gonio::cell_matrix rows(materials.values.rows(), count);
     for (Eigen::Index cell = 0; cell < rows.rows(); ++cell)
-      std::ranges::copy(functions.row(static_cast<std::size_t>(cell)), rows.row(cell).data());
+      std::ranges::copy(functions.row(cell), rows.row(cell).data());
     channels.push_back({gonio::gram<double>(rows), gonio::gram<float>(rows)});
   }
   std::vector<Eigen::Index> targets;
-  for (const std::string& material : gonio::nielsen_test_materials())
-    targets.push_back(static_cast<Eigen::Index>(materials.find(material)));
+  for (const std::string& material : gonio::nielsen_test_materials()) targets.push_back(materials.find(material));
   return {name, std::move(channels), std::move(targets)};
 }
 

@@ -33,28 +33,26 @@ constexpr std::size_t channel = 1;
 /// One material from the others over every `step`-th cell. Reading rows copies nothing.
 gonio::least_squares_problem problem(std::size_t step) {
   const auto functions = materials().channel(channel);
-  const auto target =
-      static_cast<std::size_t>(std::ranges::find(materials().names(), "blue-acrylic") - materials().names().begin());
-  const auto rows = static_cast<Eigen::Index>((functions.cells().size() + step - 1) / step);
+  const std::size_t target = (std::ranges::find(materials().names(), "blue-acrylic") - materials().names().begin());
+  const Eigen::Index rows = (functions.cells().size() + step - 1) / step;
   Eigen::MatrixXd right(rows, 1);
-  for (Eigen::Index i = 0; i < rows; ++i) right(i, 0) = functions.row(static_cast<std::size_t>(i) * step)[target];
-  const gonio::row_source source{
-      rows, static_cast<Eigen::Index>(functions.size()), [functions, step](gonio::block range, gonio::row_block out) {
-        for (std::size_t i = range.begin; i < range.end; ++i) {
-          const auto row = functions.row(i * step);
-          for (std::size_t j = 0; j < row.size(); ++j)
-            out(static_cast<Eigen::Index>(i - range.begin), static_cast<Eigen::Index>(j)) = double{row[j]};
-        }
-      }};
-  const auto k = static_cast<Eigen::Index>(functions.size());
-  return gonio::least_squares_problem(source, right).subset(gonio::all_but(k, static_cast<Eigen::Index>(target)));
+  for (Eigen::Index i = 0; i < rows; ++i) right(i, 0) = functions.row(i * step)[target];
+  const gonio::row_source source{rows, functions.size(), [functions, step](gonio::block range, gonio::row_block out) {
+                                   for (Eigen::Index i = range.begin; i < range.end; ++i) {
+                                     const auto row = functions.row(i * step);
+                                     for (Eigen::Index j = 0; j < std::ssize(row); ++j)
+                                       out(i - range.begin, j) = double{row[j]};
+                                   }
+                                 }};
+  const Eigen::Index k = functions.size();
+  return gonio::least_squares_problem(source, right).subset(gonio::all_but(k, target));
 }
 
 const gonio::least_squares_problem& problem_of(std::int64_t step) {
   static std::map<std::int64_t, gonio::least_squares_problem> made;
   const auto found = made.find(step);
   if (found != made.end()) return found->second;
-  return made.emplace(step, problem(static_cast<std::size_t>(step))).first->second;
+  return made.emplace(step, problem(step)).first->second;
 }
 
 template <class Problem>
@@ -86,7 +84,7 @@ void from_rows(benchmark::State& state, const Solver& solver) {
 
 void assembly(benchmark::State& state) {
   (void)materials();  // made once, and not to be timed
-  for (auto _ : state) benchmark::DoNotOptimize(problem(static_cast<std::size_t>(state.range(0))).normal().rhs().sum());
+  for (auto _ : state) benchmark::DoNotOptimize(problem(state.range(0)).normal().rhs().sum());
 }
 
 /// Made-up data of k columns that are alike, as reflectance is, plus noise.

@@ -31,7 +31,7 @@ gonio::brdf_table table_of_prior(const expand_options& options, const gonio::val
   if (found == prior.names().end())
     gonio::refuse(options.prior.string() + ": there is no material named '" + options.name + "'");
   gonio::solution stored;
-  stored.weights = prior.weights_of(static_cast<std::size_t>(found - prior.names().begin()));
+  stored.weights = prior.weights_of(found - prior.names().begin());
   return gonio::fitted_brdf(prior, std::move(stored)).tabulate(cells, options.threads);
 }
 

@@ -32,8 +32,8 @@ json describe(const gonio::valid_cells& cells) {
 
 json describe(const gonio::brdf_table& table) {
   gonio::rgb low = table.at(0), high = low, sum = gonio::rgb::Zero();
-  std::size_t negative = 0;
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+  Eigen::Index negative = 0;
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
     const gonio::rgb value = table.at(cell);
     low = low.min(value);
     high = high.max(value);

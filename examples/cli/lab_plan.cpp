@@ -22,18 +22,18 @@ struct plan_command {
 /// A plan, and how many lamps burn one after the other at each stop.
 struct timed_plan {
   gonio::capture::scan_plan plan;
-  std::size_t stops = 0, lamps = 1;
+  Eigen::Index stops = 0, lamps = 1;
 };
 
 /// The note's whole scan: the camera at every pose of the half hemisphere, under every lamp.
 timed_plan whole_hemisphere(const lab::robot& machine) {
   const auto seen = gonio::capture::half_hemisphere();
   const auto order = gonio::capture::short_way(seen);
-  timed_plan result{{}, seen.size(), machine.arc().lamps()};
+  timed_plan result{{}, std::ssize(seen), machine.arc().lamps()};
   result.plan.length = gonio::capture::length_of_way(seen, order);
-  std::size_t number = 0;
-  for (const std::size_t i : order)
-    for (std::size_t lamp = 0; lamp < machine.arc().lamps(); ++lamp, ++number) {
+  Eigen::Index number = 0;
+  for (const Eigen::Index i : order)
+    for (Eigen::Index lamp = 0; lamp < machine.arc().lamps(); ++lamp, ++number) {
       const gonio::capture::placement found = machine.place({machine.arc().towards(lamp), seen[i]});
       if (found.is_reachable())
         result.plan.poses.push_back(found.at);

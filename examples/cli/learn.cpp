@@ -19,7 +19,7 @@ namespace {
 struct learn_options {
   material_source materials;
   std::filesystem::path output;
-  std::size_t components = 60;
+  Eigen::Index components = 60;
   std::string cosine_weight = "product";
   thinning thin{{3, 5}};
   gonio::thread_count threads;

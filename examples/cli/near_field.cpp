@@ -79,7 +79,7 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, s
     std::cout << images[i].file << ": light off by " << angle_of(refinement.turns()[i].light) << " degrees, camera by "
               << angle_of(refinement.turns()[i].camera) << '\n';
   std::vector<gonio::sample_set> all;
-  for (std::size_t m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
+  for (Eigen::Index m = 0; m < refinement.materials(); ++m) all.push_back(refinement.samples(m));
   return all;
 }
 
@@ -149,22 +149,20 @@ gonio::capture::colour_clusters clusters_of(const taken_image& image, const std:
 }
 
 /// FILE.csv of material 2 is FILE-2.csv.
-std::filesystem::path path_of_material(const std::filesystem::path& output, std::size_t material) {
+std::filesystem::path path_of_material(const std::filesystem::path& output, Eigen::Index material) {
   std::filesystem::path path = output;
   path.replace_filename(output.stem().string() + '-' + std::to_string(material + 1) + output.extension().string());
   return path;
 }
 
 /// Each material's pixels in its mean colour, the brightest channel of all of them white; black around.
-gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<std::size_t>& region,
+gonio::image label_map(const gonio::capture::colour_clusters& clusters, const std::vector<Eigen::Index>& region,
                        const gonio::camera_intrinsics& size) {
   gonio::image map = gonio::uniform_image(size.rows, size.columns);
   const double brightest = std::max(clusters.centres.maxCoeff(), 1e-30);
   for (std::size_t i = 0; i < region.size(); ++i)
-    gonio::set_pixel(
-        map, region[i] / size.columns, region[i] % size.columns,
-        gonio::rgb(clusters.centres.row(clusters.labels[static_cast<Eigen::Index>(i)]).transpose().array() /
-                   brightest));
+    gonio::set_pixel(map, region[i] / size.columns, region[i] % size.columns,
+                     gonio::rgb(clusters.centres.row(clusters.labels[i]).transpose().array() / brightest));
   return map;
 }
 
@@ -173,16 +171,16 @@ void write_samples_of_each(std::vector<taken_image> images, const command& given
   require_fixed_camera(images);
   const taken_image& diffuse = images.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
-  const std::vector<std::size_t> region = gonio::capture::pixels_of_region(diffuse.setup);
+  const std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(diffuse.setup);
   const gonio::capture::colour_clusters clusters = clusters_of(diffuse, region, options);
-  for (std::size_t material = 0; material < clusters.count(); ++material)
+  for (Eigen::Index material = 0; material < clusters.count(); ++material)
     given.require_writable(path_of_material(options.output, material));
   if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
   samples_of_materials samples;
   std::vector<std::string> counts;
-  for (std::size_t material = 0; material < clusters.count(); ++material) {
+  for (Eigen::Index material = 0; material < clusters.count(); ++material) {
     std::vector<bool> mask(size.rows * size.columns, false);
-    for (const std::size_t pixel : clusters.pixels(material)) mask[region[pixel]] = true;
+    for (const Eigen::Index pixel : clusters.pixels(material)) mask[region[pixel]] = true;
     auto& own = samples.emplace_back();
     for (taken_image& image : images) {
       image.setup.mask = mask;

@@ -13,15 +13,15 @@ namespace {
 
 struct sample_options {
   std::filesystem::path table, directions, output;
-  std::size_t count = 0;
+  Eigen::Index count = 0;
   double ratio = 0.0;
   gonio::measurement_defects defects;
   std::uint64_t seed = 0;
 };
 
-std::vector<std::size_t> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
+std::vector<Eigen::Index> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
   if (!options.directions.empty()) return gonio::cells_at(cells, gonio::io::read_directions(options.directions));
-  const std::size_t count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
+  const Eigen::Index count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
   return gonio::random_cells(cells, count, options.seed);
 }
 

@@ -101,6 +101,24 @@ option command::add_option(const std::string& names, unsigned long long& value, 
   return option(*known_->add_option(names, value, description));
 }
 
+namespace {
+
+/// An integer that must not be negative, with the name that the help has for those.
+CLI::Option& counting(CLI::Option& added) {
+  return *added.type_name("UINT")->check(CLI::Validator(CLI::NonNegativeNumber).description(""));
+}
+
+}  // namespace
+
+option command::add_option(const std::string& names, std::ptrdiff_t& value, const std::string& description) {
+  return option(counting(*known_->add_option(names, value, description)));
+}
+
+option command::add_option(const std::string& names, std::vector<std::ptrdiff_t>& values,
+                           const std::string& description) {
+  return option(counting(*known_->add_option(names, values, description)));
+}
+
 option command::add_option(const std::string& names, double& value, const std::string& description) {
   return option(*known_->add_option(names, value, description));
 }

@@ -3,6 +3,7 @@
 /// seconds to parse: only command.cpp includes it. Everything here but `program` is a handle, cheap to copy, of what
 /// the program owns.
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -85,6 +86,9 @@ class command {
   option add_option(const std::string& names, unsigned& value, const std::string& description);
   option add_option(const std::string& names, unsigned long& value, const std::string& description);
   option add_option(const std::string& names, unsigned long long& value, const std::string& description);
+  /// Counts and positions, `Eigen::Index`; negative numbers are refused.
+  option add_option(const std::string& names, std::ptrdiff_t& value, const std::string& description);
+  option add_option(const std::string& names, std::vector<std::ptrdiff_t>& values, const std::string& description);
   option add_option(const std::string& names, double& value, const std::string& description);
   option add_option(const std::string& names, std::optional<double>& value, const std::string& description);
   option add_option(const std::string& names, std::vector<std::string>& values, const std::string& description);

@@ -66,7 +66,7 @@ template <class Geometry>
 designed finished(const Geometry& geometry, const capture_plan& plan) {
   designed found;
   found.value = plan.value;
-  for (const std::size_t candidate : plan.candidates) {
+  for (const Eigen::Index candidate : plan.candidates) {
     found.poses.push_back(geometry.centre(candidate));
     const auto samples = geometry.directions(candidate);
     found.samples.insert(found.samples.end(), samples.begin(), samples.end());

@@ -15,7 +15,7 @@
 namespace cli {
 
 struct design_options {
-  std::size_t count = 20;
+  Eigen::Index count = 20;
   std::string geometry = "point", criterion = "expected-error", search = "exchange";
   double eta = gonio::default_eta;
   double noise = 0.0, common_shift = 0.0;        ///< of every measurement's logarithm: independent, and shared by all

@@ -55,9 +55,9 @@ double distance_to_slice(const gonio::sample& s) {
 
 /// The samples that a slice shows, the nearest last: those within half a degree or, if these are fewer than 400, the
 /// 400 nearest.
-std::vector<std::size_t> samples_near_slice(const gonio::sample_set& samples) {
+std::vector<Eigen::Index> samples_near_slice(const gonio::sample_set& samples) {
   constexpr std::size_t enough = 400;
-  std::vector<std::size_t> order(samples.size());
+  std::vector<Eigen::Index> order(samples.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(distance_to_slice(samples[i]), i); });
   std::size_t count = std::min(enough, order.size());

@@ -14,7 +14,7 @@ namespace cli {
 struct iteration_image {
   gonio::image image;
   /// For each round that is drawn, the mean CIELAB difference of its sphere to the truth's; empty without a truth.
-  std::vector<std::pair<std::size_t, double>> differences;
+  std::vector<std::pair<Eigen::Index, double>> differences;
 };
 
 /// Watches an iteration, and draws the start, rounds 1 and 2, and the last. docs/reference/formats.md describes the

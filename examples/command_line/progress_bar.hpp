@@ -34,8 +34,7 @@ class progress_bar {
     drawn_ = true;
     constexpr int width = 30;
     const int done = static_cast<int>(fraction * width);
-    const std::string bar =
-        std::string(static_cast<std::size_t>(done), '#') + std::string(static_cast<std::size_t>(width - done), '.');
+    const std::string bar = std::string(done, '#') + std::string(width - done, '.');
     std::fprintf(stderr, "\r\033[K%s %3.0f %% %s", bar.c_str(), 100.0 * fraction, gonio::printable(stage).c_str());
   }
 

@@ -225,7 +225,7 @@ static_assert(gonio::capture::camera<room_camera>);
 template <gonio::capture::light_source Lights>
 class lit {
  public:
-  lit(Lights& lights, std::size_t lamp) : lights_(lights) { lights_.switch_on(lamp); }
+  lit(Lights& lights, Eigen::Index lamp) : lights_(lights) { lights_.switch_on(lamp); }
   lit(const lit&) = delete;
   lit& operator=(const lit&) = delete;
   ~lit() { lights_.switch_off(); }

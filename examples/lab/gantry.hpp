@@ -33,8 +33,8 @@ static_assert(gonio::capture::positioner<gantry_arm>);
 class gantry_lamp {
  public:
   explicit gantry_lamp(dark_room& room) : room_(&room) {}
-  [[nodiscard]] std::size_t lamps() const { return 1; }
-  void switch_on(std::size_t) { room_->light(true); }
+  [[nodiscard]] Eigen::Index lamps() const { return 1; }
+  void switch_on(Eigen::Index) { room_->light(true); }
   void switch_off() { room_->light(false); }
 
  private:

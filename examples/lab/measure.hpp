@@ -13,10 +13,10 @@ namespace lab {
 
 /// A record that forgets all when it ends.
 struct scan_in_memory {
-  std::map<std::size_t, gonio::capture::reading> readings{};
+  std::map<Eigen::Index, gonio::capture::reading> readings{};
 
-  [[nodiscard]] bool has(std::size_t pose) const { return readings.contains(pose); }
-  void add(std::size_t pose, const gonio::capture::reading& taken) { readings.emplace(pose, taken); }
+  [[nodiscard]] bool has(Eigen::Index pose) const { return readings.contains(pose); }
+  void add(Eigen::Index pose, const gonio::capture::reading& taken) { readings.emplace(pose, taken); }
 };
 static_assert(gonio::capture::scan_record<scan_in_memory>);
 
@@ -44,7 +44,7 @@ template <gonio::capture::goniometer Machine>
   const gonio::capture::calibration known{gonio::capture::estimate_responses(both, chip.largest_count), noise, 0.99,
                                           static_cast<std::uint16_t>(0.98 * chip.largest_count)};
   std::vector<gonio::capture::measured_reflectance> measured;
-  for (std::size_t i = 0; i < poses.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(poses); ++i)
     measured.push_back(gonio::capture::measure_reflectance(material[i], reference[i], poses[i], known));
   return measured;
 }

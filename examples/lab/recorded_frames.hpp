@@ -147,12 +147,11 @@ class recorded_frames {
       throw gonio::capture::device_failure(file.string() + ": the window ends outside the image of " +
                                            std::to_string(codes.columns) + " x " + std::to_string(codes.rows) +
                                            " pixels");
-    gonio::capture::camera_frame counts(static_cast<Eigen::Index>(seen.rows * seen.columns), 3);
+    gonio::capture::camera_frame counts(seen.rows * seen.columns, 3);
     for (std::size_t row = 0; row < seen.rows; ++row)
       for (std::size_t column = 0; column < seen.columns; ++column)
         for (std::size_t channel = 0; channel < 3; ++channel)
-          counts(static_cast<Eigen::Index>(row * seen.columns + column), static_cast<Eigen::Index>(channel)) =
-              codes.at(seen.row + row, seen.column + column, channel);
+          counts(row * seen.columns + column, channel) = codes.at(seen.row + row, seen.column + column, channel);
     return counts;
   } catch (const gonio::error& refusal) {
     throw gonio::capture::device_failure(refusal.what());

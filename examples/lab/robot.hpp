@@ -12,18 +12,18 @@ class lamp_arc {
  public:
   explicit lamp_arc(dark_room& room) : room_(&room), towards_(gonio::capture::arc_lamps()) {}
 
-  [[nodiscard]] std::size_t lamps() const { return towards_.size(); }
-  void switch_on(std::size_t lamp) {
+  [[nodiscard]] Eigen::Index lamps() const { return towards_.size(); }
+  void switch_on(Eigen::Index lamp) {
     room_->place_lamp(radius * towards_.at(lamp));
     room_->light(true);
   }
   void switch_off() { room_->light(false); }
 
   /// In the sample's axes, in which the arc lies above x.
-  [[nodiscard]] const gonio::direction& towards(std::size_t lamp) const { return towards_[lamp]; }
-  [[nodiscard]] std::size_t nearest(const gonio::direction& w) const {
+  [[nodiscard]] const gonio::direction& towards(Eigen::Index lamp) const { return towards_[lamp]; }
+  [[nodiscard]] Eigen::Index nearest(const gonio::direction& w) const {
     const auto off = [&](const gonio::direction& lamp) { return gonio::angle_between(lamp, w); };
-    return static_cast<std::size_t>(std::ranges::min_element(towards_, {}, off) - towards_.begin());
+    return std::ranges::min_element(towards_, {}, off) - towards_.begin();
   }
 
   static constexpr double radius = 1000.0;

@@ -15,15 +15,14 @@ class lobes {
  public:
   explicit lobes(gonio::valid_cells cells) : cells_(std::move(cells)) {}
 
-  std::size_t size() const { return 1 + exponents.size(); }
+  Eigen::Index size() const { return 1 + std::ssize(exponents); }
   const gonio::valid_cells& cells() const { return cells_; }
-  double offset(std::size_t /*cell*/) const { return 0.0; }
+  double offset(Eigen::Index /*cell*/) const { return 0.0; }
   gonio::log metric() const { return {}; }
   /// The values of all functions at a location, in the metric's domain.
   void read_row(const gonio::location& at, gonio::function_row out) const {
     out[0] = 1.0;
-    for (std::size_t i = 0; i < exponents.size(); ++i)
-      out[static_cast<Eigen::Index>(i) + 1] = std::pow(std::cos(at.angles.theta_h), exponents[i]);
+    for (std::size_t i = 0; i < exponents.size(); ++i) out[i + 1] = std::pow(std::cos(at.angles.theta_h), exponents[i]);
   }
 
   static constexpr std::array<double, 2> exponents{20.0, 200.0};

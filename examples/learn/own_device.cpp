@@ -46,7 +46,7 @@ gonio::io::recorded_scan scan(const char* material, const gonio::capture::scan_p
 int main() {
   const auto wanted = gonio::io::read_direction_pairs("nielsen-20.csv");
   const auto plan = gonio::capture::plan_scan(desk_goniometer{gonio::model::formula_material("red-paint")}, wanted);
-  std::printf("%zu poses; pair %zu: %s\n", plan.poses.size(), plan.unreachable[0].number,
+  std::printf("%zu poses; pair %td: %s\n", plan.poses.size(), plan.unreachable[0].number,
               plan.unreachable[0].reason.c_str());
   const auto white = scan("grey-lambertian", plan), paint = scan("red-paint", plan);
 

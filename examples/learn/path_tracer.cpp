@@ -137,7 +137,7 @@ gonio::image render(const scene& world, std::size_t rows, std::size_t columns, i
 /// Truth and estimate in turn of the ten test materials of Nielsen et al. 2015.
 std::vector<material> measured_and_reconstructed(const std::filesystem::path& prior_file) {
   const auto all = gonio::expand(gonio::io::read_prior(prior_file));
-  std::vector<std::size_t> tested, others;
+  std::vector<Eigen::Index> tested, others;
   for (std::size_t i = 0; i < all.names.size(); ++i)
     (std::ranges::count(gonio::nielsen_test_materials(), all.names[i]) != 0 ? tested : others).push_back(i);
   gonio::material_set learned = all.subset(others);
@@ -145,7 +145,7 @@ std::vector<material> measured_and_reconstructed(const std::filesystem::path& pr
   const gonio::decomposition estimator{gonio::learn_pca(std::move(learned), metric, 60), gonio::tikhonov{40.0}};
 
   std::vector<material> materials;
-  for (const std::size_t i : tested) {
+  for (const Eigen::Index i : tested) {
     const gonio::brdf_table truth = all.table(i);
     gonio::sample_set samples;
     for (const auto& angles : gonio::design::nielsen_directions(20)) {

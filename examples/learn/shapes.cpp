@@ -31,7 +31,7 @@ int main() {
 
   std::vector<Eigen::Index> hole;
   for (std::size_t v = 0; v < ear.covered.size(); ++v)
-    if (!ear.covered[v]) hole.push_back(static_cast<Eigen::Index>(v));
+    if (!ear.covered[v]) hole.push_back(v);
   const gonio::shape::surface_index truth(ear.complete);
   const gonio::shape::point_columns mean = found.pose.inverse()(model.mean().vertices);
   std::printf("%zu of %zu vertices are in the hole\n", hole.size(), ear.covered.size());

@@ -24,7 +24,7 @@ int main() {
               greedy.value / nothing, best.value / nothing, candidates(published) / nothing);
 
   std::printf("theta_i  phi_i  theta_o  phi_o, degrees\n");
-  for (const std::size_t cell : best.candidates) {
+  for (const Eigen::Index cell : best.candidates) {
     const auto [wi, wo] = candidates.geometry().centre(cell);
     std::printf("%7.1f %6.1f %8.1f %6.1f\n", gonio::degrees(gonio::polar_angle(wi)), gonio::degrees(gonio::azimuth(wi)),
                 gonio::degrees(gonio::polar_angle(wo)), gonio::degrees(gonio::azimuth(wo)));

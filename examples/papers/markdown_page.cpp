@@ -92,7 +92,7 @@ class keeping_buffer : public std::streambuf {
     return next_->sputc(traits_type::to_char_type(character));
   }
   std::streamsize xsputn(const char* text, std::streamsize size) override {
-    kept_.append(text, static_cast<std::size_t>(size));
+    kept_.append(text, size);
     return next_->sputn(text, size);
   }
   int sync() override { return next_->pubsync(); }

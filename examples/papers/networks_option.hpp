@@ -31,7 +31,7 @@ inline void add_networks_option(command& to, studied_networks& networks) {
 }
 
 /// Adds `-n,--counts N ...`.
-inline void add_counts_option(command& to, std::vector<std::size_t>& counts) {
+inline void add_counts_option(command& to, std::vector<Eigen::Index>& counts) {
   to.add_option("-n,--counts", counts, "Numbers of measurements").check(check::positive_number()).capture_default_str();
 }
 

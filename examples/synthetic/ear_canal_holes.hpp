@@ -72,70 +72,69 @@ struct sampled_surface {
 
  private:
   /// The triangles fall in groups that `parent` joins: the group's first triangle.
-  [[nodiscard]] static std::size_t root(std::vector<std::size_t>& parent, std::size_t one) {
+  [[nodiscard]] static Eigen::Index root(std::vector<Eigen::Index>& parent, Eigen::Index one) {
     while (parent[one] != one) one = parent[one] = parent[parent[one]];
     return one;
   }
 
   /// Of the fans of triangles at each vertex, keeps the largest. Were there others?
   bool remove_small_fans(std::vector<Eigen::Vector3i>& triangles) const {
-    std::vector<std::vector<std::size_t>> around(static_cast<std::size_t>(mesh.vertices.cols()));
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (const int vertex : triangles[t]) around[static_cast<std::size_t>(vertex)].push_back(t);
+    std::vector<std::vector<Eigen::Index>> around(mesh.vertices.cols());
+    for (Eigen::Index t = 0; t < std::ssize(triangles); ++t)
+      for (const int vertex : triangles[t]) around[vertex].push_back(t);
     std::vector<bool> removed(triangles.size(), false);
-    for (std::size_t v = 0; v < around.size(); ++v)
-      for (const std::size_t t : small_fans(triangles, around[v], static_cast<int>(v))) removed[t] = true;
-    std::size_t next = 0;
+    for (Eigen::Index v = 0; v < std::ssize(around); ++v)
+      for (const Eigen::Index t : small_fans(triangles, around[v], static_cast<int>(v))) removed[t] = true;
+    Eigen::Index next = 0;
     const auto gone = std::erase_if(triangles, [&](const auto&) { return removed[next++]; });
     return gone > 0;
   }
 
   /// The triangles round a vertex that are not in its largest fan.
-  [[nodiscard]] static std::vector<std::size_t> small_fans(const std::vector<Eigen::Vector3i>& triangles,
-                                                           const std::vector<std::size_t>& around, int vertex) {
-    std::vector<std::size_t> parent(around.size()), sizes(around.size(), 0), small;
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    std::map<int, std::size_t> first_with;  // another vertex, and so an edge
-    for (std::size_t i = 0; i < around.size(); ++i)
+  [[nodiscard]] static std::vector<Eigen::Index> small_fans(const std::vector<Eigen::Vector3i>& triangles,
+                                                            const std::vector<Eigen::Index>& around, int vertex) {
+    std::vector<Eigen::Index> parent(around.size()), sizes(around.size(), 0), small;
+    std::iota(parent.begin(), parent.end(), Eigen::Index{0});
+    std::map<int, Eigen::Index> first_with;  // another vertex, and so an edge
+    for (Eigen::Index i = 0; i < std::ssize(around); ++i)
       for (const int other : triangles[around[i]]) {
         if (other == vertex) continue;
         const auto [found, is_new] = first_with.try_emplace(other, i);
         if (!is_new) parent[root(parent, i)] = root(parent, found->second);
       }
-    for (std::size_t i = 0; i < around.size(); ++i) ++sizes[root(parent, i)];
+    for (Eigen::Index i = 0; i < std::ssize(around); ++i) ++sizes[root(parent, i)];
     if (sizes.empty()) return small;
-    const auto largest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
-    for (std::size_t i = 0; i < around.size(); ++i)
+    const Eigen::Index largest = std::ranges::max_element(sizes) - sizes.begin();
+    for (Eigen::Index i = 0; i < std::ssize(around); ++i)
       if (root(parent, i) != largest) small.push_back(around[i]);
     return small;
   }
 
   void keep_largest_part(std::vector<Eigen::Vector3i>& triangles) const {
-    const auto count = static_cast<std::size_t>(mesh.vertices.cols());
-    std::vector<std::size_t> parent(count), sizes(count, 0);
-    std::iota(parent.begin(), parent.end(), std::size_t{0});
-    const auto part = [&](int vertex) { return root(parent, static_cast<std::size_t>(vertex)); };
+    const Eigen::Index count = mesh.vertices.cols();
+    std::vector<Eigen::Index> parent(count), sizes(count, 0);
+    std::iota(parent.begin(), parent.end(), Eigen::Index{0});
+    const auto part = [&](int vertex) { return root(parent, vertex); };
     for (const Eigen::Vector3i& corners : triangles)
       for (int side = 0; side < 2; ++side) parent[part(corners[side])] = part(corners[side + 1]);
     for (const Eigen::Vector3i& corners : triangles) ++sizes[part(corners[0])];
-    const auto largest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+    const Eigen::Index largest = std::ranges::max_element(sizes) - sizes.begin();
     std::erase_if(triangles, [&](const Eigen::Vector3i& corners) { return part(corners[0]) != largest; });
   }
 
   std::vector<Eigen::Index> renumber(const std::vector<Eigen::Vector3i>& triangles) {
-    std::vector<int> number(static_cast<std::size_t>(mesh.vertices.cols()), -1);
+    std::vector<int> number(mesh.vertices.cols(), -1);
     for (const Eigen::Vector3i& corners : triangles)
-      for (const int vertex : corners) number[static_cast<std::size_t>(vertex)] = 0;
+      for (const int vertex : corners) number[vertex] = 0;
     std::vector<Eigen::Index> left;
-    for (std::size_t v = 0; v < number.size(); ++v) {
+    for (Eigen::Index v = 0; v < std::ssize(number); ++v) {
       if (number[v] < 0) continue;
       number[v] = static_cast<int>(left.size());
-      left.push_back(static_cast<Eigen::Index>(v));
+      left.push_back(v);
     }
-    mesh.triangles.resize(3, static_cast<Eigen::Index>(triangles.size()));
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-      for (int corner = 0; corner < 3; ++corner)
-        mesh.triangles(corner, static_cast<Eigen::Index>(t)) = number[static_cast<std::size_t>(triangles[t][corner])];
+    mesh.triangles.resize(3, std::ssize(triangles));
+    for (Eigen::Index t = 0; t < std::ssize(triangles); ++t)
+      for (int corner = 0; corner < 3; ++corner) mesh.triangles(corner, t) = number[triangles[t][corner]];
     mesh.vertices = gonio::shape::point_columns(mesh.vertices(Eigen::all, left));
     normals = gonio::shape::point_columns(normals(Eigen::all, left));
     places = parameter_columns(places(Eigen::all, left));
@@ -171,7 +170,7 @@ class ear_hole {
     const double round = std::remainder(place.y() - v_, 2.0 * std::numbers::pi) / (std::numbers::pi * options_.share);
     const double direction = std::atan2(round, along);
     double edge = 1.0;
-    for (std::size_t i = 0; i < waves_.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(waves_); ++i)
       edge += options_.ragged * waves_[i].size * std::cos(static_cast<double>(i + 2) * direction + waves_[i].phase) /
               std::sqrt(static_cast<double>(waves_.size()));
     return std::hypot(along, round) < edge;
@@ -179,15 +178,15 @@ class ear_hole {
 
   /// Takes the hole's triangles out of a scan, and disturbs its edge. Throws gonio::error if nothing is left.
   void cut(sampled_surface& sampled, number_source& numbers) const {
-    std::vector<bool> inside, on_edge(static_cast<std::size_t>(sampled.places.cols()), false);
+    std::vector<bool> inside, on_edge(sampled.places.cols(), false);
     for (const auto& place : sampled.places.colwise()) inside.push_back(contains(place));
-    const auto is_inside = [&](Eigen::Index vertex) { return inside[static_cast<std::size_t>(vertex)]; };
+    const auto is_inside = [&](Eigen::Index vertex) { return inside[vertex]; };
     for (const auto& corners : sampled.mesh.triangles.colwise())
       if (is_inside(corners[0]) || is_inside(corners[1]) || is_inside(corners[2]))
-        for (const int vertex : corners) on_edge[static_cast<std::size_t>(vertex)] = true;
+        for (const int vertex : corners) on_edge[vertex] = true;
     const auto left = sampled.keep_where([&](Eigen::Index vertex) { return !is_inside(vertex); });
     std::vector<bool> edge_left;
-    for (const Eigen::Index former : left) edge_left.push_back(on_edge[static_cast<std::size_t>(former)]);
+    for (const Eigen::Index former : left) edge_left.push_back(on_edge[former]);
     disturb_edge(sampled, edge_left, numbers);
     add_flaps(sampled, edge_left, numbers);
   }
@@ -203,8 +202,7 @@ class ear_hole {
     for (Eigen::Index i = 0; i < before.cols(); ++i) {
       double distance = std::numeric_limits<double>::infinity();
       for (Eigen::Index j = 0; j < before.cols(); ++j)
-        if (on_edge[static_cast<std::size_t>(j)])
-          distance = std::min(distance, (before.col(i) - before.col(j)).squaredNorm());
+        if (on_edge[j]) distance = std::min(distance, (before.col(i) - before.col(j)).squaredNorm());
       if (distance > options_.edge_reach * options_.edge_reach) continue;
       sampled.mesh.vertices.col(i) += options_.edge_noise * numbers.normal() * sampled.normals.col(i);
     }
@@ -220,8 +218,7 @@ class ear_hole {
     std::vector<Eigen::Vector3d> tips;
     for (const auto& [edge, across] : opposite) {
       const auto [from, to] = edge;
-      if (opposite.contains({to, from}) || !on_edge[static_cast<std::size_t>(from)] ||
-          !on_edge[static_cast<std::size_t>(to)] || numbers.uniform() >= options_.flaps)
+      if (opposite.contains({to, from}) || !on_edge[from] || !on_edge[to] || numbers.uniform() >= options_.flaps)
         continue;
       const Eigen::Vector3d middle = 0.5 * (sampled.mesh.vertices.col(from) + sampled.mesh.vertices.col(to));
       const double reach = numbers.uniform(0.7, 2.0), off = 0.4 * numbers.normal();
@@ -235,13 +232,13 @@ class ear_hole {
   static void append(sampled_surface& sampled, const std::vector<Eigen::Vector3i>& flaps,
                      const std::vector<Eigen::Vector3d>& tips) {
     const Eigen::Index vertices = sampled.places.cols(), triangles = sampled.mesh.triangles.cols();
-    const auto more = static_cast<Eigen::Index>(flaps.size());
+    const Eigen::Index more = std::ssize(flaps);
     sampled.mesh.vertices.conservativeResize(Eigen::NoChange, vertices + more);
     sampled.normals.conservativeResize(Eigen::NoChange, vertices + more);
     sampled.places.conservativeResize(Eigen::NoChange, vertices + more);
     sampled.mesh.triangles.conservativeResize(Eigen::NoChange, triangles + more);
     for (Eigen::Index i = 0; i < more; ++i) {
-      const auto at = static_cast<std::size_t>(i);
+      const Eigen::Index at = i;
       sampled.mesh.vertices.col(vertices + i) = tips[at];
       sampled.normals.col(vertices + i) = sampled.normals.col(flaps[at][0]).eval();
       sampled.places.col(vertices + i) = sampled.places.col(flaps[at][0]).eval();

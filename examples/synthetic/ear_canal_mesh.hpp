@@ -73,8 +73,8 @@ class ring_mesher {
 
   template <class Columns, class Vector>
   [[nodiscard]] static Columns columns_of(const std::vector<Vector>& vectors) {
-    Columns columns(Columns::RowsAtCompileTime, static_cast<Eigen::Index>(vectors.size()));
-    for (std::size_t i = 0; i < vectors.size(); ++i) columns.col(static_cast<Eigen::Index>(i)) = vectors[i];
+    Columns columns(Columns::RowsAtCompileTime, std::ssize(vectors));
+    for (std::size_t i = 0; i < vectors.size(); ++i) columns.col(i) = vectors[i];
     return columns;
   }
 
@@ -100,27 +100,27 @@ class ring_mesher {
   [[nodiscard]] double level_at(double distance) const {
     const auto above = std::ranges::upper_bound(distances_, distance);
     if (above == distances_.end()) return levels;
-    const auto low = static_cast<std::size_t>(above - distances_.begin()) - 1;
+    const std::size_t low = (above - distances_.begin()) - 1;
     return static_cast<double>(low) + (distance - distances_[low]) / (distances_[low + 1] - distances_[low]);
   }
 
-  [[nodiscard]] std::vector<std::size_t> counts_for(double spacing) const {
+  [[nodiscard]] std::vector<Eigen::Index> counts_for(double spacing) const {
     const auto rings =
-        static_cast<std::size_t>(std::max(3.0, std::round(distances_.back() / (spacing * 0.5 * std::numbers::sqrt3))));
-    std::vector<std::size_t> counts;
-    for (std::size_t ring = 0; ring < rings; ++ring) {
+        static_cast<Eigen::Index>(std::max(3.0, std::round(distances_.back() / (spacing * 0.5 * std::numbers::sqrt3))));
+    std::vector<Eigen::Index> counts;
+    for (Eigen::Index ring = 0; ring < rings; ++ring) {
       const double level = level_at(distances_.back() * static_cast<double>(ring) / static_cast<double>(rings));
-      const auto low = static_cast<std::size_t>(std::min(level, levels - 1.0));
+      const auto low = static_cast<Eigen::Index>(std::min(level, levels - 1.0));
       const double share = level - static_cast<double>(low);
       const double round = (1.0 - share) * circumferences_[low] + share * circumferences_[low + 1];
-      counts.push_back(static_cast<std::size_t>(std::max(5.0, std::round(round / spacing))));
+      counts.push_back(static_cast<Eigen::Index>(std::max(5.0, std::round(round / spacing))));
     }
     return counts;
   }
 
   /// The spacing that comes closest to a number of vertices; rings here and there take one more or less to meet it.
   void choose_counts(std::size_t vertices) {
-    const auto total = [](const std::vector<std::size_t>& counts) {
+    const auto total = [](const std::vector<Eigen::Index>& counts) {
       return std::accumulate(counts.begin(), counts.end(), std::size_t{1});
     };
     double low = 1e-3, high = distances_.back();
@@ -177,7 +177,7 @@ class ring_mesher {
   [[nodiscard]] static double angle_at(const std::vector<double>& lengths, double share) {
     const double turns = std::floor(share), length = (share - turns) * lengths.back();
     const auto above = std::ranges::upper_bound(lengths, length);
-    const auto low = std::min(static_cast<std::size_t>(above - lengths.begin()), lengths.size() - 1) - 1;
+    const auto low = std::min(above - lengths.begin(), std::ssize(lengths) - 1) - 1;
     const double part = (length - lengths[low]) / (lengths[low + 1] - lengths[low]);
     return full * (turns + (static_cast<double>(low) + part) / sectors);
   }
@@ -229,7 +229,7 @@ class ring_mesher {
   number_source numbers_;
   double skew_phase_ = 0.0;
   std::vector<double> circumferences_, distances_;  // at the levels
-  std::vector<std::size_t> counts_, firsts_;        // of the rings
+  std::vector<Eigen::Index> counts_, firsts_;       // of the rings
   std::vector<Eigen::Vector2d> places_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3i> triangles_;

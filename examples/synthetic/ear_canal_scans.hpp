@@ -160,7 +160,7 @@ class scanner {
   /// The mesh of the scan without noise, in the family's coordinates.
   [[nodiscard]] sampled_surface sample() {
     number_source numbers(own_seeds_[3]);
-    const std::size_t drawn = 8000 + static_cast<std::size_t>(7001.0 * numbers.uniform());
+    const auto drawn = 8000 + static_cast<std::size_t>(7001.0 * numbers.uniform());
     cut_ = options_.cut > 0.0 ? std::clamp(options_.cut * numbers.normal(), -0.02, 0.02) : 0.0;
     slant_ = options_.cut > 0.0 ? std::clamp(options_.cut * numbers.normal(), -0.02, 0.02) : 0.0;
     slant_phase_ = numbers.uniform(0.0, 2.0 * std::numbers::pi);

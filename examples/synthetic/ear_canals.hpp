@@ -170,7 +170,7 @@ class ear_canal {
   void read_latents() {
     latent_reader read(latents_);
     constexpr double degree = std::numbers::pi / 180.0;
-    for (int k = 0; k < 4; ++k) log_speed_[static_cast<std::size_t>(k)] = read.next(0.0, 0.07 / (1 + k));
+    for (int k = 0; k < 4; ++k) log_speed_[k] = read.next(0.0, 0.07 / (1 + k));
     bends_[0] = {first_bend, read.next(40.0, 7.0) * degree, 0.0, 0.0};
     bends_[1] = {second_bend, read.next(36.0, 7.0) * degree, 0.0, 0.0};
     bends_[0].plane = read.next(70.0, 12.0) * degree;    // backwards, a little up
@@ -178,7 +178,7 @@ class ear_canal {
     for (bend& one : bends_) one.width = 0.20 * std::exp(read.next(0.0, 0.06));
     twist_ = read.next(0.25, 0.15);
     for (int k = 0; k < 2; ++k)
-      for (auto& axis : wander_) axis[static_cast<std::size_t>(k)] = read.next(0.0, 0.16 / (1 + k));
+      for (auto& axis : wander_) axis[k] = read.next(0.0, 0.16 / (1 + k));
     constexpr std::array<double, 5> calibre{1.33, 0.07, 0.03, 0.0, 0.0};
     for (std::size_t k = 0; k < 5; ++k) log_calibre_[k] = read.next(calibre[k], 0.075 / (1.0 + 0.8 * double(k)));
     constexpr std::array<double, 3> up{0.14, 0.04, -0.03}, aslant{0.03, -0.08, 0.02};
@@ -252,11 +252,10 @@ class ear_canal {
       const Eigen::Vector3d turning = turning_at(u);
       const double rate = turning.norm();
       const Eigen::Vector3d axis = rate > 0.0 ? Eigen::Vector3d(turning / rate) : Eigen::Vector3d::UnitX();
-      const station& here = line_[static_cast<std::size_t>(i)];
+      const station& here = line_[i];
       const Eigen::Quaterniond half = here.frame * Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * rate * step, axis));
-      line_[static_cast<std::size_t>(i) + 1] = {
-          here.centre + half * Eigen::Vector3d(speed_at(u) * step, 0.0, 0.0),
-          (here.frame * Eigen::Quaterniond(Eigen::AngleAxisd(rate * step, axis))).normalized()};
+      line_[i + 1] = {here.centre + half * Eigen::Vector3d(speed_at(u) * step, 0.0, 0.0),
+                      (here.frame * Eigen::Quaterniond(Eigen::AngleAxisd(rate * step, axis))).normalized()};
     }
     stand_upright();
   }
@@ -292,7 +291,7 @@ class ear_canal {
     for (std::size_t m = 0; m < 3; ++m) lobes += lobe_cosine_[m] * c[m + 1] + lobe_sine_[m] * s[m + 1];
     double bumps = 0.0;
     for (const wave& one : waves_) {
-      const auto m = static_cast<std::size_t>(one.m);
+      const std::size_t m = one.m;
       bumps += std::cos(one.k * std::numbers::pi * u) * (one.a * c[m] + one.b * s[m]);
     }
     return std::exp(cosine_sum(log_calibre_, u) + ellipse) + bowl_at(u) * std::exp(lobes) +

@@ -31,10 +31,9 @@ class approximations {
     const auto x = gonio::nnls().solve(gonio::leave_one_out(products_[channel], target, others)).weights;
     const auto functions = basis_.channel(channel);
     std::vector<double> values;
-    for (std::size_t cell = 0; cell < basis_.cells().size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < basis_.cells().size(); ++cell) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < others.size(); ++i)
-        sum += x(static_cast<Eigen::Index>(i), 0) * double{functions.row(cell)[static_cast<std::size_t>(others[i])]};
+      for (std::size_t i = 0; i < others.size(); ++i) sum += x(i, 0) * double{functions.row(cell)[others[i]]};
       values.push_back(std::max(basis_.metric().inverse(sum, gonio::locate_cell(basis_.cells(), cell)), 0.0));
     }
     return values;
@@ -52,14 +51,13 @@ void check_that_materials_come_back(const gonio::material_set& set, const Metric
   const correction corrections{basis, rule};
   const approximations<Metric> approximation{basis};
   double largest = 0.0;
-  for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(set.names.size()); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(set.names); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
       const auto estimates = approximation.of(i, c);
-      for (std::size_t cell = 0; cell < estimates.size(); ++cell) {
-        const float sigma = corrections.channel(c).row(cell)[static_cast<std::size_t>(i)];
+      for (Eigen::Index cell = 0; cell < std::ssize(estimates); ++cell) {
+        const float sigma = corrections.channel(c).row(cell)[i];
         const double shifted = std::max(estimates[cell] + double{rule.factor.offset}, double{rule.factor.smallest});
-        const double material =
-            double{set.values(static_cast<Eigen::Index>(cell), 3 * i + static_cast<Eigen::Index>(c))};
+        const double material = double{set.values(cell, 3 * i + c)};
         const double back = double{sigma} * shifted - double{rule.factor.offset};
         largest = std::max(largest, std::abs(back - material) / (material + 1e-3));
       }
@@ -72,7 +70,7 @@ void check_that_materials_come_back(const gonio::material_set& set, const Metric
 std::vector<float> function_values(const correction& corrections, std::size_t function) {
   std::vector<float> values;
   for (std::size_t c = 0; c < 3; ++c)
-    for (std::size_t cell = 0; cell < corrections.cells().size(); ++cell)
+    for (Eigen::Index cell = 0; cell < corrections.cells().size(); ++cell)
       values.push_back(corrections.channel(c).row(cell)[function]);
   return values;
 }
@@ -89,7 +87,7 @@ TEST_CASE("golden: the corrections of eleven measured materials as printed") {
     for (std::size_t i = 0; i < 11; ++i)
       for (std::size_t cell = 0; cell < 5; ++cell) {
         const double expected = golden.expected["channels"][c]["C_first5cols"][i][cell].get<double>();
-        const auto column = static_cast<std::size_t>(corrections.columns()[i]);
+        const std::size_t column = corrections.columns()[i];
         largest = std::max(largest, std::abs(double{corrections.channel(c).row(cell)[column]} / expected - 1.0));
       }
   // Tables and their logarithms are rounded to float here, and are double in the reference.
@@ -130,7 +128,7 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
   gonio::material_set rest{set.cells, {}, gonio::cell_matrix(set.values.rows(), 12)};
   for (Eigen::Index i = 0, to = 0; i < 5; ++i)
     if (i != 1) {
-      rest.names.push_back(set.names[static_cast<std::size_t>(i)]);
+      rest.names.push_back(set.names[i]);
       rest.values.middleCols(3 * to++, 3) = set.values.middleCols(3 * i, 3);
     }
   const correction direct{gonio::measured{rest, gonio::log{}}};
@@ -140,8 +138,7 @@ TEST_CASE("a material that the basis leaves out is in no approximation") {
     CHECK(without_it.left_out() == std::vector<std::string>{"material-1"});
     REQUIRE(std::ranges::equal(without_it.columns(), std::vector<Eigen::Index>{0, 2, 3, 4, 5}));
     for (std::size_t f = 0; f < 5; ++f) {
-      const auto one = function_values(without_it, static_cast<std::size_t>(without_it.columns()[f])),
-                 other = function_values(direct, f);
+      const auto one = function_values(without_it, without_it.columns()[f]), other = function_values(direct, f);
       // Gram matrices of other sizes are summed in another order, in double; the product of rows and weights in float
       // has the zero weight of the material left out among its terms.
       for (std::size_t i = 0; i < one.size(); ++i) REQUIRE(one[i] == doctest::Approx(double{other[i]}).epsilon(2e-6));
@@ -167,7 +164,7 @@ TEST_CASE("leaving materials out one by one, all at once or before is the same")
     RC_ASSERT(at_once.left_out() == out);
     RC_ASSERT(before.left_out() == out);
     for (const Eigen::Index column : before.columns()) {
-      const auto f = static_cast<std::size_t>(column);
+      const std::size_t f = column;
       const auto expected = function_values(before, f), one = function_values(one_by_one, f),
                  other = function_values(at_once, f);
       for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -240,7 +237,7 @@ TEST_CASE("corrections are the same for any number of threads") {
   const auto set = synthetic_materials(gonio::valid_cells(gonio::grid({12, 10, 12})), 6);
   const gonio::measured basis{set, gonio::log{}};
   const correction one{basis, {}, gonio::nnls{}, {1}}, three{basis, {}, gonio::nnls{}, {3}};
-  for (std::size_t f = 0; f < one.size(); ++f) CHECK(function_values(one, f) == function_values(three, f));
+  for (Eigen::Index f = 0; f < one.size(); ++f) CHECK(function_values(one, f) == function_values(three, f));
 }
 
 TEST_CASE("fewer than two materials have no corrections") {

@@ -13,8 +13,7 @@ TEST_CASE("components are those of a dense singular value decomposition") {
   const auto prior = learn(set, 18);
   Eigen::MatrixXd x(set.values.rows(), set.values.cols());
   for (Eigen::Index cell = 0; cell < x.rows(); ++cell)
-    for (Eigen::Index j = 0; j < x.cols(); ++j)
-      x(cell, j) = prior.metric().forward(set.values(cell, j), static_cast<std::size_t>(cell));
+    for (Eigen::Index j = 0; j < x.cols(); ++j) x(cell, j) = prior.metric().forward(set.values(cell, j), cell);
   const Eigen::VectorXd mean = x.rowwise().mean();
   x.colwise() -= mean;
   const auto svd = dense_reference::svd(x);
@@ -22,15 +21,15 @@ TEST_CASE("components are those of a dense singular value decomposition") {
   CHECK(prior.size() < 18);  // centring takes one away, and colours of one lobe are related
   for (std::size_t k = 0; k < 5; ++k) {
     CAPTURE(k);
-    const auto i = static_cast<Eigen::Index>(k);
+    const Eigen::Index i = k;
     CHECK(prior.singular_values()[i] == doctest::Approx(svd.values[i]).epsilon(1e-5));
     // Up to sign, Q's column is V's times sigma.
     const Eigen::VectorXd q = prior.components().col(i).cast<double>();
     const Eigen::VectorXd expected = svd.u.col(i) * svd.values[i];
     CHECK(std::min((q - expected).norm(), (q + expected).norm()) < 1e-3 * expected.norm());
   }
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
-    REQUIRE(prior.offset(cell) == doctest::Approx(mean[static_cast<Eigen::Index>(cell)]).epsilon(1e-6));
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
+    REQUIRE(prior.offset(cell) == doctest::Approx(mean[cell]).epsilon(1e-6));
 }
 
 TEST_CASE("the stored coefficients expand to the materials, and projection finds them") {
@@ -42,11 +41,11 @@ TEST_CASE("the stored coefficients expand to the materials, and projection finds
     // A component matters as far as it moves the field; those below 1e-5 of the first are left out.
     const Eigen::MatrixXd moved = prior.singular_values().asDiagonal() * (gonio::project(prior, truth) - weights);
     CHECK(moved.cwiseAbs().maxCoeff() < 3e-5 * prior.singular_values()[0]);
-    for (std::size_t cell = 0; cell < small_cells().size(); cell += 17)
+    for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 17)
       for (Eigen::Index c = 0; c < 3; ++c) {
         const auto row = prior.row(cell);
         double y = prior.offset(cell);
-        for (std::size_t k = 0; k < prior.size(); ++k) y += double{row[k]} * weights(static_cast<Eigen::Index>(k), c);
+        for (Eigen::Index k = 0; k < prior.size(); ++k) y += double{row[k]} * weights(k, c);
         REQUIRE(prior.metric().inverse(y, cell) == doctest::Approx(truth.at(cell)[c]).epsilon(1e-3));
       }
   }
@@ -67,7 +66,7 @@ TEST_CASE("a thinned prior keeps its values where nodes coincide and stays close
   const auto thinned = gonio::thin(prior, coarse);
   CHECK(thinned.size() == prior.size());
   CHECK(thinned.names() == prior.names());
-  for (std::size_t cell = 0; cell < coarse.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(coarse); ++cell) {
     const auto index = coarse.grid().cell(coarse.linear(cell));
     const std::size_t same =
         fine.representative(fine.grid().linear({index.theta_h, 3 * index.theta_d + 1, 3 * index.phi_d + 1}));
@@ -75,10 +74,9 @@ TEST_CASE("a thinned prior keeps its values where nodes coincide and stays close
     REQUIRE(thinned.offset(cell) == prior.offset(same));
   }
   double sum = 0;
-  for (std::size_t cell = 0; cell < fine.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(fine); ++cell) {
     const auto row = gonio::row_at(thinned, gonio::locate(coarse, fine.angles(cell)));
-    for (std::size_t k = 0; k < prior.size(); ++k)
-      sum += std::pow(row[static_cast<Eigen::Index>(k)] - double{prior.row(cell)[k]}, 2);
+    for (Eigen::Index k = 0; k < prior.size(); ++k) sum += std::pow(row[k] - double{prior.row(cell)[k]}, 2);
   }
   // The coarse steps are 10 degrees in theta_d and 15 in phi_d.
   CHECK(std::sqrt(sum) < 0.1 * prior.singular_values().norm());

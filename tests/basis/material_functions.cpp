@@ -18,7 +18,7 @@ static_assert(gonio::channelwise_basis<some_functions>);
 /// Function f of channel c at a cell is 100 cell + 10 c + f.
 some_functions numbered_functions(std::vector<std::string> names, Eigen::Index count) {
   const gonio::valid_cells over(gonio::grid({2, 2, 2}));
-  gonio::cell_matrix values(static_cast<Eigen::Index>(over.size()), 3 * count);
+  gonio::cell_matrix values(over.size(), 3 * count);
   for (Eigen::Index cell = 0; cell < values.rows(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c)
       for (Eigen::Index f = 0; f < count; ++f)
@@ -36,12 +36,12 @@ TEST_CASE("a channel's row is its part of the row of all channels, and values() 
     const auto channel = functions.channel(c);
     REQUIRE(channel.size() == 3);
     REQUIRE(channel.cells() == functions.cells());
-    for (std::size_t cell = 0; cell < functions.cells().size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < functions.cells().size(); ++cell) {
       REQUIRE(channel.row(cell).size() == 3);
       for (std::size_t f = 0; f < 3; ++f) {
         const auto expected = static_cast<float>(100 * cell + 10 * c + f);
         REQUIRE(channel.row(cell)[f] == expected);
-        REQUIRE(channel.values()(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(f)) == expected);
+        REQUIRE(channel.values()(cell, f) == expected);
       }
     }
   }
@@ -78,7 +78,7 @@ TEST_CASE("leaving out: names count, functions without a name stay, and copies a
       if (*rc::gen::arbitrary<bool>())
         out.push_back(all.names()[i]);
       else
-        expected.push_back(static_cast<Eigen::Index>(i));
+        expected.push_back(i);
     }
     if (!out.empty() && *rc::gen::arbitrary<bool>()) out.push_back(out.front());  // twice does no harm
     auto fewer = all;
@@ -107,7 +107,7 @@ TEST_CASE("functions without any name cannot be the only ones left, and unknown 
 
 TEST_CASE("sizes that do not match are refused") {
   const gonio::valid_cells over(gonio::grid({2, 2, 2}));
-  const auto rows = static_cast<Eigen::Index>(over.size());
+  const Eigen::Index rows = over.size();
   const auto make = [&](std::vector<std::string> names, Eigen::Index height, Eigen::Index columns) {
     return some_functions{std::move(names), over, gonio::lin{}, gonio::cell_matrix::Zero(height, columns)};
   };

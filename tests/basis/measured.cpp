@@ -28,14 +28,13 @@ TEST_CASE("function i of a channel is that channel of material i, mapped") {
   const measured basis{materials, gonio::log{}};
   CHECK(basis.size() == 5);
   CHECK(basis.names() == materials.names);
-  for (const std::size_t cell : {std::size_t{0}, small_cells().size() / 2, small_cells().size() - 1})
+  for (const Eigen::Index cell : {Eigen::Index{0}, small_cells().size() / 2, small_cells().size() - 1})
     for (std::size_t c = 0; c < 3; ++c) {
       const auto channel = basis.channel(c);
       REQUIRE(channel.row(cell).size() == 5);
       CHECK(channel.offset(cell) == 0.0);
       for (std::size_t i = 0; i < 5; ++i)
-        CHECK(channel.row(cell)[i] == doctest::Approx(std::log1p(materials.values(
-                                          static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(3 * i + c)))));
+        CHECK(channel.row(cell)[i] == doctest::Approx(std::log1p(materials.values(cell, 3 * i + c))));
     }
 }
 
@@ -43,7 +42,7 @@ TEST_CASE("the products of a channel are its Gram matrix over all cells") {
   const measured basis{synthetic_materials(small_cells(), 4), gonio::lin{}};
   const auto channel = basis.channel(1);
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     sum += double{channel.row(cell)[2]} * double{channel.row(cell)[3]};
   CHECK(channel.products()(2, 3) == doctest::Approx(sum).epsilon(1e-12));
   const measured again{synthetic_materials(small_cells(), 4), gonio::lin{}};
@@ -69,7 +68,7 @@ TEST_CASE("a basis from what a prior remembers is that from the materials") {
   REQUIRE(remembered.values.rows() == materials.values.rows());
   CHECK((remembered.values - materials.values).cwiseAbs().maxCoeff() < 2e-3f * materials.values.maxCoeff());
   const measured from_prior{remembered, gonio::log{}}, from_materials{materials, gonio::log{}};
-  for (std::size_t cell = 0; cell < small_cells().size(); cell += 13)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 13)
     for (std::size_t i = 0; i < 6; ++i)
       CHECK(from_prior.channel(2).row(cell)[i] ==
             doctest::Approx(double{from_materials.channel(2).row(cell)[i]}).epsilon(0.01));

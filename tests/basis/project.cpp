@@ -10,10 +10,10 @@ TEST_CASE("no weights come closer to a table in the mapped domain than its proje
   const Eigen::MatrixXd best = gonio::project(prior, unseen);
   const auto misfit = [&](const Eigen::MatrixXd& weights) {
     double sum = 0;
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
       for (Eigen::Index c = 0; c < 3; ++c) {
         double y = prior.offset(cell) - prior.metric().forward(unseen.at(cell)[c], cell);
-        for (std::size_t k = 0; k < 4; ++k) y += double{prior.row(cell)[k]} * weights(static_cast<Eigen::Index>(k), c);
+        for (std::size_t k = 0; k < 4; ++k) y += double{prior.row(cell)[k]} * weights(k, c);
         sum += y * y;
       }
     return sum;

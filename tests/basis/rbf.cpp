@@ -103,8 +103,7 @@ TEST_CASE("a row is the kernel of the distance to each centre, 1 and the coordin
                             0.5,
                             0.0,
                             0.5};
-  for (std::size_t i = 0; i < expected.size(); ++i)
-    CHECK(row[static_cast<Eigen::Index>(i)] == doctest::Approx(expected[i]).epsilon(1e-14));
+  for (std::size_t i = 0; i < expected.size(); ++i) CHECK(row[i] == doctest::Approx(expected[i]).epsilon(1e-14));
   CHECK(functions.offset(3) == 0.0);
   CHECK(functions.metric().map(2.0) == 2.0);
 }
@@ -148,7 +147,7 @@ TEST_CASE("affine functions of the coordinates come back exactly, wherever they 
       return 4.0 + slope.dot(gonio::radial_coordinates(angles));
     };
     gonio::brdf_table table(small_cells());
-    for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+    for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
       table.set(cell, gonio::rgb::Constant(truth(small_cells().angles(cell))));
     const auto fit = estimator.fit(table);
     for (const auto& place : {in_degrees(0.5, 3, 12), in_degrees(33, 41, 179), in_degrees(60, 22, 90)})
@@ -159,7 +158,7 @@ TEST_CASE("affine functions of the coordinates come back exactly, wherever they 
 TEST_CASE("measured at its centres alone, a fit interpolates the values there") {
   const auto centres = gonio::farthest_point_centres(small_cells(), 60, 3);
   gonio::sample_set samples;
-  for (std::size_t i = 0; i < centres.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(centres); ++i)
     samples.push_back({centres[i], gonio::rgb(1.0, 0.4, 0.5) + 0.3 * std::sin(17.0 * static_cast<double>(i))});
   const auto fit = gonio::decomposition{rbf{small_cells(), gonio::log{}, centres}, gonio::tikhonov{1e-10}}.fit(samples);
   for (const gonio::sample& s : samples) CHECK((value_at(fit, s.angles()) - s.value).abs().maxCoeff() < 1e-6);
@@ -176,8 +175,9 @@ TEST_CASE("each farthest-point centre is farther from those before it than any c
     return least;
   };
   double separation = 100.0, covering = 0.0;
-  for (std::size_t i = 1; i < centres.size(); ++i) separation = std::min(separation, distance_to_first(i, centres[i]));
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+  for (Eigen::Index i = 1; i < std::ssize(centres); ++i)
+    separation = std::min(separation, distance_to_first(i, centres[i]));
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     covering = std::max(covering, distance_to_first(centres.size(), small_cells().angles(cell)));
   CHECK(separation > 0.05);
   CHECK(separation >= covering - 1e-12);
@@ -205,7 +205,7 @@ TEST_CASE("a table is approximated, expanded at any cells as evaluated, by any n
     const auto table = fit.tabulate(over, {1});
     CHECK(std::ranges::equal(table.values(), fit.tabulate(over, {3}).values()));
     CHECK(std::ranges::equal(table.values(), fit.tabulate_cells(over).values()));
-    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       const gonio::rgb direct = value_at(fit, over.angles(cell));
       REQUIRE((table.at(cell) - direct).abs().maxCoeff() <= 1e-6 * (1.0 + direct.maxCoeff()));
       REQUIRE((direct >= 0.0).all());
@@ -226,7 +226,7 @@ TEST_CASE("a metric with a reference: weights of zero give the reference, tabula
   const rbf functions{small_cells(), metric, five_centres};
   const auto fit = gonio::decomposition{functions, gonio::tikhonov{1e12}}.fit(smooth_table());
   const auto table = fit.tabulate(small_cells());
-  for (const std::size_t cell : {std::size_t{7}, small_cells().size() / 2}) {
+  for (const Eigen::Index cell : {Eigen::Index{7}, small_cells().size() / 2}) {
     CHECK(table.at(cell).x() == doctest::Approx(metric.reference()[cell]).epsilon(1e-4));
     CHECK(value_at(fit, small_cells().angles(cell)).x() == doctest::Approx(metric.reference()[cell]).epsilon(1e-4));
   }

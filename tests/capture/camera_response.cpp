@@ -31,8 +31,7 @@ exposure_counts expose(const curve& response, std::uint16_t largest, double nois
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
     const double radiance = std::exp(log_radiance(generator));
     for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-      const double exposure = radiance * gonio::capture::note_exposure_times[static_cast<std::size_t>(j)] *
-                              (1.0 + noise * normal(generator));
+      const double exposure = radiance * gonio::capture::note_exposure_times[j] * (1.0 + noise * normal(generator));
       counts(i, j) = static_cast<std::uint16_t>(std::lround(largest * response(std::clamp(exposure, 0.0, 1.0))));
     }
   }

@@ -15,9 +15,9 @@ namespace {
 const std::array<rgb, 3> paints{rgb(0.6, 0.6, 0.55), rgb(0.1, 0.4, 0.1), rgb(0.5, 0.1, 0.05)};
 
 /// Which paint a synthetic greeting card has at a pixel: half, a third and a sixth of it.
-std::size_t paint_at(Eigen::Index pixel) {
-  constexpr std::array<std::size_t, 6> pattern{0, 1, 0, 2, 0, 1};
-  return pattern[static_cast<std::size_t>(pixel % 6)];
+int paint_at(Eigen::Index pixel) {
+  constexpr std::array<int, 6> pattern{0, 1, 0, 2, 0, 1};
+  return pattern[pixel % 6];
 }
 
 /// Pixels coloured by `colour(i, normal, uniform)`, random numbers at hand.
@@ -53,15 +53,15 @@ TEST_CASE("a card of three paints comes apart, with the number given or chosen, 
     REQUIRE(chosen.count() == 3);
     std::size_t wrong = 0;
     for (Eigen::Index i = 0; i < colours.rows(); ++i)
-      if (static_cast<std::size_t>(given.labels[i]) != paint_at(i)) ++wrong;
+      if (given.labels[i] != paint_at(i)) ++wrong;
     CHECK(wrong == 0);
-    CHECK(given.sizes == std::vector<std::size_t>{4500, 3000, 1500});
+    CHECK(given.sizes == std::vector<Eigen::Index>{4500, 3000, 1500});
     CHECK(given.silhouette > 0.8);
     CHECK(given.silhouettes.empty());
     CHECK(chosen.silhouettes.size() == 6);
     CHECK(std::ranges::max_element(chosen.silhouettes) - chosen.silhouettes.begin() == 2);
     for (std::size_t m = 0; m < 3; ++m) {
-      const rgb centre = given.centres.row(static_cast<Eigen::Index>(m)).transpose();
+      const rgb centre = given.centres.row(m).transpose();
       CHECK((centre - 0.85 * paints[m]).abs().maxCoeff() < 0.01);
     }
   }
@@ -69,8 +69,8 @@ TEST_CASE("a card of three paints comes apart, with the number given or chosen, 
 
 TEST_CASE("the pixels of the clusters are all pixels, each once") {
   const auto found = cluster_colours(greeting_card(1200, 2), 4, 3);
-  std::vector<std::size_t> all;
-  for (std::size_t m = 0; m < found.count(); ++m) {
+  std::vector<Eigen::Index> all;
+  for (Eigen::Index m = 0; m < found.count(); ++m) {
     const auto pixels = found.pixels(m);
     CHECK(pixels.size() == found.sizes[m]);
     CHECK(std::ranges::is_sorted(pixels));
@@ -137,7 +137,7 @@ TEST_CASE("a colour too rare for the sample is found if it is asked for") {
   point_matrix colours = point_matrix::Constant(60000, 3, 0.2);
   colours.row(31234) << 0.5, 0.1, 0.1;
   const auto found = cluster_colours(colours, 2, 0);
-  CHECK(found.sizes == std::vector<std::size_t>{59999, 1});
+  CHECK(found.sizes == std::vector<Eigen::Index>{59999, 1});
   CHECK(found.labels[31234] == 1);
 }
 

@@ -27,7 +27,7 @@ TEST_CASE("k-means: numbers on a line, by hand") {
   const auto found = k_means(points, 3, 1);
   CHECK(found.labels == Eigen::VectorXi{{1, 1, 0, 0, 0, 2}});
   CHECK(found.centres == point_matrix(Eigen::VectorXd{{11, 0.5, 30}}));
-  CHECK(found.sizes == std::vector<std::size_t>{3, 2, 1});
+  CHECK(found.sizes == std::vector<Eigen::Index>{3, 2, 1});
   CHECK(found.inertia == doctest::Approx(2.5));
 }
 
@@ -38,7 +38,7 @@ TEST_CASE("k-means: clusters far apart are found from any seed, the largest firs
   points.bottomRows(60) = blobs(centres.bottomRows(1), 60, 0.3, 4);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto found = k_means(points, 4, seed);
-    CHECK(found.sizes == std::vector<std::size_t>{110, 50, 50, 50});
+    CHECK(found.sizes == std::vector<Eigen::Index>{110, 50, 50, 50});
     // Of the three of equal size the order is that of their centres.
     const point_matrix expected{{9, 9, 9}, {0, 9, 0}, {0, 0, 0}, {9, 0, 0}};
     CHECK((found.centres - expected).row(0).norm() < 0.2);
@@ -59,18 +59,18 @@ TEST_CASE("k-means: property: every centre is the mean of its points and every p
     RC_ASSERT(std::ranges::is_sorted(found.sizes, std::greater{}));
     double inertia = 0.0;
     point_matrix sums = point_matrix::Zero(k, d);
-    std::vector<std::size_t> sizes(static_cast<std::size_t>(k));
+    std::vector<Eigen::Index> sizes(k);
     for (Eigen::Index i = 0; i < n; ++i) {
       const Eigen::VectorXd squares = (found.centres.rowwise() - points.row(i)).rowwise().squaredNorm();
       RC_ASSERT(squares[found.labels[i]] <= squares.minCoeff() + 1e-12);
       inertia += squares[found.labels[i]];
       sums.row(found.labels[i]) += points.row(i);
-      ++sizes[static_cast<std::size_t>(found.labels[i])];
+      ++sizes[found.labels[i]];
     }
     RC_ASSERT(sizes == found.sizes);
     RC_ASSERT(std::abs(inertia - found.inertia) < 1e-9 * (1.0 + inertia));
     for (Eigen::Index c = 0; c < k; ++c) {
-      const auto size = static_cast<double>(found.sizes[static_cast<std::size_t>(c)]);
+      const auto size = static_cast<double>(found.sizes[c]);
       RC_ASSERT((found.centres.row(c) - sums.row(c) / size).norm() < 1e-9);
     }
   });
@@ -89,10 +89,10 @@ TEST_CASE("k-means: the same bytes for any number of threads") {
 TEST_CASE("k-means: a cluster that loses its points takes the farthest one") {
   const point_matrix points = Eigen::VectorXd{{0, 1, 2, 50}};
   const auto found = gonio::capture::refine_clusters(points, Eigen::VectorXd{{1, 1000}});
-  CHECK(found.sizes == std::vector<std::size_t>{3, 1});
+  CHECK(found.sizes == std::vector<Eigen::Index>{3, 1});
   CHECK(found.centres == point_matrix(Eigen::VectorXd{{1, 50}}));
   const auto several = gonio::capture::refine_clusters(points, Eigen::VectorXd{{1, 1000, 2000, 3000}});
-  CHECK(several.sizes == std::vector<std::size_t>{1, 1, 1, 1});
+  CHECK(several.sizes == std::vector<Eigen::Index>{1, 1, 1, 1});
   CHECK(several.inertia == 0.0);
 }
 
@@ -100,7 +100,7 @@ TEST_CASE("k-means: points that coincide make as many clusters as they differ") 
   point_matrix points(40, 2);
   for (Eigen::Index i = 0; i < 40; ++i) points.row(i) << static_cast<double>(i % 4 == 0), 2.0;
   const auto found = k_means(points, 2, 0);
-  CHECK(found.sizes == std::vector<std::size_t>{30, 10});
+  CHECK(found.sizes == std::vector<Eigen::Index>{30, 10});
   CHECK(found.inertia == 0.0);
   CHECK_THROWS_WITH_AS((void)k_means(points, 3, 0), doctest::Contains("only 2 of 40 points differ"), gonio::error);
 }

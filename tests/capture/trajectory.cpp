@@ -82,7 +82,7 @@ TEST_CASE("trajectory: every pose once, by a way that no stretch turned round sh
   rc::check("a way of scattered directions", [] {
     const auto directions = scattered(*rc::gen::inRange<std::size_t>(1, 25), *rc::gen::arbitrary<unsigned>());
     const auto order = gonio::capture::short_way(directions);
-    RC_ASSERT(std::set<std::size_t>(order.begin(), order.end()).size() == directions.size());
+    RC_ASSERT(std::set<Eigen::Index>(order.begin(), order.end()).size() == directions.size());
     RC_ASSERT(order.front() == 0u);
     const double length = gonio::capture::length_of_way(directions, order);
     for (std::size_t i = 1; i < order.size(); ++i)
@@ -99,7 +99,7 @@ TEST_CASE("trajectory: every pose once, by a way that no stretch turned round sh
 TEST_CASE("trajectory: the note's scan takes about its three hours") {
   const auto seen = gonio::capture::half_hemisphere();
   const auto order = gonio::capture::short_way(seen);
-  std::vector<std::size_t> as_listed(seen.size());
+  std::vector<Eigen::Index> as_listed(seen.size());
   std::iota(as_listed.begin(), as_listed.end(), std::size_t{0});
   CHECK(gonio::capture::length_of_way(seen, order) < 0.85 * gonio::capture::length_of_way(seen, as_listed));
   const double hours = gonio::capture::duration_of_scan(gonio::capture::length_of_way(seen, order), seen.size(),

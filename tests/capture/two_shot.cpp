@@ -43,7 +43,7 @@ gonio::sample_set measured(const gonio::model::formula_brdf& material,
 /// below it, what MERL's materials have in common is too bright for a formula.
 double error_of(const gonio::brdf_table& estimate, const gonio::model::formula_brdf& truth) {
   double sum = 0.0, count = 0.0;
-  for (std::size_t cell = 0; cell < estimate.cells().size(); cell += 101) {
+  for (Eigen::Index cell = 0; cell < estimate.cells().size(); cell += 101) {
     const auto [wi, wo] = gonio::to_directions(estimate.cells().angles(cell));
     if (std::min(wi.z(), wo.z()) < 0.25) continue;
     sum += (estimate.at(cell) / truth(wi, wo)).max(1e-9).log().square().mean();

@@ -163,7 +163,7 @@ namespace {
 /// Root mean square of the difference of ln(rho + 0.01) between two tables.
 double log_rms(const gonio::brdf_table& a, const gonio::brdf_table& b) {
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < a.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < a.cells().size(); ++cell)
     sum += ((a.at(cell) + 0.01).log() - (b.at(cell) + 0.01).log()).square().mean();
   return std::sqrt(sum / static_cast<double>(a.cells().size()));
 }

@@ -14,12 +14,12 @@ struct half {
 
 struct constant {
   gonio::valid_cells over;
-  std::size_t size() const { return 1; }
+  Eigen::Index size() const { return 1; }
   const gonio::valid_cells& cells() const { return over; }
-  double offset(std::size_t) const { return 0.0; }
+  double offset(Eigen::Index) const { return 0.0; }
   half metric() const { return {}; }
 #if !defined(WITHOUT_ROW)
-  std::span<const float> row(std::size_t) const {
+  std::span<const float> row(Eigen::Index) const {
     static constexpr float one = 1;
     return {&one, 1};
   }

@@ -13,7 +13,7 @@ TEST_CASE("every index is visited once, whatever the block size and the number o
       gonio::for_each_block(visits.size(), block_size,
                             [&](gonio::block range) {
                               CHECK(range.size() <= block_size);
-                              for (std::size_t i = range.begin; i < range.end; ++i) ++visits[i];
+                              for (Eigen::Index i = range.begin; i < range.end; ++i) ++visits[i];
                             },
                             {threads});
       for (const auto& count : visits) CHECK(count == 1);
@@ -41,7 +41,7 @@ TEST_CASE("sums have the same bytes for any number of threads") {
   const auto sum = [](unsigned threads) {
     return gonio::sum_over_blocks(100'003, 64, 0.0,
                                   [](double& partial, gonio::block range) {
-                                    for (std::size_t i = range.begin; i < range.end; ++i)
+                                    for (Eigen::Index i = range.begin; i < range.end; ++i)
                                       partial += std::sin(static_cast<double>(i)) * 1e8;
                                   },
                                   {threads});

@@ -9,8 +9,8 @@
 
 TEST_CASE("k of n: different, ascending, and all if there are not more") {
   CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(0, 100));
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(0, 100));
+    const std::size_t n = *rc::gen::inRange(0, 100);
+    const std::size_t count = *rc::gen::inRange(0, 100);
     const auto some = gonio::random_choice(n, count, 3);
     RC_ASSERT(some.size() == std::min(n, count));
     for (std::size_t i = 0; i < some.size(); ++i) {

@@ -60,7 +60,7 @@ TEST_CASE("observer and daylight together see D65's white") {
 
 TEST_CASE("grey is grey, whatever the wavelengths") {
   CHECK(rc::check([] {
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(5, 60));
+    const std::size_t count = *rc::gen::inRange(5, 60);
     std::vector<double> wavelengths{380.0};
     while (wavelengths.size() < count)
       wavelengths.push_back(wavelengths.back() +

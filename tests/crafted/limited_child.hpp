@@ -54,7 +54,7 @@ struct report {
 [[nodiscard]] inline std::size_t address_space() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
-  return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  return pages * ::sysconf(_SC_PAGESIZE);
 }
 
 /// What the child does. stb says only in words that it got no memory.
@@ -104,7 +104,7 @@ inline report read_in_child(const fuzz::reader& reader, fuzz::input bytes) {
   report result;
   std::array<char, 4096> text{};
   for (ssize_t count = 0; (count = ::read(pipe[0], text.data(), text.size())) > 0;)
-    result.message.append(text.data(), static_cast<std::size_t>(count));
+    result.message.append(text.data(), count);
   ::close(pipe[0]);
   int status = 0;
   rusage used{};

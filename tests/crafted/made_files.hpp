@@ -46,7 +46,7 @@ inline void append(byte_vector& file, std::span<const std::byte> more) {
   };
   put(begin.data(), begin.size(), Z_NO_FLUSH);
   for (; zeros > none.size(); zeros -= none.size()) put(none.data(), none.size(), Z_NO_FLUSH);
-  put(none.data(), static_cast<std::size_t>(zeros), Z_FINISH);
+  put(none.data(), zeros, Z_FINISH);
   deflateEnd(&stream);
   return result;
 }

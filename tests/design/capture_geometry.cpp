@@ -7,15 +7,15 @@ namespace {
 
 /// The smallest geometry there can be: numbers in a row, all in one direction.
 struct line_of_candidates {
-  [[nodiscard]] std::size_t size() const { return 3; }
-  [[nodiscard]] bool allows(std::size_t) const { return true; }
-  [[nodiscard]] gonio::direction_pair centre(std::size_t) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
-  [[nodiscard]] std::size_t nearest(const gonio::direction_pair&) const { return 0; }
-  [[nodiscard]] std::vector<gonio::half_difference> directions(std::size_t) const { return {{0.1, 0.2, 0.3}}; }
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const gonio::design::grid_step& step) const {
+  [[nodiscard]] Eigen::Index size() const { return 3; }
+  [[nodiscard]] bool allows(Eigen::Index) const { return true; }
+  [[nodiscard]] gonio::direction_pair centre(Eigen::Index) const { return gonio::to_directions({0.1, 0.2, 0.3}); }
+  [[nodiscard]] Eigen::Index nearest(const gonio::direction_pair&) const { return 0; }
+  [[nodiscard]] std::vector<gonio::half_difference> directions(Eigen::Index) const { return {{0.1, 0.2, 0.3}}; }
+  [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const gonio::design::grid_step& step) const {
     const int to = static_cast<int>(from) + step[0];
     if (to < 0 || to > 2 || step[1] != 0 || step[2] != 0) return {};
-    return static_cast<std::size_t>(to);
+    return to;
   }
 };
 static_assert(gonio::design::capture_geometry<line_of_candidates>);
@@ -24,7 +24,7 @@ static_assert(gonio::design::capture_geometry<line_of_candidates>);
 
 TEST_CASE("steps stay on valid cells, and phi_d goes round") {
   const gonio::design::point_geometry points(small_cells());
-  for (std::size_t from = 0; from < points.size(); from += 7) {
+  for (Eigen::Index from = 0; from < points.size(); from += 7) {
     const auto there = points.stepped(from, {0, 0, 2});
     if (!there) continue;
     CHECK(points.stepped(*there, {0, 0, -2}) == from);
@@ -38,8 +38,8 @@ TEST_CASE("a point sample is in the direction of its cell; steps do not lead to 
   gonio::design::capture_constraint constraint;
   constraint.light.largest = gonio::radians(45);
   const gonio::design::point_geometry points(small_cells(), constraint);
-  std::size_t allowed = 0;
-  for (std::size_t cell = 0; cell < points.size(); ++cell) {
+  Eigen::Index allowed = 0;
+  for (Eigen::Index cell = 0; cell < points.size(); ++cell) {
     const auto angles = points.directions(cell);
     REQUIRE(angles.size() == 1);
     CHECK(angles[0].theta_d == small_cells().angles(cell).theta_d);

@@ -9,7 +9,7 @@ namespace {
 /// Some cells have none, others much more than eta.
 std::vector<double> synthetic_sample_noise_penalties() {
   std::vector<double> etas(small_cells().size());
-  for (std::size_t cell = 0; cell < etas.size(); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
+  for (Eigen::Index cell = 0; cell < std::ssize(etas); ++cell) etas[cell] = static_cast<double>(cell % 7 * (cell % 5));
   return etas;
 }
 
@@ -25,14 +25,14 @@ TEST_CASE("all additions at once are what each is by itself") {
         {.eta = 4.0, .noise = noise, .common_shift = common_shift, .leave_out = leave_out}, {}, sample_noise_penalties);
     REQUIRE(candidates.size() == small_cells().size());
     CHECK(rc::check("random designs", [&] {
-      const auto any = rc::gen::inRange<std::size_t>(0, candidates.size());
-      const auto n = *rc::gen::inRange<std::size_t>(0, 8);
-      const auto cells = *rc::gen::container<std::vector<std::size_t>>(n, any);
+      const auto any = rc::gen::inRange<Eigen::Index>(0, candidates.size());
+      const auto n = *rc::gen::inRange<Eigen::Index>(0, 8);
+      const auto cells = *rc::gen::container<std::vector<Eigen::Index>>(n, any);
       const std::vector<float> errors = candidates.errors_with_each(cells);
-      RC_ASSERT(errors.size() == candidates.size());
+      RC_ASSERT(std::ssize(errors) == candidates.size());
       auto longer = cells;
       longer.push_back(0);
-      for (std::size_t cell = 0; cell < candidates.size(); cell += 13) {
+      for (Eigen::Index cell = 0; cell < candidates.size(); cell += 13) {
         longer.back() = cell;
         const double alone = candidates(longer);
         RC_ASSERT(std::abs(double{errors[cell]} - alone) < 1e-4 * alone);
@@ -45,17 +45,17 @@ TEST_CASE("one more beside some is what all of them are") {
   for (const bool leave_out : {false, true}) {
     const auto candidates =
         synthetic_candidates({.eta = 0.3, .noise = 0.05, .common_shift = 0.1, .leave_out = leave_out});
-    const std::vector<std::size_t> cells{4, 90, 301};
+    const std::vector<Eigen::Index> cells{4, 90, 301};
     const auto with = candidates.beside(cells);
-    for (std::size_t cell = 0; cell < candidates.size(); cell += 17) {
-      const std::vector<std::size_t> all{4, 90, 301, cell};
+    for (Eigen::Index cell = 0; cell < candidates.size(); cell += 17) {
+      const std::vector<Eigen::Index> all{4, 90, 301, cell};
       CHECK(with(cell) == doctest::Approx(candidates(all)).epsilon(1e-5));  // Y and W are rounded to float
     }
   }
 }
 
 TEST_CASE("the same bytes for any number of threads") {
-  const std::vector<std::size_t> cells{4, 90, 301};
+  const std::vector<Eigen::Index> cells{4, 90, 301};
   const auto one = synthetic_candidates({.eta = 2.0, .common_shift = 0.1}, {1}),
              three = synthetic_candidates({.eta = 2.0, .common_shift = 0.1}, {3});
   CHECK(one.errors_with_each(cells) == three.errors_with_each(cells));

@@ -35,13 +35,12 @@ TEST_CASE("compressed rows have the same normal equations, tall and wide") {
 }
 
 TEST_CASE("cells that are met several times count as often") {
-  const std::vector<std::size_t> cells{3, 60, 60, 60, 200, 3};
+  const std::vector<Eigen::Index> cells{3, 60, 60, 60, 200, 3};
   std::vector<gonio::half_difference> directions;
-  Eigen::MatrixXd each(6, static_cast<Eigen::Index>(candidate_basis().size()));
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  Eigen::MatrixXd each(6, std::ssize(candidate_basis()));
+  for (Eigen::Index i = 0; i < std::ssize(cells); ++i) {
     directions.push_back(small_cells().angles(cells[i]));
-    each.row(static_cast<Eigen::Index>(i)) =
-        candidate_basis().components().row(static_cast<Eigen::Index>(cells[i])).cast<double>();
+    each.row(i) = candidate_basis().components().row(cells[i]).cast<double>();
   }
   const auto rows = gonio::design::rows_at(candidate_basis(), directions);
   CHECK(rows.components.rows() == 3);

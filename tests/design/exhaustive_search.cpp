@@ -8,10 +8,10 @@ namespace {
 /// The best pair of all.
 gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& candidates) {
   gonio::design::capture_plan best;
-  for (std::size_t a = 0; a < candidates.size(); ++a) {
-    const std::vector<float> errors = candidates.errors_with_each(std::vector<std::size_t>{a});
-    const auto b = static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
-    const std::vector<std::size_t> pair{a, b};
+  for (Eigen::Index a = 0; a < candidates.size(); ++a) {
+    const std::vector<float> errors = candidates.errors_with_each(std::vector<Eigen::Index>{a});
+    const Eigen::Index b = std::ranges::min_element(errors) - errors.begin();
+    const std::vector<Eigen::Index> pair{a, b};
     if (const double value = candidates(pair); value < best.value) best = {pair, value};
   }
   return best;
@@ -22,8 +22,8 @@ gonio::design::capture_plan best_pair(const gonio::design::cell_candidates& cand
 TEST_CASE("the first cell of greedy growth is the best of all; each error is less than the last") {
   const auto candidates = synthetic_candidates();
   const auto one = gonio::design::grow_greedily(candidates, 1);
-  for (std::size_t cell = 0; cell < candidates.size(); ++cell)
-    CHECK(one.value <= candidates(std::vector<std::size_t>{cell}) * (1.0 + 1e-6));
+  for (Eigen::Index cell = 0; cell < candidates.size(); ++cell)
+    CHECK(one.value <= candidates(std::vector<Eigen::Index>{cell}) * (1.0 + 1e-6));
   const auto three = gonio::design::grow_greedily(candidates, 3),
              five = gonio::design::grow_greedily(candidates, 5, three);
   CHECK(three.candidates[0] == one.candidates[0]);
@@ -44,7 +44,7 @@ TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of al
   CHECK(exchanged.value >= best.value * (1.0 - 1e-6));
   CHECK(exchanged.value <= best.value * 1.02);
   double of_many = exchanged.value;
-  for (const std::size_t start : {std::size_t{10}, std::size_t{150}, std::size_t{300}})
+  for (const Eigen::Index start : {Eigen::Index{10}, Eigen::Index{150}, Eigen::Index{300}})
     of_many = std::min(of_many, gonio::design::exchange(candidates, {{start, start + 20}}).value);
   CHECK(of_many == doctest::Approx(best.value).epsilon(1e-6));
 }
@@ -52,8 +52,8 @@ TEST_CASE("two cells: exchange from the greedy pair comes to the best pair of al
 TEST_CASE("after exchange no single replacement improves") {
   const auto candidates = synthetic_candidates({.eta = 0.1, .common_shift = 0.2});
   const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
-  for (std::size_t position = 0; position < 4; ++position)
-    for (std::size_t cell = 0; cell < candidates.size(); ++cell) {
+  for (Eigen::Index position = 0; position < 4; ++position)
+    for (Eigen::Index cell = 0; cell < candidates.size(); ++cell) {
       auto other = found.candidates;
       other[position] = cell;
       CHECK(candidates(other) >= found.value * (1.0 - 1e-5));
@@ -66,7 +66,7 @@ TEST_CASE("cells that the constraint excludes are no candidates") {
   const gonio::design::cell_candidates candidates(
       candidate_basis(), gonio::design::expected_error(candidate_basis(), {.eta = 0.5}), constraint);
   const auto found = gonio::design::exchange(candidates, gonio::design::grow_greedily(candidates, 4));
-  for (const std::size_t cell : found.candidates) {
+  for (const Eigen::Index cell : found.candidates) {
     const gonio::direction_pair pair = gonio::to_directions(small_cells().angles(cell));
     CHECK(std::max(pair.wi.z(), pair.wo.z()) >= std::cos(gonio::radians(40.001)));
   }

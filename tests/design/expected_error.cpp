@@ -13,11 +13,10 @@ static_assert(gonio::design::design_criterion<expected_error>);
 
 namespace {
 
-Eigen::MatrixXd components_at(const std::vector<std::size_t>& cells) {
-  Eigen::MatrixXd rows(std::ssize(cells), static_cast<Eigen::Index>(candidate_basis().size()));
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    rows.row(static_cast<Eigen::Index>(i)) =
-        candidate_basis().components().row(static_cast<Eigen::Index>(cells[i])).cast<double>();
+Eigen::MatrixXd components_at(const std::vector<Eigen::Index>& cells) {
+  Eigen::MatrixXd rows(std::ssize(cells), std::ssize(candidate_basis()));
+  for (Eigen::Index i = 0; i < std::ssize(cells); ++i)
+    rows.row(i) = candidate_basis().components().row(cells[i]).cast<double>();
   return rows;
 }
 
@@ -41,12 +40,12 @@ double as_printed(const Eigen::MatrixXd& measured, double eta, double beta, cons
 }  // namespace
 
 TEST_CASE("it is Eq. 15 as printed") {
-  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(small_cells().size()));
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(std::ssize(small_cells()));
   for (const double eta : {0.01, 1.0, 40.0})
     for (const double beta : {0.0, 0.3}) {
       const expected_error criterion(candidate_basis(), {.eta = eta, .common_shift = beta});
-      for (const std::vector<std::size_t>& cells :
-           {std::vector<std::size_t>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
+      for (const std::vector<Eigen::Index>& cells :
+           {std::vector<Eigen::Index>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
         const Eigen::MatrixXd measured = components_at(cells);
         // Components are stored as float: Q'Q is Sigma^2 to its precision.
         CHECK(criterion(criterion.prepare(measured)) ==
@@ -56,7 +55,7 @@ TEST_CASE("it is Eq. 15 as printed") {
 }
 
 TEST_CASE("cells count as much as the norm says") {
-  const Eigen::Index p = static_cast<Eigen::Index>(small_cells().size());
+  const Eigen::Index p = std::ssize(small_cells());
   const Eigen::VectorXd weights = Eigen::VectorXd::LinSpaced(p, 0.0, 2.0);
   const Eigen::MatrixXd q = candidate_basis().components().cast<double>();
   const expected_error criterion(candidate_basis(), {.eta = 0.7, .common_shift = 0.2},
@@ -90,7 +89,7 @@ TEST_CASE("errors of their own: the reconstruction expects them, and they add th
 }
 
 TEST_CASE("noise is independent in each measurement: what many draws of it add, to a reconstruction that expects it") {
-  const std::vector<std::size_t> cells{3, 60, 200, 222, 310};
+  const std::vector<Eigen::Index> cells{3, 60, 200, 222, 310};
   const Eigen::MatrixXd measured = components_at(cells), q = candidate_basis().components().cast<double>(),
                         c = candidate_basis().coefficients().cast<double>();
   const double eta = 0.7, noise = 0.2, m = static_cast<double>(c.rows());
@@ -157,8 +156,8 @@ TEST_CASE("out of sample it is the error of each material with the prior of the 
     for (const double noise : {0.0, 0.3}) {
       const expected_error criterion(candidate_basis(), {.eta = eta, .noise = noise, .leave_out = true}),
           in_sample(candidate_basis(), {.eta = eta, .noise = noise});
-      for (const std::vector<std::size_t>& cells :
-           {std::vector<std::size_t>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
+      for (const std::vector<Eigen::Index>& cells :
+           {std::vector<Eigen::Index>{5}, {0, 100}, {3, 60, 200, 222, 310}, {7, 7, 8}}) {
         CAPTURE(eta);
         const Eigen::MatrixXd measured = components_at(cells);
         CHECK(criterion(measured) == doctest::Approx(each_left_out(measured, eta, noise)).epsilon(1e-5));
@@ -171,9 +170,9 @@ TEST_CASE("out of sample it is the error of each material with the prior of the 
 }
 
 TEST_CASE("out of sample it is what eta is chosen by") {
-  const std::vector<std::size_t> cells{3, 60, 200, 222, 310};
+  const std::vector<Eigen::Index> cells{3, 60, 200, 222, 310};
   std::vector<gonio::location> places;
-  for (const std::size_t cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
+  for (const Eigen::Index cell : cells) places.push_back(gonio::locate_cell(small_cells(), cell));
   const gonio::leave_one_material_out_error chosen_by(candidate_basis(), places, Eigen::VectorXd::Ones(5), 0.0);
   for (const double eta : {0.1, 3.0}) {
     const expected_error criterion(candidate_basis(), {.eta = eta, .leave_out = true});
@@ -184,12 +183,12 @@ TEST_CASE("out of sample it is what eta is chosen by") {
 
 TEST_CASE("nothing measured: the mean distance of the materials from their mean; more measurements leave less") {
   const expected_error criterion(candidate_basis(), {.eta = 1e-3});
-  const auto error = [&](const std::vector<std::size_t>& cells) {
+  const auto error = [&](const std::vector<Eigen::Index>& cells) {
     return criterion(criterion.prepare(components_at(cells)));
   };
   CHECK(error({}) == doctest::Approx(criterion.energies().cwiseSqrt().mean()));
-  std::vector<std::size_t> every(small_cells().size());
-  std::iota(every.begin(), every.end(), std::size_t{0});
+  std::vector<Eigen::Index> every(small_cells().size());
+  std::iota(every.begin(), every.end(), Eigen::Index{0});
   CHECK(error(every) < 1e-3 * error({}));
   CHECK(error({5}) < error({}));
 }

@@ -23,11 +23,11 @@ double of_all_samples(const Geometry& geometry, const std::vector<std::size_t>& 
   for (const std::size_t image : images)
     for (const auto& angles : geometry.directions(image)) {
       const auto& grid = small_cells().grid();
-      const std::size_t cell = small_cells().representative(grid.linear(grid.nearest(angles)));
-      rows.push_back(candidate_basis().components().row(static_cast<Eigen::Index>(cell)).cast<double>());
+      const Eigen::Index cell = small_cells().representative(grid.linear(grid.nearest(angles)));
+      rows.push_back(candidate_basis().components().row(cell).cast<double>());
     }
-  Eigen::MatrixXd all(std::ssize(rows), static_cast<Eigen::Index>(candidate_basis().size()));
-  for (std::size_t i = 0; i < rows.size(); ++i) all.row(static_cast<Eigen::Index>(i)) = rows[i];
+  Eigen::MatrixXd all(std::ssize(rows), std::ssize(candidate_basis()));
+  for (Eigen::Index i = 0; i < std::ssize(rows); ++i) all.row(i) = rows[i];
   return expected_error(candidate_basis(), with_noise)(all);
 }
 
@@ -54,17 +54,17 @@ TEST_CASE("compressed images are worth what all of their samples are") {
 TEST_CASE("prepared images, images beside others and sweeps agree") {
   const auto objective = objective_of(coarse_near_field());
   const gonio::design::image_candidates prepared(objective);
-  const std::vector<std::size_t> two{30, 170};
+  const std::vector<Eigen::Index> two{30, 170};
   CHECK(prepared(two) == doctest::Approx(objective(two)).epsilon(1e-12));
   const auto errors = prepared.errors_with_each(two);
   const auto with = objective.beside(two);
-  for (std::size_t candidate = 0; candidate < errors.size(); candidate += 7) {
+  for (Eigen::Index candidate = 0; candidate < std::ssize(errors); candidate += 7) {
     if (!objective.geometry().allows(candidate)) {
       CHECK(std::isinf(errors[candidate]));
       continue;
     }
     CHECK(double{errors[candidate]} == doctest::Approx(with(candidate)).epsilon(1e-6));
-    CHECK(with(candidate) == doctest::Approx(objective(std::vector<std::size_t>{30, 170, candidate})).epsilon(1e-12));
+    CHECK(with(candidate) == doctest::Approx(objective(std::vector<Eigen::Index>{30, 170, candidate})).epsilon(1e-12));
   }
   CHECK(errors == gonio::design::image_candidates(objective, {1}).errors_with_each(two));
 }
@@ -72,10 +72,10 @@ TEST_CASE("prepared images, images beside others and sweeps agree") {
 TEST_CASE("two images: exchange comes to the best pair of all") {
   const gonio::design::image_candidates spheres(objective_of(sphere_geometry(small_cells())));
   double best = 1e9;
-  for (std::size_t a = 0; a < 7; ++a)
-    for (std::size_t b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<std::size_t>{a, b}));
+  for (Eigen::Index a = 0; a < 7; ++a)
+    for (Eigen::Index b = a + 1; b < 7; ++b) best = std::min(best, spheres(std::vector<Eigen::Index>{a, b}));
   double found = 1e9;
-  for (std::size_t first = 0; first < 7; ++first)
+  for (Eigen::Index first = 0; first < 7; ++first)
     found = std::min(found, gonio::design::exchange(spheres, {{first, (first + 3) % 7}}).value);
   CHECK(found == doctest::Approx(best).epsilon(1e-6));
   const auto slid = gonio::design::descend(spheres.geometry(), spheres, gonio::design::grow_greedily(spheres, 2));

@@ -12,7 +12,7 @@ using gonio::design::near_field_geometry;
 namespace {
 
 /// The candidate with these polar angles of light and camera and azimuth between them, in degrees.
-std::size_t candidate_at(const near_field_geometry& geometry, double light, double camera, double azimuth) {
+Eigen::Index candidate_at(const near_field_geometry& geometry, double light, double camera, double azimuth) {
   return geometry.nearest(
       {gonio::spherical_direction(radians(light), radians(azimuth)), gonio::spherical_direction(radians(camera), 0.0)});
 }
@@ -22,7 +22,7 @@ std::size_t candidate_at(const near_field_geometry& geometry, double light, doub
 TEST_CASE("a candidate is where it says, and nearest finds it again") {
   const near_field_geometry geometry({.step = radians(5)});
   CHECK(geometry.size() == 18 * 18 * 37);
-  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+  for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) REQUIRE(geometry.nearest(geometry.centre(candidate)) == candidate);
   const auto pose = geometry.centre(candidate_at(geometry, 30, 45, 180));
   CHECK(degrees(std::acos(pose.wi.z())) == doctest::Approx(30));
@@ -71,7 +71,7 @@ TEST_CASE("a disc seen from the side is an ellipse of fewer pixels, its near sid
 TEST_CASE("every pixel is above the horizon, whatever the candidate") {
   const near_field_geometry geometry({.field_of_view = radians(45), .pixels = 9});
   CHECK(rc::check([&] {
-    const auto candidate = *rc::gen::inRange<std::size_t>(0, geometry.size());
+    const auto candidate = *rc::gen::inRange<Eigen::Index>(0, geometry.size());
     if (!geometry.allows(candidate)) return;
     const auto seen = geometry.directions(candidate);
     RC_ASSERT(!seen.empty());
@@ -84,7 +84,7 @@ TEST_CASE("every pixel is above the horizon, whatever the candidate") {
 
 TEST_CASE("steps there and back; nothing beyond the ends; one azimuth at the zenith") {
   const near_field_geometry geometry;
-  const std::size_t from = candidate_at(geometry, 30, 45, 90);
+  const Eigen::Index from = candidate_at(geometry, 30, 45, 90);
   for (const gonio::design::grid_step& step : {gonio::design::grid_step{3, 0, 0}, {0, -1, 0}, {0, 0, 3}}) {
     const auto to = geometry.stepped(from, step);
     REQUIRE(to.has_value());
@@ -97,9 +97,9 @@ TEST_CASE("steps there and back; nothing beyond the ends; one azimuth at the zen
 TEST_CASE("a fixed camera or light is where it is fixed") {
   const near_field_geometry camera({.fixed_camera = radians(64)}), light({.fixed_light = radians(33)});
   CHECK(camera.size() == 18 * 37);
-  for (std::size_t candidate = 0; candidate < camera.size(); candidate += 11)
+  for (Eigen::Index candidate = 0; candidate < camera.size(); candidate += 11)
     CHECK(degrees(std::acos(camera.centre(candidate).wo.z())) == doctest::Approx(64));
-  for (std::size_t candidate = 0; candidate < light.size(); candidate += 11)
+  for (Eigen::Index candidate = 0; candidate < light.size(); candidate += 11)
     CHECK(degrees(std::acos(light.centre(candidate).wi.z())) == doctest::Approx(33));
 }
 
@@ -108,7 +108,7 @@ TEST_CASE("constraints hold for the centre of the image") {
   constraint.light_step = radians(15);
   constraint.smallest_separation = radians(20);
   const near_field_geometry geometry({.constraint = constraint});
-  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+  for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) REQUIRE(constraint(geometry.centre(candidate)));
 }
 

@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 TEST_CASE("the published directions are above the horizon and as many as asked for") {
-  for (const std::size_t n : gonio::design::nielsen_direction_counts) {
+  for (const Eigen::Index n : gonio::design::nielsen_direction_counts) {
     const auto directions = gonio::design::nielsen_directions(n);
     CHECK(directions.size() == n);
     for (const auto& angles : directions) {
@@ -26,7 +26,7 @@ TEST_CASE("industry's directions are in the plane of the light, whose angle from
   const auto directions = gonio::design::westlund_meyer_directions();
   REQUIRE(directions.size() == 5);
   const std::array aspecular{15.0, 25.0, 45.0, 75.0, 110.0};
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (Eigen::Index i = 0; i < 5; ++i) {
     // In the plane of incidence theta_h is half of how far the viewer is from the mirror direction.
     CHECK(gonio::degrees(directions[i].theta_h) == doctest::Approx(aspecular[i] / 2.0));
     const auto pair = gonio::to_directions(directions[i]);

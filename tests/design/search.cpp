@@ -11,12 +11,12 @@ using gonio::design::capture_plan;
 namespace {
 
 /// How far, in cells, each of three places is from the nearest cell of a design.
-double distance_from_places(std::span<const std::size_t> cells) {
+double distance_from_places(std::span<const Eigen::Index> cells) {
   const auto& grid = small_cells().grid();
   double sum = 0.0;
   for (const gonio::cell_index& place : {gonio::cell_index{1, 1, 0}, {4, 3, 5}, {6, 1, 2}}) {
     double nearest = 1e9;
-    for (const std::size_t cell : cells) {
+    for (const Eigen::Index cell : cells) {
       const gonio::cell_index at = grid.cell(small_cells().linear(cell));
       const int round = std::abs(at.phi_d - place.phi_d), phi = std::min(round, grid.extents().phi_d - round);
       nearest = std::min(nearest, std::abs(at.theta_h - place.theta_h) + std::abs(at.theta_d - place.theta_d) +
@@ -35,7 +35,7 @@ const gonio::design::point_geometry& small_points() {
 /// Is a plan as good as any with one of its cells moved by one?
 bool no_step_improves(const capture_plan& plan) {
   capture_plan copy = plan;
-  for (std::size_t position = 0; position < plan.candidates.size(); ++position)
+  for (Eigen::Index position = 0; position < std::ssize(plan.candidates); ++position)
     if (gonio::design::detail::move_one(small_points(), distance_from_places, copy, position, 1)) return false;
   return true;
 }
@@ -44,19 +44,19 @@ bool no_step_improves(const capture_plan& plan) {
 
 TEST_CASE("descent ends where no step improves") {
   CHECK(rc::check([] {
-    const auto any = rc::gen::inRange<std::size_t>(0, small_cells().size());
-    const auto n = *rc::gen::inRange<std::size_t>(1, 5);
-    const auto cells = *rc::gen::unique<std::vector<std::size_t>>(n, any);
+    const auto any = rc::gen::inRange<Eigen::Index>(0, small_cells().size());
+    const auto n = *rc::gen::inRange<Eigen::Index>(1, 5);
+    const auto cells = *rc::gen::unique<std::vector<Eigen::Index>>(n, any);
     const capture_plan found = gonio::design::descend(small_points(), distance_from_places, {cells, 0.0}, 3);
     RC_ASSERT(found.value <= distance_from_places(cells));
     RC_ASSERT(found.value == distance_from_places(found.candidates));
     RC_ASSERT(no_step_improves(found));
-    RC_ASSERT(std::set<std::size_t>(found.candidates.begin(), found.candidates.end()).size() == n);
+    RC_ASSERT(std::ssize(std::set<Eigen::Index>(found.candidates.begin(), found.candidates.end())) == n);
   }));
 }
 
 TEST_CASE("growing finds all three places from many tries, and the same for a seed") {
-  const auto grown = [](std::size_t n, std::size_t tries, std::uint64_t seed) {
+  const auto grown = [](Eigen::Index n, Eigen::Index tries, std::uint64_t seed) {
     return gonio::design::grow_and_descend(small_points(), distance_from_places, n, tries, seed);
   };
   CHECK(grown(3, 200, 1).value == 0.0);
@@ -80,7 +80,7 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
   CHECK_FALSE(improves(infinity, infinity));
   CHECK(improves(-1e-300, 0.0));
 
-  const auto below_zero = [](std::span<const std::size_t> cells) { return distance_from_places(cells) - 100.0; };
+  const auto below_zero = [](std::span<const Eigen::Index> cells) { return distance_from_places(cells) - 100.0; };
   const capture_plan found = gonio::design::grow_and_descend(small_points(), below_zero, 3, 20, 6),
                      same = gonio::design::grow_and_descend(small_points(), distance_from_places, 3, 20, 6);
   CHECK(found.candidates == same.candidates);
@@ -89,7 +89,7 @@ TEST_CASE("values may be negative or infinite: ties and rounding are no improvem
 
 TEST_CASE("random swaps never make it worse, and all cells are a choice, too") {
   double before = 1e9;
-  for (const std::size_t swaps : {0u, 10u, 100u, 5000u}) {
+  for (const Eigen::Index swaps : {0u, 10u, 100u, 5000u}) {
     const capture_plan found = gonio::design::swap_at_random(small_points(), distance_from_places, 3, swaps, 7);
     CHECK(found.value <= before);
     CHECK(found.value == distance_from_places(found.candidates));
@@ -106,7 +106,7 @@ TEST_CASE("no search chooses what the constraint excludes") {
   constraint.viewer.largest = gonio::radians(50);
   const gonio::design::point_geometry points(small_cells(), constraint);
   const auto all_allowed = [&](const capture_plan& plan) {
-    return std::ranges::all_of(plan.candidates, [&](std::size_t cell) { return points.allows(cell); });
+    return std::ranges::all_of(plan.candidates, [&](Eigen::Index cell) { return points.allows(cell); });
   };
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     CHECK(all_allowed(gonio::design::grow_and_descend(points, distance_from_places, 3, 20, seed)));

@@ -7,13 +7,13 @@ TEST_CASE("the slices of theta_d hold all valid cells, each once") {
   const gonio::design::sphere_geometry spheres(small_cells());
   CHECK(spheres.size() == 7);
   std::vector<int> seen(small_cells().size(), 0);
-  for (std::size_t slice = 0; slice < spheres.size(); ++slice) {
+  for (Eigen::Index slice = 0; slice < spheres.size(); ++slice) {
     REQUIRE(spheres.allows(slice));
     const auto cells = spheres.cells_of(slice);
     const auto directions = spheres.directions(slice);
     REQUIRE(directions.size() == cells.size());
     CHECK(spheres.nearest(spheres.centre(slice)) == slice);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(cells); ++i) {
       ++seen[cells[i]];
       CHECK(directions[i].theta_d == doctest::Approx(gonio::radians((static_cast<double>(slice) + 0.5) * 90 / 7)));
     }
@@ -23,8 +23,8 @@ TEST_CASE("the slices of theta_d hold all valid cells, each once") {
 
 TEST_CASE("steps go along theta_d and end at its ends") {
   const gonio::design::sphere_geometry spheres(small_cells());
-  CHECK(spheres.stepped(2, {0, 3, 0}) == std::size_t{5});
-  CHECK(spheres.stepped(5, {0, -3, 0}) == std::size_t{2});
+  CHECK(spheres.stepped(2, {0, 3, 0}) == Eigen::Index{5});
+  CHECK(spheres.stepped(5, {0, -3, 0}) == Eigen::Index{2});
   CHECK_FALSE(spheres.stepped(5, {0, 2, 0}).has_value());
   CHECK_FALSE(spheres.stepped(1, {0, -3, 0}).has_value());
   CHECK_FALSE(spheres.stepped(1, {1, 0, 0}).has_value());

@@ -12,7 +12,7 @@ const gonio::log_relative_pca& moved_prior() {
 
 /// A mapped value of one of the materials that the basis was learned from, at a location.
 double mapped(std::size_t observation, const gonio::location& at) {
-  const auto c = moved_prior().coefficients().row(static_cast<Eigen::Index>(observation)).cast<double>();
+  const auto c = moved_prior().coefficients().row(observation).cast<double>();
   return gonio::offset_at(moved_prior(), at) + gonio::row_at(moved_prior(), at).dot(c);
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("each cell has its own, the same for any number of threads") {
   const auto one = gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {1});
   REQUIRE(one.size() == small_cells().size());
   CHECK(one == gonio::angular_error_penalties(moved_prior(), gonio::radians(0.5), {3}));
-  for (const std::size_t cell : {std::size_t{0}, std::size_t{77}, one.size() - 1})
+  for (const Eigen::Index cell : {Eigen::Index{0}, Eigen::Index{77}, one.size() - 1})
     CHECK(one[cell] == gonio::angular_error_penalty(moved_prior(), gonio::to_directions(small_cells().angles(cell)),
                                                     gonio::radians(0.5)));
 }

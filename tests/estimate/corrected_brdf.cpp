@@ -48,7 +48,7 @@ TEST_CASE("evaluating and tabulating agree, on the correction's cells and on oth
   for (const auto& over : {small_cells(), factors.cells(), gonio::valid_cells(gonio::grid({9, 11, 6}))}) {
     const auto table = fit.tabulate(over, {1});
     CHECK(std::ranges::equal(table.values(), fit.tabulate(over, {3}).values()));
-    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       const auto [wi, wo] = to_directions(over.angles(cell));
       const gonio::rgb direct = fit(wi, wo);
       // Tables of the estimate and of the factors are rounded to float before they are multiplied.

@@ -119,10 +119,10 @@ TEST_CASE("golden: ten rounds as printed, clean and with outliers") {
     const auto table = fit.tabulate(golden.materials.cells);
     double first = 0.0, last = 0.0, estimate = 0.0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto column = static_cast<Eigen::Index>(c);
+      const Eigen::Index column = c;
       const nlohmann::json& expected = golden.expected["channels"][c][name];
       for (std::size_t i = 0; i < 11; ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
+        const Eigen::Index row = i;
         first = std::max(first, std::abs(fit.weights().front()(row, column) - expected["beta_it1"][i].get<double>()));
         last = std::max(last, std::abs(fit.weights().back()(row, column) - expected["beta_it10"][i].get<double>()));
       }
@@ -170,7 +170,7 @@ TEST_CASE("a material that is in the span is left as it is, and the iteration st
   CHECK(log_error(fit.tabulate(small_cells()), world().truth) < 1e-3);
   for (const float sigma : fit.correction().values()) REQUIRE(sigma == doctest::Approx(1.0).epsilon(0.01));
   // The constant function has nearly all the weight.
-  const auto constant = static_cast<Eigen::Index>(corrections.size()) - 1;
+  const Eigen::Index constant = corrections.size() - 1;
   for (Eigen::Index c = 0; c < 3; ++c) CHECK(fit.weights()[0](constant, c) == doctest::Approx(1.0).epsilon(0.02));
 }
 
@@ -252,7 +252,7 @@ TEST_CASE("what a run says of its estimates is what its result has at the sample
   const auto fit = run.result();
   const auto estimated = run.estimated();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
+    const Eigen::Index column = i;
     const auto [wi, wo] = samples[i].directions.pair();
     const gonio::rgb value = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
@@ -307,7 +307,7 @@ TEST_CASE("results: cells and directions agree, between cells and on other grids
   for (const auto& over : {small_cells(), gonio::valid_cells(gonio::grid({13, 8, 7}))}) {
     const auto table = fit.tabulate(over), threaded = fit.tabulate(over, {3});
     CHECK(same_bytes(table, threaded));
-    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       const auto [wi, wo] = to_directions(over.angles(cell));
       const gonio::rgb direct = fit(wi, wo);
       REQUIRE((direct >= 0.0).all());
@@ -337,7 +337,7 @@ TEST_CASE("samples between cells are fitted as those at cells are") {
 
 TEST_CASE("a table is fitted as its cells are, and one over other cells, too") {
   const correction_iteration estimator{combination{world().others}, world().corrections};
-  std::vector<std::size_t> every(small_cells().size());
+  std::vector<Eigen::Index> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
   const auto by_table = estimator.fit(world().truth),
              by_samples = estimator.fit(gonio::sample_table(world().truth, every));

@@ -37,7 +37,7 @@ TEST_CASE("a material of the prior comes back from a few samples") {
   const auto fit = decomposition{prior(), tikhonov{1e-6}}.fit(samples);
   const auto table = fit.tabulate(cells());
   double error = 0;
-  for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell) {
     const auto at = gonio::locate_cell(cells(), cell);
     for (Eigen::Index c = 0; c < 3; ++c)
       error = std::max(error, std::abs(prior().metric().forward(table.at(cell)[c], at) -
@@ -57,9 +57,8 @@ TEST_CASE("the system is what the equations say") {
   REQUIRE(problem.unknowns() == 10);
   CHECK(problem.weights()[2] == 0.25);
   for (std::size_t i = 0; i < 7; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    for (std::size_t k = 0; k < 10; ++k)
-      CHECK(problem.rows()(row, static_cast<Eigen::Index>(k)) == doctest::Approx(prior().row(chosen[i])[k]));
+    const Eigen::Index row = i;
+    for (std::size_t k = 0; k < 10; ++k) CHECK(problem.rows()(row, k) == doctest::Approx(prior().row(chosen[i])[k]));
     CHECK(problem.right_hand_side()(row, 1) ==
           doctest::Approx(prior().metric().forward(truth.at(chosen[i]).y(), chosen[i]) - prior().offset(chosen[i])));
   }
@@ -67,9 +66,7 @@ TEST_CASE("the system is what the equations say") {
 
 TEST_CASE("channels that count apart are fitted each with its own weights") {
   auto samples = gonio::sample_table(synthetic_materials(cells(), 8).table(2), gonio::random_cells(cells(), 20, 3));
-  const auto weight = [](std::size_t i, Eigen::Index c) {
-    return 0.1 + static_cast<double>((3 * static_cast<Eigen::Index>(i) + 7 * c) % 5);
-  };
+  const auto weight = [](std::size_t i, Eigen::Index c) { return 0.1 + static_cast<double>((3 * i + 7 * c) % 5); };
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].weight = rgb(weight(i, 0), weight(i, 1), weight(i, 2));
   CHECK(gonio::basis_equations(prior(), gonio::locate_samples(prior().cells(), samples)).systems() == 3);
   const auto apart = decomposition{prior(), tikhonov{0.3}}.fit(samples);
@@ -94,7 +91,7 @@ TEST_CASE("noise in a channel that says so by its weight does less harm, and non
     const auto error = [&](const gonio::sample_set& measured, Eigen::Index channel) {
       const auto fit = decomposition{prior(), tikhonov{0.1}}.fit(measured);
       double sum = 0.0;
-      for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+      for (Eigen::Index cell = 0; cell < cells().size(); ++cell) {
         const auto at = gonio::locate_cell(cells(), cell);
         const double expected = prior().metric().forward(truth.at(cell)[channel], at);
         sum += std::pow(fit.mapped(cell)[channel] - expected, 2);
@@ -115,7 +112,7 @@ TEST_CASE("an infinite penalty gives the mean material, whatever was measured") 
   const auto samples =
       gonio::sample_table(synthetic_materials(cells(), 8).table(2), gonio::random_cells(cells(), 20, 3));
   const auto table = decomposition{prior(), tikhonov{1e18}}.fit(samples).tabulate(cells());
-  for (std::size_t cell = 0; cell < cells().size(); cell += 11)
+  for (Eigen::Index cell = 0; cell < cells().size(); cell += 11)
     CHECK(table.at(cell).x() ==
           doctest::Approx(std::max(0.0, prior().metric().inverse(prior().offset(cell), cell))).epsilon(1e-4));
 }
@@ -129,7 +126,7 @@ TEST_CASE("tabulating agrees with evaluating, on the basis' cells and on others,
     const auto table = fit.tabulate(over, {1}), threaded = fit.tabulate(over, {3});
     CHECK(std::ranges::equal(table.values(), threaded.values()));
     const auto simple = fit.tabulate_cells(over);
-    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       if (over.angles(cell).theta_d == 0.0) continue;  // no phi_d can be told from the directions
       const auto [wi, wo] = to_directions(over.angles(cell));
       const rgb direct = fit(wi, wo);
@@ -162,7 +159,7 @@ TEST_CASE("archetypes: a basis that computes its rows is fitted and evaluated at
   const auto [wi, wo] = gonio::to_directions({0.2, 0.01, 0.7});  // beyond the first node of theta_d
   CHECK((fit(wi, wo) - rgb(0, 0.1, 3)).abs().maxCoeff() < 1e-9);
   const auto table = fit.tabulate(valid_cells(gonio::grid({4, 30, 5})));
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     REQUIRE(table.at(cell).y() == doctest::Approx(10.0 * table.cells().angles(cell).theta_d).epsilon(1e-6));
 }
 

@@ -31,7 +31,7 @@ std::vector<gonio::direction_pair> pairs_over_highlights() {
 double error_of(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
   const auto& metric = misplaced_prior().metric();
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < fine_cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < fine_cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c)
       sum += std::pow(
           metric.forward(double{estimate.at(cell)[c]}, cell) - metric.forward(double{truth.at(cell)[c]}, cell), 2);

@@ -17,7 +17,7 @@ namespace {
 Eigen::Array3d squared_distance(const gonio::log_relative_pca& prior, const Eigen::MatrixXd& weights,
                                 const gonio::brdf_table& table) {
   Eigen::Array3d squares = Eigen::Array3d::Zero();
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
     const Eigen::RowVectorXd row = gonio::row_at(prior, gonio::locate_cell(table.cells(), cell));
     for (Eigen::Index c = 0; c < 3; ++c) {
       const double truth = prior.metric().forward(table.at(cell)[c], cell);
@@ -27,18 +27,18 @@ Eigen::Array3d squared_distance(const gonio::log_relative_pca& prior, const Eige
   return squares;
 }
 
-gonio::sample_set measured_at(const gonio::brdf_table& table, std::span<const std::size_t> cells) {
+gonio::sample_set measured_at(const gonio::brdf_table& table, std::span<const Eigen::Index> cells) {
   gonio::sample_set samples = gonio::sample_table(table, cells);
   for (std::size_t i = 0; i < samples.size(); ++i) samples[i].weight = 0.5 + static_cast<double>(i % 3);
   return samples;
 }
 
 /// The definition: learn again without each material, and reconstruct it.
-double by_learning_again(const gonio::material_set& materials, std::span<const std::size_t> cells, double eta) {
+double by_learning_again(const gonio::material_set& materials, std::span<const Eigen::Index> cells, double eta) {
   const auto metric = gonio::log_relative::to_median_of(materials);
   double sum = 0.0;
   for (std::size_t material = 0; material < materials.names.size(); ++material) {
-    std::vector<std::size_t> others(materials.names.size());
+    std::vector<Eigen::Index> others(materials.names.size());
     std::iota(others.begin(), others.end(), std::size_t{0});
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(material));
     const auto prior = gonio::learn_pca(materials.subset(others), metric, 1000);
@@ -49,7 +49,7 @@ double by_learning_again(const gonio::material_set& materials, std::span<const s
   return sum / static_cast<double>(3 * materials.names.size());
 }
 
-gonio::leave_one_material_out_error error_of(const gonio::log_relative_pca& prior, std::span<const std::size_t> cells,
+gonio::leave_one_material_out_error error_of(const gonio::log_relative_pca& prior, std::span<const Eigen::Index> cells,
                                              double noise) {
   const auto samples = measured_at(gonio::brdf_table(prior.cells()), cells);
   const auto located = gonio::locate_samples(prior.cells(), samples);
@@ -100,9 +100,8 @@ TEST_CASE("noise adds what the reconstruction makes of it, and shifts what is me
   // Much noise and no penalty: hardly anything but noise is left, whose energy is the sum over the locations of what
   // one of deviation 1 adds, times the variance.
   const double eta = 1e-4;
-  Eigen::MatrixXd rows(5, static_cast<Eigen::Index>(prior.size()));
-  for (Eigen::Index i = 0; i < 5; ++i)
-    rows.row(i) = gonio::row_at(prior, located.locations[static_cast<std::size_t>(i)]);
+  Eigen::MatrixXd rows(5, prior.size());
+  for (Eigen::Index i = 0; i < 5; ++i) rows.row(i) = gonio::row_at(prior, located.locations[i]);
   const auto spread = gonio::map_noise(prior, located.locations, 0.3);
   double energy = 0.0;
   for (Eigen::Index i = 0; i < 5; ++i) {

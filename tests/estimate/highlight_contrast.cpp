@@ -22,7 +22,7 @@ const gonio::log_relative& contrast_reference() {
 /// Grey, whose mapped luminance is `in_peak` up to 0.15, `off_peak` from 0.5 on, and anything between.
 gonio::brdf_table grey_table(double in_peak, double off_peak, const gonio::valid_cells& cells = small_cells()) {
   gonio::brdf_table table(cells);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const auto angles = cells.angles(cell);
     const double mapped = angles.theta_h <= 0.15 ? in_peak : angles.theta_h < 0.5 ? 17.0 : off_peak;
     const double rho = contrast_reference().inverse(mapped, gonio::locate(small_cells(), angles));
@@ -33,7 +33,7 @@ gonio::brdf_table grey_table(double in_peak, double off_peak, const gonio::valid
 
 gonio::sample_set every_cell(const gonio::brdf_table& table) {
   gonio::sample_set samples;
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
   return samples;
 }
@@ -50,7 +50,7 @@ TEST_CASE("the contrast is the difference of the mapped luminances, on any cells
 
 TEST_CASE("the reference itself has no contrast, and an unshiny material less than a shiny one") {
   gonio::brdf_table reference(small_cells()), flat(small_cells());
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell) {
     reference.set(cell, gonio::rgb::Constant(double{contrast_reference().reference()[cell]}));
     flat.set(cell, gonio::rgb(0.1, 0.2, 0.3));
   }
@@ -65,7 +65,7 @@ TEST_CASE("samples at all cells have the table's contrast, and that of a set's m
   for (std::size_t m = 0; m < 4; ++m) {
     const auto table = set.table(m);
     const double one = highlight_contrast(contrast_reference(), table, wide);
-    CHECK(all[static_cast<Eigen::Index>(m)] == doctest::Approx(one).epsilon(1e-12));
+    CHECK(all[m] == doctest::Approx(one).epsilon(1e-12));
     CHECK(highlight_contrast(contrast_reference(), every_cell(table), wide).value() ==
           doctest::Approx(one).epsilon(1e-6));
   }
@@ -130,11 +130,10 @@ TEST_CASE("a set is split at the median, or where it is said") {
   const auto halves = gonio::split_by_contrast(set, contrast_reference(), {}, wide);
   CHECK(halves.soft.names.size() == 4);
   CHECK(halves.specular.names.size() == 5);
-  for (const auto& name : halves.soft.names)
-    CHECK(contrasts[static_cast<Eigen::Index>(set.find(name))] < halves.threshold);
+  for (const auto& name : halves.soft.names) CHECK(contrasts[set.find(name)] < halves.threshold);
   for (const auto& name : halves.specular.names) {
     const std::size_t m = set.find(name);
-    CHECK(contrasts[static_cast<Eigen::Index>(m)] >= halves.threshold);
+    CHECK(contrasts[m] >= halves.threshold);
     CHECK(std::ranges::equal(halves.specular.table(halves.specular.find(name)).values(), set.table(m).values()));
   }
   const auto one = gonio::split_by_contrast(set, contrast_reference(), contrasts.maxCoeff(), wide);

@@ -52,17 +52,17 @@ TEST_CASE("samples are placed where they are, with their values and weights") {
       const auto expected = gonio::locate(small_cells(), s.angles());
       RC_ASSERT(found.locations[next].cell == expected.cell);
       RC_ASSERT(found.locations[next].weight == expected.weight);
-      RC_ASSERT((found.values.row(static_cast<Eigen::Index>(next)).transpose().array() == s.value).all());
+      RC_ASSERT((found.values.row(next).transpose().array() == s.value).all());
       for (Eigen::Index c = 0; c < 3; ++c) {
-        RC_ASSERT(found.weights_of(c)[static_cast<Eigen::Index>(next)] == s.weight[c]);
-        RC_ASSERT(found.channel_weights()(c, static_cast<Eigen::Index>(next)) == static_cast<float>(s.weight[c]));
+        RC_ASSERT(found.weights_of(c)[next] == s.weight[c]);
+        RC_ASSERT(found.channel_weights()(c, next) == static_cast<float>(s.weight[c]));
       }
       ++next;
     }
     RC_ASSERT(next == found.size());
-    RC_ASSERT(found.values.rows() == static_cast<Eigen::Index>(next));
+    RC_ASSERT(found.values.rows() == next);
     RC_ASSERT(found.weighs_channels_apart() == apart);
-    RC_ASSERT(found.weights.rows() == static_cast<Eigen::Index>(next));
+    RC_ASSERT(found.weights.rows() == next);
     RC_ASSERT(found.weights.cols() == (apart ? 3 : 1));
   }));
 }
@@ -92,15 +92,15 @@ TEST_CASE("a table is a measurement of weight 1 at each cell") {
   const auto found = locate_samples(small_cells(), some_table(), {3});
   REQUIRE(found.size() == small_cells().size());
   CHECK((found.weights.array() == 1.0).all());
-  for (std::size_t cell = 0; cell < found.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(found); ++cell) {
     REQUIRE(found.locations[cell].count == 1);
     REQUIRE(found.locations[cell].cell[0] == cell);
-    REQUIRE(found.values(static_cast<Eigen::Index>(cell), 1) == some_table().at(cell).y());
+    REQUIRE(found.values(cell, 1) == some_table().at(cell).y());
   }
   const gonio::valid_cells others(gonio::grid({5, 6, 8}));
   const auto elsewhere = locate_samples(others, some_table());
   REQUIRE(elsewhere.size() == small_cells().size());
-  for (std::size_t cell = 0; cell < elsewhere.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(elsewhere); ++cell) {
     const auto expected = gonio::locate(others, small_cells().angles(cell));
     REQUIRE(elsewhere.locations[cell].cell == expected.cell);
     REQUIRE(elsewhere.locations[cell].weight == expected.weight);
@@ -111,7 +111,7 @@ TEST_CASE("values of an estimate at locations: few are evaluated, many are read 
   const gonio::completed_table fit(some_table());
   const gonio::valid_cells fine(gonio::grid({24, 18, 24}));
   std::vector<gonio::location> locations;
-  for (std::size_t cell = 0; cell < fine.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(fine); ++cell) {
     locations.push_back(gonio::locate_cell(fine, cell));
     if (cell % 5 == 0) {  // and one between cells
       auto angles = fine.angles(cell);
@@ -130,8 +130,8 @@ TEST_CASE("values of an estimate at locations: few are evaluated, many are read 
     const gonio::rgb direct = fit(wi, wo);
     for (Eigen::Index c = 0; c < 3; ++c) {
       // Angles go through directions and back.
-      REQUIRE(double{all(c, static_cast<Eigen::Index>(i))} == doctest::Approx(direct[c]).epsilon(1e-6));
-      if (i < 100) REQUIRE(few(c, static_cast<Eigen::Index>(i)) == static_cast<float>(direct[c]));
+      REQUIRE(double{all(c, i)} == doctest::Approx(direct[c]).epsilon(1e-6));
+      if (i < 100) REQUIRE(few(c, i) == static_cast<float>(direct[c]));
     }
   }
 }

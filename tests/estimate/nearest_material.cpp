@@ -25,7 +25,7 @@ const gonio::measured<gonio::log>& nine_in_log() {
 
 gonio::brdf_table scaled_table(std::size_t material, const gonio::rgb& factors) {
   auto table = nine_materials().table(material);
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) table.set(cell, factors * table.at(cell));
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) table.set(cell, factors * table.at(cell));
   return table;
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("which material it is, and how bright, is found among 60 % outliers") 
       CHECK(chosen[c].material == material);
       // Without noise a good sample is exact, but for the offset, a hundredth of the median, in its logarithm, which
       // the factor does not multiply.
-      CHECK(chosen[c].factor == doctest::Approx(factors[static_cast<Eigen::Index>(c)]).epsilon(0.02));
+      CHECK(chosen[c].factor == doctest::Approx(factors[c]).epsilon(0.02));
     }
   }
 }
@@ -71,17 +71,17 @@ TEST_CASE("the fit is the chosen material times the factor of each channel") {
   const auto samples = samples_of(scaled_table(2, factors), 200, 0.2, 4);
   const auto chosen = choice_for(nearest, samples);
   const auto table = nearest.fit(samples).tabulate(small_cells());
-  const auto whole = [](std::size_t material) { return gonio::scaled_material{material, 1.0}; };
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
+  const auto whole = [](Eigen::Index material) { return gonio::scaled_material{material, 1.0}; };
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell) {
     const std::vector<gonio::location> here{gonio::locate_cell(small_cells(), cell)};
     const auto found =
         nearest.values({whole(chosen[0].material), whole(chosen[1].material), whole(chosen[2].material)}, here);
     const auto second = nearest.values({whole(2), whole(2), whole(2)}, here);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto row = static_cast<Eigen::Index>(c);
+      const Eigen::Index row = c;
       REQUIRE(table.values()[3 * cell + c] == doctest::Approx(chosen[c].factor * double{found(row, 0)}).epsilon(1e-6));
       REQUIRE(second(row, 0) ==  // float logarithms, and back
-              doctest::Approx(double{nine_materials().values(static_cast<Eigen::Index>(cell), 6 + row)}).epsilon(2e-6));
+              doctest::Approx(double{nine_materials().values(cell, 6 + row)}).epsilon(2e-6));
     }
   }
 }
@@ -98,7 +98,7 @@ TEST_CASE("the metric of the basis does not matter at cells") {
 }
 
 TEST_CASE("the same seed chooses the same from many samples, for any number of threads") {
-  std::vector<std::size_t> every(small_cells().size());
+  std::vector<Eigen::Index> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
   auto samples = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 1);
   const auto more = gonio::sample_table(nine_materials().table(1), every, {.outlier_ratio = 0.5}, 2);

@@ -56,7 +56,7 @@ synthetic_measurement synthetic_measurement_of(Eigen::Index count, double share,
 
 TEST_CASE("the density of outliers is positive and integrates to 1") {
   CHECK(rc::check([] {
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 300));
+    const std::size_t count = *rc::gen::inRange(1, 300);
     const double width = std::pow(10.0, *rc::gen::inRange(-3, 2));
     const auto logarithms = uniform_numbers(count, -5.0, -5.0 + width, static_cast<unsigned>(count));
     const outlier_density density(logarithms);
@@ -167,8 +167,7 @@ TEST_CASE("automatic weights tell outliers from good samples") {
   CHECK((weights.row(0) == weights.row(2)).all());
   double good = 0.0, bad = 0.0;
   const auto bad_count = static_cast<double>(std::ranges::count(made.outlier, true));
-  for (std::size_t i = 0; i < made.outlier.size(); ++i)
-    (made.outlier[i] ? bad : good) += double{weights(0, static_cast<Eigen::Index>(i))};
+  for (std::size_t i = 0; i < made.outlier.size(); ++i) (made.outlier[i] ? bad : good) += double{weights(0, i)};
   CHECK(good / (4000.0 - bad_count) > 0.75);  // the tail's weight is 0.8 in the mean
   CHECK(bad / bad_count < 0.15);
   // Without the tail's weight good ones count nearly in full.
@@ -176,7 +175,7 @@ TEST_CASE("automatic weights tell outliers from good samples") {
   CHECK((whole >= weights).all());
   double whole_good = 0.0;
   for (std::size_t i = 0; i < made.outlier.size(); ++i)
-    if (!made.outlier[i]) whole_good += double{whole(0, static_cast<Eigen::Index>(i))};
+    if (!made.outlier[i]) whole_good += double{whole(0, i)};
   CHECK(whole_good / (4000.0 - bad_count) > 0.95);
 }
 
@@ -251,7 +250,7 @@ struct missed_highlight {
     regions = std::make_shared<const gonio::sample_regions>(locations);
     for (Eigen::Index i = 0; i < 500; ++i) {
       made.estimated.col(i) *= 30.0f * factor;
-      if (!made.outlier[static_cast<std::size_t>(i)]) made.measured.col(i) *= 30.0f;
+      if (!made.outlier[i]) made.measured.col(i) *= 30.0f;
     }
   }
 
@@ -261,7 +260,7 @@ struct missed_highlight {
     double sum = 0.0, count = 0.0;
     for (std::size_t i = 0; i < 500; ++i)
       if (made.outlier[i] == of_outliers) {
-        sum += double{weights(0, static_cast<Eigen::Index>(i))};
+        sum += double{weights(0, i)};
         count += 1.0;
       }
     return sum / count;

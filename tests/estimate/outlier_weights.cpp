@@ -32,7 +32,7 @@ channel_values any_reflectances(Eigen::Index count) {
 }
 
 channel_values row_in_each_channel(std::initializer_list<float> values) {
-  channel_values all(3, static_cast<Eigen::Index>(values.size()));
+  channel_values all(3, std::ssize(values));
   Eigen::Index i = 0;
   for (const float value : values) all.col(i++).setConstant(value);
   return all;

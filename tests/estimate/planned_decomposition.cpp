@@ -18,7 +18,7 @@ struct planned_world {
   gonio::material_set set = synthetic_materials(small_cells(), 12, 5);
   gonio::sample_set locations = [] {
     gonio::sample_set found;
-    for (std::size_t cell = 0; cell < small_cells().size(); cell += 3) {
+    for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 3) {
       auto angles = small_cells().angles(cell);
       if (cell % 2 == 0) angles.theta_d *= 0.97;
       found.push_back({angles, gonio::rgb::Zero(), 1.0});
@@ -61,7 +61,7 @@ void check_against_decomposition(const Metric& metric) {
     }
     // Products in float are off by 1e-7, which the condition of a dozen materials magnifies.
     CHECK(std::sqrt(differences / squares) < 1e-4);
-    CHECK(fit.weights()(static_cast<Eigen::Index>(material), 0) == 0.0);
+    CHECK(fit.weights()(material, 0) == 0.0);
     for (Eigen::Index c = 0; c < 3; ++c)
       CHECK(fit.report()->residual[c] == doctest::Approx(expected.report()->residual[c]).epsilon(1e-2));
   }

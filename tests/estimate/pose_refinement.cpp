@@ -55,7 +55,7 @@ sample_set image_of(const Material& truth, double theta, const pose_correction& 
 template <class Fit, class Material>
 double mapped_error(const Fit& fit, const Material& truth) {
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < image_cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < image_cells().size(); ++cell)
     sum += (fit.mapped(cell) - truth.mapped(cell)).square().mean();
   return std::sqrt(sum / static_cast<double>(image_cells().size()));
 }

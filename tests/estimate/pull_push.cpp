@@ -46,7 +46,7 @@ std::vector<double> complete_along_phi_d(int extent, const std::vector<std::pair
     samples.push_back({cells.grid().angles({0, 0, node}), rgb::Constant(value), 1.0});
   const auto table = pull_push{cells}.fit(samples).tabulate(cells);
   std::vector<double> values;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) values.push_back(table.at(cell).x());
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) values.push_back(table.at(cell).x());
   return values;
 }
 
@@ -60,7 +60,7 @@ const gonio::brdf_table& truth() {
 TEST_CASE("a full table comes back as it was, from the table and from samples of its cells") {
   const pull_push estimator{small_cells()};
   sample_set samples;
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     samples.push_back({small_cells().angles(cell), truth().at(cell), 1.0 + 0.1 * static_cast<double>(cell % 7)});
   CHECK(std::ranges::equal(estimator.fit(truth()).tabulate(small_cells()).values(), truth().values()));
   CHECK(std::ranges::equal(estimator.fit(samples).tabulate(small_cells()).values(), truth().values()));
@@ -77,13 +77,13 @@ TEST_CASE("completed values lie between the least and the largest measured, and 
       most = most.max(s.value);
     }
     const auto table = pull_push{cells}.fit(samples).tabulate(cells);
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
       RC_ASSERT((table.at(cell) >= least - 1e-5).all());
       RC_ASSERT((table.at(cell) <= most + 1e-5).all());
     }
     for (gonio::sample& s : samples) s.value = rgb(1, 2, 3);
     const auto constant = pull_push{cells}.fit(samples).tabulate(cells);
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
       RC_ASSERT((constant.at(cell) - rgb(1, 2, 3)).abs().maxCoeff() < 1e-6);
   }));
 }
@@ -162,7 +162,7 @@ TEST_CASE("theta_h does not wrap") {
 
 TEST_CASE("the finer levels decide where they know something: smooth materials from a few cells") {
   sample_set samples;
-  for (std::size_t cell = 0; cell < small_cells().size(); cell += 3)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 3)
     samples.push_back({small_cells().angles(cell), truth().at(cell), 1.0});
   const auto table = pull_push{small_cells()}.fit(samples).tabulate(small_cells());
   double error = 0.0, spread = 0.0;
@@ -175,13 +175,13 @@ TEST_CASE("the finer levels decide where they know something: smooth materials f
 
 TEST_CASE("fits do not depend on the number of threads, and tabulating agrees with evaluating") {
   sample_set samples;
-  for (std::size_t cell = 0; cell < small_cells().size(); cell += 5)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); cell += 5)
     samples.push_back({small_cells().angles(cell), truth().at(cell), 0.3});
   const auto fit = pull_push{small_cells(), {1}}.fit(samples), threaded = pull_push{small_cells(), {3}}.fit(samples);
   CHECK(std::ranges::equal(fit.table().values(), threaded.table().values()));
   for (const auto& over : {small_cells(), valid_cells(gonio::grid({13, 6, 20}))}) {
     const auto table = fit.tabulate(over);
-    for (std::size_t cell = 0; cell < over.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < over.size(); ++cell) {
       const auto [wi, wo] = to_directions(over.angles(cell));
       REQUIRE((table.at(cell) - fit(wi, wo)).abs().maxCoeff() < 1e-5 * (1.0 + table.at(cell).maxCoeff()));
     }

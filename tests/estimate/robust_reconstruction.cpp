@@ -131,7 +131,7 @@ TEST_CASE("any metric of the materials will do") {
 
 TEST_CASE("the same bytes for any number of threads, and the seed matters only where it chooses") {
   const gonio::correction corrections{robust().others};
-  const auto with = [&](std::uint64_t seed, std::size_t count, unsigned threads) {
+  const auto with = [&](std::uint64_t seed, Eigen::Index count, unsigned threads) {
     return robust_reconstruction{
         robust().others, corrections, {}, gonio::robust_start{.samples = count, .seed = seed}, {threads}};
   };
@@ -157,7 +157,7 @@ TEST_CASE("stepping from the start is what the fit does") {
 TEST_CASE("the iteration looks at some of the samples, if there are many") {
   const gonio::correction corrections{robust().others};
   const auto samples = robust().samples(400, {.outlier_ratio = 0.3});
-  const auto with = [&](std::size_t most, std::uint64_t seed) {
+  const auto with = [&](Eigen::Index most, std::uint64_t seed) {
     return robust_reconstruction{robust().others, corrections, {}, {.most_samples = most, .seed = seed}}.fit(samples);
   };
   CHECK(std::ranges::equal(with(400, 1).correction().values(), with(50'000, 2).correction().values()));
@@ -199,7 +199,7 @@ TEST_CASE("a sample of weight zero changes no byte, and other weights matter") {
 }
 
 TEST_CASE("a table is fitted as its cells are; samples between cells are fitted") {
-  std::vector<std::size_t> every(small_cells().size());
+  std::vector<Eigen::Index> every(small_cells().size());
   std::iota(every.begin(), every.end(), std::size_t{0});
   const auto by_table = robust().estimator.fit(robust().truth);
   const auto by_samples = robust().estimator.fit(gonio::sample_table(robust().truth, every));
@@ -217,7 +217,7 @@ TEST_CASE("a table is fitted as its cells are; samples between cells are fitted"
 
 TEST_CASE("random values of random sizes, weights and numbers: finite and not negative") {
   CHECK(rc::check("anything usable", [] {
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 40));
+    const std::size_t count = *rc::gen::inRange(1, 40);
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
     auto samples = robust().samples(count, {}, seed);
     std::mt19937 generator(seed);
@@ -300,7 +300,7 @@ TEST_CASE("the result is zero below the horizon, and evaluates as it tabulates")
   CHECK((fit({0, 0, 1}, {1, 0, 0}) == 0.0).all());
   CHECK((fit({0, 0, -1}, {0, 0, 1}) == 0.0).all());
   const auto table = fit.tabulate(small_cells());
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell) {
     const auto [wi, wo] = to_directions(small_cells().angles(cell));
     const gonio::rgb direct = fit(wi, wo);
     REQUIRE((table.at(cell) - direct).abs().maxCoeff() <= 4e-6 * (1e-3 + direct.maxCoeff()));

@@ -11,7 +11,7 @@ using gonio::sample_regions;
 
 TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
   CHECK(rc::check([] {
-    const auto n = static_cast<std::size_t>(*rc::gen::inRange(1, 600));
+    const std::size_t n = *rc::gen::inRange(1, 600);
     std::mt19937 generator(static_cast<unsigned>(n));
     std::vector<gonio::location> locations;
     for (std::size_t i = 0; i < n; ++i)
@@ -29,7 +29,7 @@ TEST_CASE("regions are equal parts: strips of theta_h, cut by theta_d") {
         const auto region = regions[strip * parts + part];
         RC_ASSERT(region.size() >= n / regions.count());
         RC_ASSERT(region.size() <= n / regions.count() + 2);
-        for (const std::size_t sample : region) {
+        for (const Eigen::Index sample : region) {
           RC_ASSERT(!seen[sample]);
           seen[sample] = true;
           RC_ASSERT(locations[sample].angles.theta_h >= largest_h);

@@ -36,8 +36,7 @@ struct random_equations {
   Eigen::ArrayXf weights, values;
 
   /// A third of the weights are zero.
-  random_equations(std::size_t count, unsigned seed)
-      : weights(static_cast<Eigen::Index>(count)), values(static_cast<Eigen::Index>(count)) {
+  random_equations(std::size_t count, unsigned seed) : weights(count), values(count) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<float> number(0.0f, 2.0f);
     for (float& weight : weights) weight = generator() % 3 == 0 ? 0.0f : number(generator);
@@ -49,7 +48,7 @@ struct random_equations {
 
 TEST_CASE("normal equations, moments and products are those of the gathered rows in double") {
   CHECK(rc::check([] {
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 400));
+    const std::size_t count = *rc::gen::inRange(1, 400);
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
     const auto locations = mixed_places(count, seed);
     const random_equations system(count, seed + 1);
@@ -62,10 +61,9 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
     const Eigen::MatrixXd x = Eigen::VectorXd::LinSpaced(21, 0.1, 2.0).reshaped(7, 3);
     const gonio::channel_values all_applied = functions.apply(x);
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto column = static_cast<Eigen::Index>(c);
-      Eigen::MatrixXd rows(static_cast<Eigen::Index>(count), 7);
-      for (std::size_t i = 0; i < count; ++i)
-        rows.row(static_cast<Eigen::Index>(i)) = gonio::row_at(seven_materials().channel(c), locations[i]);
+      const Eigen::Index column = c;
+      Eigen::MatrixXd rows(count, 7);
+      for (std::size_t i = 0; i < count; ++i) rows.row(i) = gonio::row_at(seven_materials().channel(c), locations[i]);
       const Eigen::VectorXd w = system.weights.matrix().cast<double>(), b = system.values.matrix().cast<double>();
       const Eigen::MatrixXd gram = rows.transpose() * w.asDiagonal() * rows;
       const Eigen::VectorXd rhs = rows.transpose() * w.asDiagonal() * b;
@@ -85,7 +83,7 @@ TEST_CASE("normal equations, moments and products are those of the gathered rows
 
 TEST_CASE("fewer samples than functions: no weights explain more than the samples hold") {
   CHECK(rc::check([] {
-    const auto count = static_cast<std::size_t>(*rc::gen::inRange(1, 7));
+    const std::size_t count = *rc::gen::inRange(1, 7);
     const auto seed = static_cast<unsigned>(*rc::gen::inRange(0, 10'000));
     const auto locations = mixed_places(count, seed);
     const random_equations system(count, seed + 1);
@@ -115,7 +113,7 @@ TEST_CASE("rows of weight zero are skipped, whatever is there") {
     if (system.weights[i] == 0.0f)
       system.values[i] = std::nanf("");
     else {
-      kept.push_back(locations[static_cast<std::size_t>(i)]);
+      kept.push_back(locations[i]);
       weights.push_back(system.weights[i]);
       values.push_back(system.values[i]);
     }
@@ -160,8 +158,8 @@ TEST_CASE("a row at a cell is the basis' own, and between cells the interpolated
   for (Eigen::Index f = 0; f < 7; ++f) {
     const auto values = functions.apply(Eigen::VectorXd::Unit(7, f).replicate<1, 3>());
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const auto channel = seven_materials().channel(static_cast<std::size_t>(c));
-      CHECK(values(c, 0) == channel.row(100)[static_cast<std::size_t>(f)]);
+      const auto channel = seven_materials().channel(c);
+      CHECK(values(c, 0) == channel.row(100)[f]);
       CHECK(values(c, 1) == static_cast<float>(gonio::row_at(channel, locations[1])[f]));
       CHECK(values(c, 0) != values(c, 1));
     }

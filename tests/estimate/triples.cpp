@@ -59,7 +59,7 @@ void check_fit(const gonio::fitted_brdf<Basis>& fit) {
   REQUIRE(fit.report());
   CHECK(fit.report()->kkt_residual.maxCoeff() <= 1e-9);
   CHECK(fit.weights().allFinite());
-  CHECK(fit.weights().rows() == static_cast<Eigen::Index>(fit.functions().size()));
+  CHECK(fit.weights().rows() == std::ssize(fit.functions()));
   CHECK(fit.weights().cols() == 3);
   CHECK(fit.report()->residual.size() == 3);
   CHECK(fit.report()->objective.size() == 3);
@@ -67,7 +67,7 @@ void check_fit(const gonio::fitted_brdf<Basis>& fit) {
   const auto table = fit.tabulate(small_cells()), simple = fit.tabulate_cells(small_cells());
   const auto truth = materials().table(truth_index);
   double error = 0.0;
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell) {
     error = std::max(error, ((table.at(cell) - truth.at(cell)) / (truth.at(cell) + 0.1)).abs().maxCoeff());
     REQUIRE((table.at(cell) - simple.at(cell)).abs().maxCoeff() <= 1e-5 * (1.0 + truth.at(cell).maxCoeff()));
     REQUIRE((table.at(cell) >= 0.0).all());

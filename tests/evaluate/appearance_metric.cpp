@@ -101,7 +101,7 @@ TEST_CASE("black and an overexposed sphere are 100 apart in lightness where ligh
 TEST_CASE("negative reflectance counts as zero, cell by cell") {
   const brdf_table positive = grey(0.3);
   brdf_table negative = positive, clamped = positive;
-  for (std::size_t cell = 0; cell < sphere_cells().size(); cell += 3) {
+  for (Eigen::Index cell = 0; cell < sphere_cells().size(); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }

@@ -40,7 +40,7 @@ brdf_table paint() { return tabulate(gonio::model::formula_material("red-paint")
 template <class Change>
 brdf_table changed(const brdf_table& table, Change&& change) {
   brdf_table result(table.cells());
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) result.set(cell, change(cell, table.at(cell)));
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) result.set(cell, change(cell, table.at(cell)));
   return result;
 }
 
@@ -66,9 +66,9 @@ log_relative constant_reference(const valid_cells& over, float reference) {
 /// The definition of the interpolated percentile, by sorting everything.
 double percentile_by_sorting(const brdf_table& table, std::size_t channel, double limit) {
   std::vector<double> values;
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     if (table.cells().angles(cell).theta_h < limit && table.cells().angles(cell).theta_d <= gonio::radians(70.0))
-      values.push_back(table.at(cell)[static_cast<Eigen::Index>(channel)]);
+      values.push_back(table.at(cell)[channel]);
   std::ranges::sort(values);
   const double position = 0.999 * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(position);
@@ -148,7 +148,7 @@ TEST_CASE("the peak ratio of a scaled table is its scale") {
 TEST_CASE("the highlight's peak is the 99.9th percentile below 5 degrees: one wild cell does not make it") {
   const brdf_table truth = paint();
   for (std::size_t channel = 0; channel < 3; ++channel)
-    CHECK(gonio::highlight_peak(truth)[static_cast<Eigen::Index>(channel)] ==
+    CHECK(gonio::highlight_peak(truth)[channel] ==
           doctest::Approx(percentile_by_sorting(truth, channel, gonio::radians(5.0))).epsilon(1e-12));
 
   const brdf_table wild =
@@ -192,7 +192,7 @@ TEST_CASE("a grid without cells below 5 degrees has its peak at its smallest the
   const valid_cells few(gonio::grid({2, 3, 4}));
   REQUIRE(few.angles(0).theta_h > gonio::radians(5.0));
   brdf_table table(few);
-  for (std::size_t cell = 0; cell < few.size(); ++cell)
+  for (Eigen::Index cell = 0; cell < few.size(); ++cell)
     table.set(cell, rgb::Constant(few.angles(cell).theta_h == few.angles(0).theta_h ? 0.5 : 7.0));
   CHECK((gonio::highlight_peak(table) == 0.5).all());
   // A single cell is its own percentile.

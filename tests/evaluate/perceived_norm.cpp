@@ -18,9 +18,8 @@ gonio::render::sphere_operator lit_sphere(int size) { return {small_cells(), gon
 Eigen::ArrayXd lightness(const gonio::render::sphere_operator& sphere, const Eigen::VectorXf& weights) {
   const gonio::log_relative_pca& prior = few_materials();
   gonio::brdf_table table(small_cells());
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell) {
-    const double mapped =
-        prior.offset(cell) + double{prior.components().row(static_cast<Eigen::Index>(cell)).dot(weights)};
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell) {
+    const double mapped = prior.offset(cell) + double{prior.components().row(cell).dot(weights)};
     const auto rho = static_cast<float>(prior.metric().inverse(mapped, cell));
     for (std::size_t channel = 0; channel < 3; ++channel) table.values()[3 * cell + channel] = rho;
   }
@@ -40,7 +39,7 @@ TEST_CASE("the norm is the mean square change of lightness over points and mater
   std::mt19937 generator(3);
   std::normal_distribution<float> normal;
   for (int trial = 0; trial < 5; ++trial) {
-    Eigen::VectorXf change(static_cast<Eigen::Index>(prior.size()));
+    Eigen::VectorXf change(prior.size());
     for (float& value : change) value = 1e-3f * normal(generator);
     double expected = 0.0;
     for (Eigen::Index i = 0; i < prior.coefficients().rows(); ++i) {

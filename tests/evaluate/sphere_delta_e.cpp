@@ -148,7 +148,7 @@ TEST_CASE("the image of differences has the false colour of each point's differe
   CHECK((gonio::pixel(image, 0, 0) == background).all());
   const auto& points = room_delta_e().sphere().points();
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
+    const Eigen::Index at = i;
     const double difference = (estimate.lab.row(at) - truth.lab.row(at)).matrix().norm();
     const rgb expected = gonio::render::false_colour(difference, {.red = 40.0});
     CHECK((gonio::pixel(image, points[i].row, points[i].column) - expected).abs().maxCoeff() < 1e-6);

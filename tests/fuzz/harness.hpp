@@ -53,7 +53,7 @@ class memory_file {
     for (input left = bytes; !left.empty();) {
       const ssize_t count = ::write(file_, left.data(), left.size());
       if (count <= 0) throw std::runtime_error("no room for a file in memory");
-      left = left.subspan(static_cast<std::size_t>(count));
+      left = left.subspan(count);
     }
     path_ = "/proc/self/fd/" + std::to_string(file_);
     if (extension.empty()) return;

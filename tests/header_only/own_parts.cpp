@@ -22,9 +22,9 @@ class two_lobes {
  public:
   explicit two_lobes(gonio::valid_cells cells) : cells_(std::move(cells)) {}
 
-  std::size_t size() const { return 3; }
+  Eigen::Index size() const { return 3; }
   const gonio::valid_cells& cells() const { return cells_; }
-  double offset(std::size_t) const { return 0.0; }
+  double offset(Eigen::Index) const { return 0.0; }
   cube_root metric() const { return {}; }
   void read_row(const gonio::location& at, gonio::function_row out) const {
     const double cosine = std::cos(at.angles.theta_h);
@@ -91,7 +91,7 @@ int main() {
   check((fit({0, 0, 1}, {0, 0, -1}) == 0.0).all(), "nothing below the horizon");
   const gonio::brdf_table table = fit.tabulate(cells);
   double worst = 0.0;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
     worst = std::max(worst, std::abs(table.at(cell).x() - truth(cells.angles(cell).theta_h)));
   check(worst < 1e-5, "the table is the truth everywhere");
   return failures;

@@ -80,8 +80,7 @@ TEST_CASE("PNG holds sRGB, rounded and clipped") {
 TEST_CASE("what a PNG holds is written again in the same bytes") {
   const scratch::folder here;
   CHECK(rc::check("png round trip", [&] {
-    image picture({static_cast<std::size_t>(*rc::gen::inRange(1, 12)),
-                   static_cast<std::size_t>(*rc::gen::inRange(1, 12)), std::size_t{3}});
+    image picture({*rc::gen::inRange<std::size_t>(1, 12), *rc::gen::inRange<std::size_t>(1, 12), std::size_t{3}});
     for (std::size_t i = 0; i < picture.size(); ++i)
       picture.data()[i] = 0.001f * static_cast<float>(*rc::gen::inRange(-100, 1200));
     write_png(here / "a.png", picture);
@@ -195,8 +194,7 @@ TEST_CASE("damaged PNG files are read or refused") {
 TEST_CASE("HDR holds three mantissas of eight bits, rounded") {
   const scratch::folder here;
   CHECK(rc::check("hdr round trip", [&] {
-    image picture({static_cast<std::size_t>(*rc::gen::inRange(1, 5)),
-                   static_cast<std::size_t>(*rc::gen::inRange(1, 40)), std::size_t{3}});
+    image picture({*rc::gen::inRange<std::size_t>(1, 5), *rc::gen::inRange<std::size_t>(1, 40), std::size_t{3}});
     for (std::size_t i = 0; i < picture.size(); ++i) {
       const float mantissa = 0.0001f * static_cast<float>(*rc::gen::inRange(-1000, 10000));
       picture.data()[i] = std::ldexp(mantissa, *rc::gen::element(0, 0, 1, 20, -90, 100));

@@ -53,7 +53,7 @@ TEST_CASE("values, planes and scales are MERL's") {
   const auto& cells = table.cells();
   CHECK(cells.grid().extents() == small);
   CHECK(cells.grid().anchor() == cell_anchor::centre);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const auto linear = static_cast<double>(cells.linear(cell));
     CHECK(table.at(cell).x() == doctest::Approx(linear / 1500.0));
     CHECK(table.at(cell).y() == doctest::Approx((linear + 120.0) * 1.15 / 1500.0));

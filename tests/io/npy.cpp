@@ -45,7 +45,7 @@ template <class T, std::size_t Rank>
 void check_round_trip(const scratch::fs::path& path) {
   CHECK(rc::check("npy round trip", [&] {
     std::array<std::size_t, Rank> shape{};
-    for (std::size_t& extent : shape) extent = static_cast<std::size_t>(*rc::gen::inRange(0, 5));
+    for (std::size_t& extent : shape) extent = *rc::gen::inRange(0, 5);
     xt::xtensor<T, Rank> array(shape);
     for (std::size_t i = 0; i < array.size(); ++i) array.data()[i] = *rc::gen::arbitrary<T>();
     write_npy(path, array);

@@ -42,7 +42,7 @@ TEST_CASE("a prior comes back with the errors of its quantisation and no others"
     const float half_step = 0.5f * (column.maxCoeff() - column.minCoeff()) / 255.0f;
     CHECK((back.components().col(k) - column).cwiseAbs().maxCoeff() <= 1.001f * half_step);
   }
-  for (std::size_t cell = 0; cell < prior.cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < prior.cells().size(); ++cell) {
     REQUIRE(back.offset(cell) == doctest::Approx(prior.offset(cell)).epsilon(1e-3));
     REQUIRE(back.metric().reference()[cell] == doctest::Approx(prior.metric().reference()[cell]).epsilon(1e-3));
   }

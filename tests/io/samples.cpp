@@ -218,7 +218,7 @@ TEST_CASE("a written set reads back") {
     const auto number = [](double low, double high) {
       return low + (high - low) * *rc::gen::inRange(0, 1 << 30) / (1 << 30);
     };
-    gonio::sample_set samples(static_cast<std::size_t>(*rc::gen::inRange(1, 20)));
+    gonio::sample_set samples(*rc::gen::inRange(1, 20));
     const bool apart = *rc::gen::arbitrary<bool>();
     for (gonio::sample& s : samples) {
       const auto polar = [&] { return radians(number(0.0, 89.9)); };

@@ -40,7 +40,7 @@ class folder {
   [[nodiscard]] const fs::path& path() const { return path_; }
   [[nodiscard]] fs::path operator/(const std::string& name) const { return path_ / name; }
   [[nodiscard]] std::size_t entries() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path_), fs::directory_iterator()));
+    return std::distance(fs::directory_iterator(path_), fs::directory_iterator());
   }
 
  private:

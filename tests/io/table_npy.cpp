@@ -16,12 +16,12 @@ TEST_CASE("a table as an array: the values of its cells in the grid's order, and
   REQUIRE(array.shape(3) == 3u);
   const gonio::grid& cells = table.cells().grid();
   std::size_t other = 0, below = 0;
-  for (std::size_t linear = 0; linear < cells.size(); ++linear) {
+  for (Eigen::Index linear = 0; linear < cells.size(); ++linear) {
     const auto [h, d, p] = cells.cell(linear);
     const std::size_t cell = table.cells().representative(linear);
     below += table.cells().contains(linear) ? 0u : 1u;
     for (int channel = 0; channel < 3; ++channel)
-      other += array(h, d, p, channel) == static_cast<float>(3 * cell + static_cast<std::size_t>(channel)) ? 0u : 1u;
+      other += array(h, d, p, channel) == static_cast<float>(3 * cell + channel) ? 0u : 1u;
   }
   CHECK(other == 0u);
   CHECK(below > 0u);

@@ -8,7 +8,7 @@ using scratch::check_refused;
 
 TEST_CASE("lines: without blanks, comments and a byte order mark, and counted") {
   detail::text_place place{"a file"};
-  std::vector<std::pair<std::size_t, std::string>> lines;
+  std::vector<std::pair<Eigen::Index, std::string>> lines;
   detail::for_each_line("\xEF\xBB\xBFone\r\n\n# no\n  \t\n two  2 \n#\nlast", place,
                         [&](std::string_view line) { lines.emplace_back(place.line, line); });
   const decltype(lines) expected{{1, "one"}, {5, "two  2"}, {7, "last"}};

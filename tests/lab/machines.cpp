@@ -62,7 +62,7 @@ TEST_CASE("lab: with noise the 95 % intervals hold 90 to 99 %") {
       if (!found.is_usable()) continue;
       const gonio::rgb truth = glossy(found.at.wi, found.at.wo);
       const gonio::rgb off = (found.value - truth) / found.deviation;
-      for (Eigen::Index c = 0; c < 3; ++c) within[static_cast<std::size_t>(c)] += std::abs(off[c]) < 1.96 ? 1.0 : 0.0;
+      for (Eigen::Index c = 0; c < 3; ++c) within[c] += std::abs(off[c]) < 1.96 ? 1.0 : 0.0;
       worst = std::max(worst, ((found.value - truth) / truth).abs().maxCoeff());
       ++count;
     }

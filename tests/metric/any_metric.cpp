@@ -19,7 +19,8 @@ const gonio::valid_cells& small_cells() {
 
 gonio::log_relative relative_to_something() {
   std::vector<float> reference(small_cells().size());
-  for (std::size_t cell = 0; cell < reference.size(); ++cell) reference[cell] = 0.01f * static_cast<float>(cell % 13);
+  for (Eigen::Index cell = 0; cell < std::ssize(reference); ++cell)
+    reference[cell] = 0.01f * static_cast<float>(cell % 13);
   return {small_cells(), reference};
 }
 
@@ -55,7 +56,7 @@ void check_held(const Metric& metric) {
   gonio::cell_fields<3 + Metric::companions> own(3 + Metric::companions, count);
   gonio::cell_fields<3 + any_metric::companions> all(3 + any_metric::companions, count);
   for (std::size_t i = 0; i < count; ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
+    const Eigen::Index column = i;
     for (Eigen::Index c = 0; c < 3; ++c)
       own(c, column) = all(c, column) = 0.4f * static_cast<float>(c) - 0.3f * static_cast<float>(i);
     const auto beside = chosen.companion(first + i);

@@ -25,7 +25,7 @@ TEST_CASE("the map and its inverse agree with the reference") {
 TEST_CASE("the metric is increasing, its inverse undoes it, and a location of a cell is the cell") {
   const valid_cells cells(gonio::grid({12, 10, 14}));
   std::vector<float> reference(cells.size());
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) reference[cell] = 0.01f * static_cast<float>(cell % 97);
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) reference[cell] = 0.01f * static_cast<float>(cell % 97);
   const log_relative metric(cells, reference);
   CHECK(rc::check([&] {
     const std::size_t cell = *rc::gen::inRange<std::size_t>(0, cells.size());
@@ -48,7 +48,7 @@ TEST_CASE("reflectance is weighted by the cosines' product (Nielsen 2015), or by
   CHECK(larger.cosine_weight({0.5, 0.7}) == 0.7);
   CHECK(larger.cosine_weight({1e-5, 1e-6}) == log_relative::epsilon);
   CHECK(larger.on(valid_cells(gonio::grid({4, 4, 4}))).weighting() == gonio::cosine_weighting::larger);
-  for (std::size_t cell = 0; cell < cells.size(); cell += 7) {
+  for (Eigen::Index cell = 0; cell < cells.size(); cell += 7) {
     const auto at = gonio::locate_cell(cells, cell);
     const double c = std::max(at.cosine.i, at.cosine.o), rho = 0.07;
     const double expected = std::log((rho * c + 0.001) / (double{0.4f} * c + 0.001));
@@ -68,7 +68,7 @@ TEST_CASE("negative reflectance counts as zero") {
 TEST_CASE("between cells the reference lies between its neighbours") {
   const valid_cells cells(gonio::grid({12, 10, 14}));
   std::vector<float> reference(cells.size());
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
     reference[cell] = static_cast<float>(std::exp(-3.0 * cells.angles(cell).theta_h));
   const log_relative metric(cells, reference);
   const double theta_h = 0.5 * (cells.grid().theta_h(3) + cells.grid().theta_h(4));
@@ -79,10 +79,10 @@ TEST_CASE("between cells the reference lies between its neighbours") {
 
 TEST_CASE("the reference is the median of all columns, odd and even") {
   const valid_cells cells(gonio::grid({2, 2, 2}));
-  gonio::material_set set{cells, {"a"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 3)};
+  gonio::material_set set{cells, {"a"}, gonio::cell_matrix(cells.size(), 3)};
   set.values.rowwise() = Eigen::RowVector3f(5, 1, 3);
   CHECK(log_relative::to_median_of(set).reference()[1] == 3.0f);
-  gonio::material_set even{cells, {"a", "b"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 6)};
+  gonio::material_set even{cells, {"a", "b"}, gonio::cell_matrix(cells.size(), 6)};
   even.values.rowwise() = Eigen::Matrix<float, 1, 6>(9, 1, 3, 4, 8, 0);
   CHECK(log_relative::to_median_of(even).reference()[1] == 3.5f);
 }

@@ -45,6 +45,6 @@ void check_place_free(const Metric& metric) {
   metric.inverse_row(row, values, out);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double one = std::max(metric.inverse(double{mapped.data()[i]}, std::size_t{0}), 0.0);
-    CHECK(double{out[static_cast<std::size_t>(i)]} == doctest::Approx(one).epsilon(1e-6));
+    CHECK(double{out[i]} == doctest::Approx(one).epsilon(1e-6));
   }
 }

@@ -187,7 +187,7 @@ TEST_CASE("cells may count by the pairs of directions in them, or by these times
   for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
     const gonio::valid_cells cells(gonio::grid({60, 60, 90}, anchor));
     double pairs = 0.0, reflected = 0.0;
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
       const auto at = gonio::cosines(cells.angles(cell));
       const double own =
           gonio::model::detail::solid_angle_of_pairs(cells.grid(), cells.grid().cell(cells.linear(cell)));
@@ -203,7 +203,7 @@ TEST_CASE("cells may count by the pairs of directions in them, or by these times
   const auto share_near_highlight = [&](gonio::model::cell_weighting weighting) {
     const auto all = gonio::model::fit_observations(table, {}, weighting);
     double near = 0.0, sum = 0.0;
-    for (std::size_t cell = 0; cell < all.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) {
       sum += all[cell].weight.mean();
       if (table.cells().angles(cell).theta_h < gonio::radians(22.5)) near += all[cell].weight.mean();
     }
@@ -228,7 +228,7 @@ TEST_CASE("weights decide what a model that does not describe a table follows") 
   const auto loss_of = [&](const gonio::model::model_fit& fit, gonio::model::cell_weighting weighting) {
     double sum = 0.0, weights = 0.0;
     const auto all = gonio::model::fit_observations(table, {}, weighting);
-    for (std::size_t cell = 0; cell < all.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) {
       const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
       sum += all[cell].weight[0] * std::abs(std::log1p(all[cell].value[0]) - std::log1p(fit.model(wi, wo)[0]));
       weights += all[cell].weight[0];

@@ -61,7 +61,7 @@ rgb spelled_out(const network_brdf& network, const gonio::half_difference& at) {
   for (std::size_t j = 0; j < 3; ++j) {
     double sum = double{p[672 + j]};
     for (std::size_t i = 0; i < 21; ++i) sum += std::max(b[i], 0.0) * double{p[609 + 3 * i + j]};
-    y[static_cast<Eigen::Index>(j)] = std::max(std::exp(sum) - 1.0, 0.0);
+    y[j] = std::max(std::exp(sum) - 1.0, 0.0);
   }
   return y;
 }
@@ -100,19 +100,17 @@ TEST_CASE("the fast path agrees with the networks and does not depend on threads
   gonio::model::tabulate_networks(networks, cells, one, {1},
                                   [&](std::string_view, double f) { fractions.push_back(f); });
   gonio::model::tabulate_networks(networks, cells, many, {5});
-  REQUIRE(one.rows() == static_cast<Eigen::Index>(cells.size()));
+  REQUIRE(one.rows() == cells.size());
   REQUIRE(one.cols() == 21);
   REQUIRE(many.size() == one.size());
-  CHECK(std::memcmp(one.data(), many.data(), static_cast<std::size_t>(one.size()) * sizeof(float)) == 0);
+  CHECK(std::memcmp(one.data(), many.data(), one.size() * sizeof(float)) == 0);
   CHECK(std::ranges::is_sorted(fractions));
   CHECK(fractions.back() == 1.0);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
     for (std::size_t n = 0; n < networks.size(); ++n) {
       const rgb expected = networks[n](wi, wo);
-      for (Eigen::Index c = 0; c < 3; ++c)
-        REQUIRE(close(double{one(static_cast<Eigen::Index>(cell), 3 * static_cast<Eigen::Index>(n) + c)}, expected[c],
-                      1e-6));
+      for (Eigen::Index c = 0; c < 3; ++c) REQUIRE(close(double{one(cell, 3 * n + c)}, expected[c], 1e-6));
     }
   }
 }
@@ -138,8 +136,7 @@ TEST_CASE("decoded materials have the reference's values") {
   for (std::size_t spot = 0; spot < 3; ++spot) {
     const std::string name = spots[spot]["material"];
     few.names.push_back(name);
-    few.networks.push_back(
-        all.networks[static_cast<std::size_t>(std::ranges::find(all.names, name) - all.names.begin())]);
+    few.networks.push_back(all.networks[std::ranges::find(all.names, name) - all.names.begin()]);
   }
   const gonio::material_set tables = gonio::model::tabulate_networks(few, cells);
   CHECK(tables.names == few.names);
@@ -147,7 +144,7 @@ TEST_CASE("decoded materials have the reference's values") {
   for (const auto& spot : spots) {
     const auto found = std::ranges::find(all.names, spot["material"].get<std::string>());
     REQUIRE(found != all.names.end());
-    const network_brdf& network = all.networks[static_cast<std::size_t>(found - all.names.begin())];
+    const network_brdf& network = all.networks[found - all.names.begin()];
     const auto linear = spot["linear"].get<std::size_t>();
     REQUIRE(cells.contains(linear));
     const std::size_t cell = cells.representative(linear);
@@ -157,10 +154,10 @@ TEST_CASE("decoded materials have the reference's values") {
     for (std::size_t c = 0; c < 3; ++c) {
       const double expected = spot["rgb"][c];
       CAPTURE(*found);
-      CHECK(close(value[static_cast<Eigen::Index>(c)], expected, 1e-7));
+      CHECK(close(value[c], expected, 1e-7));
       if (known == few.names.end()) continue;
-      const auto column = 3 * (known - few.names.begin()) + static_cast<Eigen::Index>(c);
-      CHECK(close(double{tables.values(static_cast<Eigen::Index>(cell), column)}, expected, 1e-6));
+      const auto column = 3 * (known - few.names.begin()) + c;
+      CHECK(close(double{tables.values(cell, column)}, expected, 1e-6));
     }
   }
 }

@@ -27,8 +27,8 @@ void check_found(int pairs, double tolerance, const gonio::grid& cells) {
     // What the finder is given is what is exact.
     const direction wi = exact.wi.cast<Real>().template cast<double>(),
                     wo = exact.wo.cast<Real>().template cast<double>();
-    const std::size_t found = find.at(static_cast<Real>(wi.x()), static_cast<Real>(wi.y()), static_cast<Real>(wi.z()),
-                                      static_cast<Real>(wo.x()), static_cast<Real>(wo.y()), static_cast<Real>(wo.z()));
+    const Eigen::Index found = find.at(static_cast<Real>(wi.x()), static_cast<Real>(wi.y()), static_cast<Real>(wi.z()),
+                                       static_cast<Real>(wo.x()), static_cast<Real>(wo.y()), static_cast<Real>(wo.z()));
     if (found >= cells.size()) {
       ++missing;
       continue;
@@ -57,7 +57,7 @@ TEST_CASE("cell finder: every cell is found from its node") {
   const gonio::valid_cells cells;
   const cell_finder<double> find;
   std::size_t wrong = 0;
-  for (std::size_t cell = 0; cell < cells.size(); cell += 7) {
+  for (Eigen::Index cell = 0; cell < cells.size(); cell += 7) {
     const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
     wrong += find(wi, wo) == cells.linear(cell) ? 0u : 1u;
   }

@@ -58,7 +58,7 @@ TEST_CASE("component brdf: at the nodes, nearest and trilinear look-up are the s
   const Eigen::MatrixXd weights = some_components().weights_of(1);
   const component_brdf<float, interpolation::nearest> nearest(components, weights);
   const component_brdf<float, interpolation::trilinear> trilinear(components, weights);
-  for (std::size_t cell = 0; cell < some_components().cells().size(); cell += 11) {
+  for (Eigen::Index cell = 0; cell < some_components().cells().size(); cell += 11) {
     const auto [wi, wo] = gonio::to_directions(some_components().cells().angles(cell));
     const rgb near = nearest(wi, wo), between = trilinear(wi, wo);
     CHECK(((near - between).abs() < 1e-4 * (near + 0.01)).all());

@@ -12,7 +12,7 @@ namespace {
 
 /// An image whose sphere has a share of bright pixels, in surroundings that are brighter than both.
 image sphere_with(double share, const rgb& bright, const rgb& dark, int size = 100) {
-  const auto side = static_cast<std::size_t>(size);
+  const std::size_t side = size;
   image picture = gonio::uniform_image(side, side, rgb::Constant(1000.0));
   const auto points = gonio::render::sphere_points(size);
   for (std::size_t i = 0; i < points.size(); ++i)

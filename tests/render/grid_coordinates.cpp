@@ -64,7 +64,7 @@ TEST_CASE("grid coordinates: the cell that arc functions find, or a neighbour at
 TEST_CASE("grid coordinates: every cell is found from its node") {
   const gonio::valid_cells cells;
   std::size_t wrong = 0;
-  for (std::size_t cell = 0; cell < cells.size(); cell += 7) {
+  for (Eigen::Index cell = 0; cell < cells.size(); cell += 7) {
     const auto [wi, wo] = gonio::to_directions(cells.angles(cell));
     wrong += cells.grid().linear(cell_of(cells.grid(), coordinates_of<double>(wi, wo))) == cells.linear(cell) ? 0u : 1u;
   }

@@ -11,10 +11,9 @@ TEST_CASE("horizon index: numbers and representatives are those of the valid cel
     const gonio::render::horizon_index index(cells);
     CHECK(index.size() == expected.size());
     std::size_t other = 0;
-    for (std::size_t linear = 0; linear < cells.size(); ++linear) {
+    for (Eigen::Index linear = 0; linear < cells.size(); ++linear) {
       const auto [h, d, p] = cells.cell(linear);
-      const std::size_t number =
-          index(static_cast<std::size_t>(h), static_cast<std::size_t>(d), static_cast<std::size_t>(p));
+      const Eigen::Index number = index(h, d, p);
       other += number == expected.representative(linear) ? 0u : 1u;
     }
     CHECK(other == 0u);

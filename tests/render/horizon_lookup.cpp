@@ -22,7 +22,7 @@ double product_of_cosines(const gonio::valid_cells& cells, std::size_t cell) {
 brdf_table bright_at_the_horizon(double factor) {
   const gonio::valid_cells cells;
   brdf_table table(cells);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell)
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell)
     table.set(cell, rgb::Constant(product_of_cosines(cells, cell) < 0.001 ? 0.1 * factor : 0.1));
   return table;
 }

@@ -95,7 +95,7 @@ TEST_CASE("lookup table: many pairs at once are the pairs one by one") {
     for (auto& array : arrays) array.resize(count);
     for (std::size_t i = 0; i < count; ++i)
       for (int k = 0; k < 3; ++k) {
-        const auto slot = static_cast<std::size_t>(k);
+        const std::size_t slot = k;
         arrays[slot][i] = static_cast<Real>(pairs[i].wi[k]);
         arrays[3 + slot][i] = static_cast<Real>(pairs[i].wo[k]);
       }
@@ -140,7 +140,7 @@ TEST_CASE("lookup table: of a formula, and of the planes of a MERL file") {
   const auto from_formula = lookup_table<float>::tabulated(material, coarse);
   std::vector<double> planes(3 * coarse.size(), -1.0);
   const std::array scale{1500.0, 1500.0 / 1.15, 1500.0 / 1.66};
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     for (std::size_t channel = 0; channel < 3; ++channel)
       planes[channel * coarse.size() + table.cells().linear(cell)] =
           table.values()[3 * cell + channel] * scale[channel];

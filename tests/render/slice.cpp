@@ -53,7 +53,7 @@ TEST_CASE("the slice of a white Lambertian surface is white everywhere: all of i
 TEST_CASE("the default slice has one pixel for each cell of MERL's grid") {
   const gonio::valid_cells cells;
   gonio::brdf_table table(cells);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const auto index = cells.grid().cell(cells.linear(cell));
     // The two cells on either side of 90 degrees show themselves in blue: 89 is at 89.5 degrees, 90 at 90.5.
     table.set(cell, rgb(index.theta_h, index.theta_d, index.phi_d == 89 || index.phi_d == 90 ? 1.0 : 0.0));

@@ -64,9 +64,9 @@ double mean_luminance(const image& picture, int size) {
 
 /// Colours of an image at the points of an operator.
 sphere_colours at_points(const image& picture, const sphere_operator& op) {
-  sphere_colours colours(static_cast<Eigen::Index>(op.points().size()), 3);
+  sphere_colours colours(std::ssize(op.points()), 3);
   for (std::size_t i = 0; i < op.points().size(); ++i)
-    colours.row(static_cast<Eigen::Index>(i)) = pixel(picture, op.points()[i].row, op.points()[i].column).transpose();
+    colours.row(i) = pixel(picture, op.points()[i].row, op.points()[i].column).transpose();
   return colours;
 }
 
@@ -235,7 +235,7 @@ TEST_CASE("the sphere operator is linear, also for negative values, and reads on
   const sphere_operator op(cells, coarse_environment(), 16);
   const brdf_table a = gonio::tabulate(glossy(), cells), b = gonio::tabulate(white_lambertian(), cells);
   brdf_table difference(cells);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) difference.set(cell, a.at(cell) - 3.0 * b.at(cell));
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) difference.set(cell, a.at(cell) - 3.0 * b.at(cell));
   const sphere_colours expected = op.apply(a) - 3.0 * op.apply(b);
   CHECK((op.apply(difference) - expected).abs().maxCoeff() < 1e-5);
   CHECK(expected.minCoeff() < 0.0);

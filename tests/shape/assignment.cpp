@@ -25,18 +25,18 @@ Eigen::MatrixXd any_costs(Eigen::Index rows, Eigen::Index columns) {
 double assigned_cost(const Eigen::MatrixXd& costs, const std::vector<Eigen::Index>& columns) {
   double sum = 0.0;
   for (std::size_t row = 0; row < columns.size(); ++row)
-    if (columns[row] >= 0) sum += costs(static_cast<Eigen::Index>(row), columns[row]);
+    if (columns[row] >= 0) sum += costs(row, columns[row]);
   return sum;
 }
 
 /// Over all ways to assign the rows, no more than the columns.
 double least_cost_of_all(const Eigen::MatrixXd& costs) {
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.cols()));
+  std::vector<Eigen::Index> columns(costs.cols());
   std::iota(columns.begin(), columns.end(), Eigen::Index{0});
   double least = std::numeric_limits<double>::infinity();
   do {
     double sum = 0.0;
-    for (Eigen::Index row = 0; row < costs.rows(); ++row) sum += costs(row, columns[static_cast<std::size_t>(row)]);
+    for (Eigen::Index row = 0; row < costs.rows(); ++row) sum += costs(row, columns[row]);
     least = std::min(least, sum);
   } while (std::ranges::next_permutation(columns).found);
   return least;
@@ -47,7 +47,7 @@ std::ptrdiff_t pairs_of(const std::vector<Eigen::Index>& columns) {
   std::set<Eigen::Index> distinct(columns.begin(), columns.end());
   distinct.erase(-1);
   const auto assigned = std::ranges::count_if(columns, [](Eigen::Index column) { return column >= 0; });
-  return static_cast<std::size_t>(assigned) == distinct.size() ? assigned : -1;
+  return assigned == std::ssize(distinct) ? assigned : -1;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ TEST_CASE("no assignment of all is cheaper") {
     const Eigen::Index rows = *rc::gen::inRange(1, 8), columns = *rc::gen::inRange(1, 8);
     const Eigen::MatrixXd costs = any_costs(rows, columns);
     const auto found = optimal_assignment(costs);
-    RC_ASSERT(found.size() == static_cast<std::size_t>(rows));
+    RC_ASSERT(found.size() == rows);
     RC_ASSERT(pairs_of(found) == std::min(rows, columns));
     const double least = rows <= columns ? least_cost_of_all(costs) : least_cost_of_all(costs.transpose());
     RC_ASSERT(std::abs(assigned_cost(costs, found) - least) < 1e-9);
@@ -69,7 +69,7 @@ TEST_CASE("many rows find their own columns") {
   for (const auto& [rows, columns] : {std::pair(200, 200), std::pair(150, 220), std::pair(220, 150)}) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(rows));
     const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-    std::vector<Eigen::Index> expected(static_cast<std::size_t>(std::max(rows, columns)));
+    std::vector<Eigen::Index> expected(std::max(rows, columns));
     std::iota(expected.begin(), expected.end(), Eigen::Index{0});
     for (std::size_t i = expected.size() - 1; i > 0; --i) std::swap(expected[i], expected[generator() % (i + 1)]);
     const bool wide = rows <= columns;
@@ -78,14 +78,13 @@ TEST_CASE("many rows find their own columns") {
     Eigen::MatrixXd costs(rows, columns);
     for (Eigen::Index i = 0; i < rows; ++i)
       for (Eigen::Index j = 0; j < columns; ++j) {
-        const bool own = wide ? expected[static_cast<std::size_t>(i)] == j : expected[static_cast<std::size_t>(j)] == i;
+        const bool own = wide ? expected[i] == j : expected[j] == i;
         costs(i, j) = prices[wide ? i : j] + (own ? 0.0 : 1e-6 + number());
       }
     const auto found = optimal_assignment(costs);
     CHECK(pairs_of(found) == std::min(rows, columns));
     CHECK(assigned_cost(costs, found) == doctest::Approx(prices.sum()).epsilon(1e-12));
-    for (Eigen::Index i = 0; wide && i < rows; ++i)
-      CHECK(found[static_cast<std::size_t>(i)] == expected[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; wide && i < rows; ++i) CHECK(found[i] == expected[i]);
   }
 }
 

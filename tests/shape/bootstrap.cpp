@@ -24,7 +24,7 @@ TEST_CASE("a model of twelve learns from scans of its kind, and from no others")
   REQUIRE(grown.outcomes.size() == 7);
   CHECK(grown.model.shapes() == 12 + grown.accepted());
   CHECK(grown.accepted() >= 2);
-  for (const std::size_t wrong : {std::size_t{2}, std::size_t{4}, std::size_t{5}, std::size_t{6}}) {
+  for (const Eigen::Index wrong : {Eigen::Index{2}, Eigen::Index{4}, Eigen::Index{5}, Eigen::Index{6}}) {
     CHECK_FALSE(grown.outcomes[wrong].accepted());
     CHECK(grown.outcomes[wrong].refusal.size() > 10);
   }

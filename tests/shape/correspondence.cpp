@@ -11,7 +11,7 @@ TEST_CASE("a shape finds itself on its own scan, wherever that lies") {
   const gonio::shape::posed_scan scan{gonio::shape::surface_index({away.inverse()(sphere.vertices), sphere.triangles}),
                                       away};
   const gonio::shape::vertex_observations found = gonio::shape::closest_places(scan, sphere);
-  REQUIRE(static_cast<Eigen::Index>(found.vertices.size()) == sphere.vertices.cols());
+  REQUIRE(std::ssize(found.vertices) == sphere.vertices.cols());
   CHECK((found.positions - sphere.vertices).cwiseAbs().maxCoeff() < 1e-12);
   CHECK((found.normals - gonio::shape::vertex_normals(sphere)).cwiseAbs().maxCoeff() < 0.05);
   const auto along = scan.along({0.0, 0.0, 3.0}, {0.0, 0.0, 1.0}, 2.5);
@@ -28,7 +28,7 @@ TEST_CASE("places too far, of another side, or where the scan ends are none") {
   const gonio::shape::surface_index surface(sphere);
   const auto found = gonio::shape::closest_places({surface, shift}, sphere, near);
   CHECK(!found.vertices.empty());
-  CHECK(static_cast<Eigen::Index>(found.vertices.size()) < sphere.vertices.cols());
+  CHECK(std::ssize(found.vertices) < sphere.vertices.cols());
 
   gonio::shape::triangle_mesh inside_out = sphere;
   inside_out.triangles.row(0).swap(inside_out.triangles.row(1));

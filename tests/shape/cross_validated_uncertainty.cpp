@@ -31,7 +31,7 @@ TEST_CASE("a measured uncertainty holds the true vertices of scans, along the su
     const gonio::shape::point_columns truth = found.pose(scan.truth),
                                       normals = gonio::shape::vertex_normals(found.surface);
     for (std::size_t v = 0; v < scan.covered.size(); ++v) {
-      const auto vertex = static_cast<Eigen::Index>(v);
+      const Eigen::Index vertex = v;
       if (scan.covered[v] || ears.common.places()(0, vertex) <= 0.1) continue;
       const Eigen::Matrix3d covariance = measured.covariance(vertex);
       const Eigen::Vector3d off = found.surface.vertices.col(vertex) - truth.col(vertex);

@@ -34,7 +34,7 @@ TEST_CASE("a model finds the shape and the pose of a whole scan from one that is
   const auto off = gonio::shape::distance_to(complete, found.pose.inverse()(found.shape()));
   CHECK(off.absolute_mean < 0.12);  // a shape of the family is 1.15 mm from the mean
   CHECK(found.squared_distance() > 0.0);
-  CHECK(found.weights().size() == static_cast<Eigen::Index>(ears.model.truncated_to_variance(0.99).basis().size()));
+  CHECK(found.weights().size() == std::ssize(ears.model.truncated_to_variance(0.99).basis()));
   // What little motion was left in the end is in the pose.
   CHECK(found.all_weights.tail<6>().norm() * 1e3 < 0.05);
 }

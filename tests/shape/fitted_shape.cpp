@@ -46,7 +46,7 @@ TEST_CASE("a fit to known vertices is the conditional expectation of Eq. 7") {
     const double share = *rc::gen::element(0.3, 0.9, 0.99);
     const auto all = synthetic_shapes(vertices, shapes + 1, 6, seed);
     const gonio::shape::shape_basis basis = synthetic_basis({all.begin(), all.end() - 1});
-    std::vector<bool> marks(static_cast<std::size_t>(vertices), false);
+    std::vector<bool> marks(vertices, false);
     for (std::size_t v = 0; v < marks.size(); v += 2) marks[v] = true;
     const auto known = gonio::shape::vertex_observations::marked(all.back(), marks);
     const auto fit = gonio::shape::fit_shape(basis, gonio::truncated_svd{share}, known);

@@ -79,8 +79,7 @@ TEST_CASE("distances are the shortest of all paths along edges, and the same bot
     gonio::shape::triangle_mesh mesh = tube_mesh(4, 5);
     for (auto vertex : mesh.vertices.colwise()) vertex += synthetic_point(generator, 0.7);
     const mesh_topology topology(mesh);
-    const auto source = static_cast<Eigen::Index>(generator() % 20),
-               other = static_cast<Eigen::Index>(generator() % 20);
+    const Eigen::Index source = generator() % 20, other = generator() % 20;
     const Eigen::VectorXd distances = geodesic_distances(mesh, topology, source);
     RC_ASSERT((distances - relaxed_distances(mesh, source)).cwiseAbs().maxCoeff() < 1e-14);
     RC_ASSERT(std::abs(distances[other] - geodesic_distances(mesh, topology, other)[source]) < 1e-14);
@@ -108,8 +107,8 @@ TEST_CASE("the nearest candidates are the first of all by distance and number") 
     const mesh_topology topology(mesh);
     std::vector<bool> candidates;
     for (int v = 0; v < 42; ++v) candidates.push_back(generator() % 3 != 0);
-    const auto is_candidate = [&](Eigen::Index v) { return candidates[static_cast<std::size_t>(v)]; };
-    const auto source = static_cast<Eigen::Index>(generator() % 42);
+    const auto is_candidate = [&](Eigen::Index v) { return candidates[v]; };
+    const Eigen::Index source = generator() % 42;
     const Eigen::VectorXd distances = geodesic_distances(mesh, topology, source);
     std::vector<std::pair<double, Eigen::Index>> all;
     for (Eigen::Index v = 0; v < 42; ++v)

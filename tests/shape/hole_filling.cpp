@@ -32,7 +32,7 @@ gonio::shape::point_columns filled(const gonio::shape::triangle_mesh& mesh, cons
                                    smoothness kind = smoothness::thin_plate) {
   gonio::shape::point_columns points = mesh.vertices;
   for (std::size_t v = 0; v < known.size(); ++v)
-    if (!known[v]) points.col(static_cast<Eigen::Index>(v)).setConstant(std::numeric_limits<double>::quiet_NaN());
+    if (!known[v]) points.col(v).setConstant(std::numeric_limits<double>::quiet_NaN());
   return fill_smoothly(mesh_topology(mesh), points, known, kind);
 }
 
@@ -116,7 +116,7 @@ TEST_CASE("no other filling bends less, and known vertices stay") {
     const gonio::shape::point_columns best = filled(mesh, known);
     gonio::shape::point_columns other = best;
     for (std::size_t v = 0; v < known.size(); ++v) {
-      const auto column = static_cast<Eigen::Index>(v);
+      const Eigen::Index column = v;
       if (known[v]) RC_ASSERT(best.col(column) == mesh.vertices.col(column));
       if (!known[v]) other.col(column) += synthetic_point(generator, 1e-3);
     }
@@ -130,7 +130,7 @@ TEST_CASE("each vertex of a membrane is in the middle of its neighbours") {
   const gonio::shape::point_columns film = filled(mesh, known, smoothness::membrane);
   const mesh_topology topology(mesh);
   for (Eigen::Index v = 0; v < film.cols(); ++v) {
-    if (known[static_cast<std::size_t>(v)]) continue;
+    if (known[v]) continue;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const int neighbour : topology.neighbours(v)) middle += film.col(neighbour);
     CHECK((middle / static_cast<double>(topology.neighbours(v).size()) - film.col(v)).norm() < 1e-13);

@@ -36,7 +36,7 @@ TEST_CASE("what would touch in one vertex only is parted there") {
 
 TEST_CASE("any part of a surface is a surface, with the triangles of the whole") {
   const gonio::shape::triangle_mesh sphere = sphere_mesh(2);
-  const auto vertices = static_cast<std::size_t>(sphere.vertices.cols());
+  const std::size_t vertices = sphere.vertices.cols();
   CHECK(rc::check([&] {
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
     std::mt19937_64 generator(seed);
@@ -45,16 +45,13 @@ TEST_CASE("any part of a surface is a surface, with the triangles of the whole")
     std::vector<Eigen::Index> kept;
     for (Eigen::Index t = 0; t < sphere.triangles.cols(); ++t) {
       const Eigen::Vector3i corners = sphere.triangles.col(t);
-      if (marked[static_cast<std::size_t>(corners[0])] && marked[static_cast<std::size_t>(corners[1])] &&
-          marked[static_cast<std::size_t>(corners[2])])
-        kept.push_back(t);
+      if (marked[corners[0]] && marked[corners[1]] && marked[corners[2]]) kept.push_back(t);
     }
     RC_PRE(!kept.empty());
     const gonio::shape::triangle_mesh part = gonio::shape::part_of(sphere, marked);
     (void)gonio::shape::mesh_topology(part);  // throws unless it is a surface
-    RC_ASSERT(part.triangles.cols() == static_cast<Eigen::Index>(kept.size()));
-    for (Eigen::Index t = 0; t < part.triangles.cols(); ++t)
-      RC_ASSERT(part.corners(t) == sphere.corners(kept[static_cast<std::size_t>(t)]));
+    RC_ASSERT(part.triangles.cols() == std::ssize(kept));
+    for (Eigen::Index t = 0; t < part.triangles.cols(); ++t) RC_ASSERT(part.corners(t) == sphere.corners(kept[t]));
   }));
 }
 

@@ -62,15 +62,15 @@ TEST_CASE("the neighbours of a grid's vertices are those that edges join, ascend
 
 TEST_CASE("neighbours are those of the triangles' sides, both ways, on any surface") {
   for (const gonio::shape::triangle_mesh& mesh : {sphere_mesh(2), tube_mesh(5, 7), flat_grid(4, 6), tetrahedron()}) {
-    std::vector<std::set<int>> expected(static_cast<std::size_t>(mesh.vertices.cols()));
+    std::vector<std::set<int>> expected(mesh.vertices.cols());
     for (const auto& corners : mesh.triangles.colwise())
       for (const int from : corners)
         for (const int to : corners)
-          if (from != to) expected[static_cast<std::size_t>(from)].insert(to);
+          if (from != to) expected[from].insert(to);
     const mesh_topology topology(mesh);
     for (std::size_t v = 0; v < expected.size(); ++v) {
       const std::vector<int> neighbours(expected[v].begin(), expected[v].end());
-      CHECK(neighbours_in(topology, static_cast<Eigen::Index>(v)) == neighbours);
+      CHECK(neighbours_in(topology, v) == neighbours);
     }
   }
 }

@@ -21,8 +21,7 @@ struct recovered_hole {
         complete(scan.complete),
         pose(gonio::shape::align(scan.truth, ears.model.mean().vertices)) {
     for (std::size_t v = 0; v < scan.covered.size(); ++v)
-      if (!scan.covered[v] && ears.common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
-        hole.push_back(static_cast<Eigen::Index>(v));
+      if (!scan.covered[v] && ears.common.places()(0, v) > 0.1) hole.push_back(v);
   }
 
   [[nodiscard]] double off(const gonio::shape::point_columns& vertices,
@@ -51,8 +50,7 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
     const gonio::shape::point_columns normals = gonio::shape::vertex_normals(found.surface);
     double in_hole = 0.0, elsewhere = 0.0;
     for (Eigen::Index v = 0; v < normals.cols(); ++v)
-      (judge.scan.covered[static_cast<std::size_t>(v)] ? elsewhere : in_hole) +=
-          normals.col(v).dot(uncertainty.covariance(v) * normals.col(v));
+      (judge.scan.covered[v] ? elsewhere : in_hole) += normals.col(v).dot(uncertainty.covariance(v) * normals.col(v));
     const auto missing = static_cast<double>(std::ranges::count(judge.scan.covered, false));
     CHECK(in_hole / missing > elsewhere / (static_cast<double>(known.size()) - missing));
   }

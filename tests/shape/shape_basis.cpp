@@ -9,7 +9,7 @@ TEST_CASE("the components of shapes are the eigenvectors of their covariance (Eq
   const auto shapes = synthetic_shapes(6, 9, 4, 1);
   const gonio::shape::shape_basis basis = synthetic_basis(shapes);
   Eigen::MatrixXd x(18, 9);
-  for (Eigen::Index i = 0; i < 9; ++i) x.col(i) = shapes[static_cast<std::size_t>(i)].reshaped();
+  for (Eigen::Index i = 0; i < 9; ++i) x.col(i) = shapes[i].reshaped();
   const Eigen::VectorXd mean = x.rowwise().mean();
   x.colwise() -= mean;
   CHECK((gonio::shape::mean_shape(basis).reshaped() - mean).cwiseAbs().maxCoeff() < 1e-5);
@@ -41,7 +41,7 @@ TEST_CASE("a share of the variance keeps the fewest components that have it") {
   const gonio::shape::shape_basis basis = synthetic_basis(synthetic_shapes(20, 30, 10, 4));
   const Eigen::VectorXd squares = basis.singular_values().cwiseAbs2();
   const gonio::shape::shape_basis most = gonio::shape::truncated_to_variance(basis, 0.9);
-  const auto kept = static_cast<Eigen::Index>(most.size());
+  const Eigen::Index kept = std::ssize(most);
   CHECK(squares.head(kept).sum() >= 0.9 * squares.sum());
   CHECK(squares.head(kept - 1).sum() < 0.9 * squares.sum());
   CHECK(gonio::shape::truncated_to_variance(basis, 1.0).size() == basis.size());

@@ -35,7 +35,7 @@ double chi_square_between(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 }
 
 gonio::shape::shape_descriptors with_histograms(const Eigen::MatrixXf& histograms) {
-  return {std::vector<Eigen::Index>(static_cast<std::size_t>(histograms.cols()), 0), histograms};
+  return {std::vector<Eigen::Index>(histograms.cols(), 0), histograms};
 }
 
 }  // namespace
@@ -140,8 +140,8 @@ TEST_CASE("a descriptor tells about the surface, not about its triangles") {
 
 TEST_CASE("points without a frame or without surroundings are left out, others keep their order") {
   const triangle_mesh sphere = sphere_mesh(3, 5.0);
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(sphere.vertices.cols()));
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Eigen::Index>(i);
+  std::vector<Eigen::Index> all(sphere.vertices.cols());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   const auto found = describe(sphere, all);
   std::vector<Eigen::Index> expected;
   const gonio::shape::point_columns normals = gonio::shape::vertex_normals(sphere);
@@ -149,7 +149,7 @@ TEST_CASE("points without a frame or without surroundings are left out, others k
     if (std::abs(normals(1, v)) <= std::cos(gonio::radians(10))) expected.push_back(v);
   CHECK(found.vertex == expected);
   CHECK(expected.size() < all.size());
-  CHECK(found.histograms.cols() == static_cast<Eigen::Index>(expected.size()));
+  CHECK(found.histograms.cols() == std::ssize(expected));
   shape_context_options near;
   near.radius = 1e-3;
   CHECK(describe(sphere, all, near).vertex.empty());
@@ -223,7 +223,7 @@ TEST_CASE("a surface is matched to itself, whichever has more points") {
     const auto matches = gonio::shape::match(*from, *onto);
     CHECK(matches.size() == std::min(from->vertex.size(), onto->vertex.size()));
     for (const auto& [own, other, cost] : matches) {
-      CHECK(from->vertex[static_cast<std::size_t>(own)] == onto->vertex[static_cast<std::size_t>(other)]);
+      CHECK(from->vertex[own] == onto->vertex[other]);
       CHECK(cost == 0.0);
     }
   }

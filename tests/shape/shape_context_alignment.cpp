@@ -118,7 +118,7 @@ TEST_CASE("a large hole matters little, and less than to plain least squares") {
     const triangle_mesh whole = individual_canal(seed);
     const similarity_transform pose = platform_pose(seed),
                                truth = gonio::shape::align(pose(whole.vertices), model.vertices);
-    const Eigen::Index at = static_cast<Eigen::Index>(seed) * 137;
+    const Eigen::Index at = seed * 137;
     const triangle_mesh scan = posed(with_hole(whole, whole.vertices.col(at), 8.0), pose);
     const pre_alignment found = robust_matcher.align(scan);
     CHECK(turn_between(found.transform, truth) < 25.0);
@@ -138,11 +138,11 @@ TEST_CASE("an infinite tolerance is the paper's least squares over the most sign
   const auto from = gonio::shape::describe(scan, gonio::shape::spread_vertices(scan, 120)),
              onto = gonio::shape::describe(model, gonio::shape::spread_vertices(model, 120));
   const auto matches = gonio::shape::match(from, onto);
-  const auto count = static_cast<std::size_t>(std::lround(static_cast<double>(matches.size()) / 3.0));
+  const std::size_t count = std::lround(static_cast<double>(matches.size()) / 3.0);
   std::vector<Eigen::Index> ours, theirs;
   for (std::size_t i = 0; i < count; ++i) {
-    ours.push_back(from.vertex[static_cast<std::size_t>(matches[i].from)]);
-    theirs.push_back(onto.vertex[static_cast<std::size_t>(matches[i].onto)]);
+    ours.push_back(from.vertex[matches[i].from]);
+    theirs.push_back(onto.vertex[matches[i].onto]);
   }
   const similarity_transform expected =
       gonio::shape::align(scan.vertices(Eigen::all, ours), model.vertices(Eigen::all, theirs));

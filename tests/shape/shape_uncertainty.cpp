@@ -54,7 +54,7 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
   const gonio::tikhonov solver{eta};
   const gonio::shape::shape_uncertainty uncertainty(gonio::shape::fit_shape(basis, solver, known), known, solver);
   const Eigen::MatrixXd q2 = basis.components()(every_other(0, 8), Eigen::all).cast<double>();
-  const auto k = static_cast<Eigen::Index>(basis.size());
+  const Eigen::Index k = basis.size();
   const Eigen::MatrixXd precision = Eigen::MatrixXd::Identity(k, k) + q2.transpose() * q2 / eta;
   const Eigen::MatrixXd posterior = dense_reference::inverse(precision) / 20.0;
   for (Eigen::Index vertex = 0; vertex < 8; ++vertex) {
@@ -66,7 +66,7 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
 
 TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of twenty, from few shapes, too") {
   const double chi_square = gonio::shape::chi_square_quantile(0.95, 3.0);
-  for (const std::size_t count : {std::size_t{30}, std::size_t{300}}) {
+  for (const Eigen::Index count : {Eigen::Index{30}, Eigen::Index{300}}) {
     std::size_t inside = 0, inside_as_published = 0, all = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
       const Eigen::Index vertices = 30;

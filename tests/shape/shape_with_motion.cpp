@@ -11,12 +11,12 @@ namespace {
 
 /// Every coordinate as the basis has it: offset + row . weights.
 point_columns combined(const shape_with_motion& functions, const Eigen::VectorXd& weights) {
-  point_columns shape(3, static_cast<Eigen::Index>(functions.cells().vertices));
-  for (std::size_t coordinate = 0; coordinate < functions.cells().size(); ++coordinate) {
+  point_columns shape(3, functions.cells().vertices);
+  for (Eigen::Index coordinate = 0; coordinate < functions.cells().size(); ++coordinate) {
     double& value = shape.data()[coordinate];
     value = functions.offset(coordinate);
     const auto row = functions.row(coordinate);
-    for (std::size_t i = 0; i < row.size(); ++i) value += double{row[i]} * weights[static_cast<Eigen::Index>(i)];
+    for (Eigen::Index i = 0; i < std::ssize(row); ++i) value += double{row[i]} * weights[i];
   }
   return shape;
 }

@@ -108,7 +108,7 @@ TEST_CASE("the closest point is that of all triangles") {
 TEST_CASE("points of a surface are their own closest points") {
   CHECK(rc::check([] {
     const gonio::shape::triangle_mesh mesh = sphere_mesh(1);
-    const auto triangle = static_cast<Eigen::Index>(*rc::gen::inRange(0, 80));
+    const Eigen::Index triangle = *rc::gen::inRange(0, 80);
     const double first = *rc::gen::inRange(0, 101) / 100.0;
     const double second = (1.0 - first) * *rc::gen::inRange(0, 101) / 100.0;
     const Eigen::Vector3d point = mesh.corners(triangle) * Eigen::Vector3d(1.0 - first - second, first, second);
@@ -247,7 +247,7 @@ TEST_CASE("distances are positive outside of a closed surface and negative insid
     const gonio::shape::point_columns normals = gonio::shape::unit_columns(gonio::shape::area_normals(mesh));
     for (int i = 0; i < 1000; ++i) {
       // About an edge, from its middle to its end.
-      const auto triangle = static_cast<Eigen::Index>(generator() % static_cast<std::uint64_t>(mesh.triangles.cols()));
+      const Eigen::Index triangle = generator() % static_cast<std::uint64_t>(mesh.triangles.cols());
       const Eigen::Matrix3d corners = mesh.corners(triangle);
       const double share = std::min(1.0, 1.2 * synthetic_number(generator));
       const Eigen::Vector3d point =
@@ -306,7 +306,7 @@ TEST_CASE("many points are answered as one by one, by any number of threads") {
   REQUIRE(one.size() == 1000);
   REQUIRE(three.size() == 1000);
   for (std::size_t i = 0; i < 1000; ++i) {
-    const surface_point single = surface.closest(points.col(static_cast<Eigen::Index>(i)));
+    const surface_point single = surface.closest(points.col(i));
     CHECK((one[i].position == single.position && three[i].position == single.position));
     CHECK((one[i].triangle == single.triangle && three[i].triangle == single.triangle));
     CHECK((one[i].distance == single.distance && three[i].distance == single.distance));

@@ -25,10 +25,10 @@ inline Eigen::Vector3d synthetic_point(std::mt19937_64& generator, double half_s
 
 inline gonio::shape::triangle_mesh mesh_of(const std::vector<Eigen::Vector3d>& vertices,
                                            const std::vector<Eigen::Vector3i>& triangles) {
-  gonio::shape::triangle_mesh mesh{gonio::shape::point_columns(3, static_cast<Eigen::Index>(vertices.size())),
-                                   gonio::shape::triangle_columns(3, static_cast<Eigen::Index>(triangles.size()))};
-  for (std::size_t v = 0; v < vertices.size(); ++v) mesh.vertices.col(static_cast<Eigen::Index>(v)) = vertices[v];
-  for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.col(static_cast<Eigen::Index>(t)) = triangles[t];
+  gonio::shape::triangle_mesh mesh{gonio::shape::point_columns(3, std::ssize(vertices)),
+                                   gonio::shape::triangle_columns(3, std::ssize(triangles))};
+  for (std::size_t v = 0; v < vertices.size(); ++v) mesh.vertices.col(v) = vertices[v];
+  for (std::size_t t = 0; t < triangles.size(); ++t) mesh.triangles.col(t) = triangles[t];
   return mesh;
 }
 
@@ -70,7 +70,7 @@ inline gonio::shape::triangle_mesh sphere_mesh(int times, double radius = 1.0) {
     std::map<std::pair<int, int>, int> middles;
     const auto middle = [&](int a, int b) {
       const auto [place, made] = middles.try_emplace(std::minmax(a, b), static_cast<int>(vertices.size()));
-      if (made) vertices.push_back(vertices[static_cast<std::size_t>(a)] + vertices[static_cast<std::size_t>(b)]);
+      if (made) vertices.push_back(vertices[a] + vertices[b]);
       if (made) vertices.back() *= 0.5;
       return place->second;
     };

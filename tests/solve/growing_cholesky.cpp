@@ -18,7 +18,7 @@ TEST_CASE("columns come and go, and the factor solves for those present") {
     gonio::growing_cholesky factor(k);
     std::vector<Eigen::Index> present;
     for (int change = 0; change < 60; ++change) {
-      const auto column = static_cast<Eigen::Index>(engine() % k);
+      const Eigen::Index column = engine() % k;
       const auto found = std::ranges::find(present, column);
       if (found != present.end()) {
         factor.remove(found - present.begin());

@@ -151,22 +151,22 @@ struct verdict {
                                    bool non_negative) {
   using extended = long double;
   const Eigen::Index n = problem.matrix.rows(), k = problem.matrix.cols();
-  std::vector<extended> misfit(static_cast<std::size_t>(n));
+  std::vector<extended> misfit(n);
   extended squares = 0, rhs_squared_norm = 0, magnitude = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
-    extended& left = misfit[static_cast<std::size_t>(i)];
+    extended& left = misfit[i];
     left = problem.right[i];
     rhs_squared_norm += left * left;
     for (Eigen::Index j = 0; j < k; ++j) left -= static_cast<extended>(problem.matrix(i, j)) * x[j];
     squares += left * left;
     magnitude = 0;
   }
-  std::vector<extended> slope(static_cast<std::size_t>(k)), length(static_cast<std::size_t>(k));
+  std::vector<extended> slope(k), length(k);
   for (Eigen::Index j = 0; j < k; ++j) {
-    const auto at = static_cast<std::size_t>(j);
+    const std::size_t at = j;
     for (Eigen::Index i = 0; i < n; ++i) {
       const extended a = problem.matrix(i, j);
-      slope[at] += a * misfit[static_cast<std::size_t>(i)];
+      slope[at] += a * misfit[i];
       length[at] += a * a;
     }
     length[at] = length[at] > 0 ? std::sqrt(length[at]) : 1;
@@ -175,7 +175,7 @@ struct verdict {
   magnitude += std::sqrt(rhs_squared_norm);
   extended worst = 0, sum = 0;
   for (Eigen::Index j = 0; j < k; ++j) {
-    const auto at = static_cast<std::size_t>(j);
+    const std::size_t at = j;
     const extended penalty = lambda, g = slope[at];
     extended off = 0;
     if (x[j] > 0)

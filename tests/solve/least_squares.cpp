@@ -32,7 +32,7 @@ Eigen::VectorXd random_weights(Eigen::Index rows, unsigned seed) {
 Eigen::MatrixXd random_dependent(Eigen::Index n, Eigen::Index k, unsigned seed) {
   Eigen::MatrixXd rows = random_matrix(n, k, seed);
   std::mt19937 generator(seed);
-  const auto any = [&] { return static_cast<Eigen::Index>(generator() % static_cast<unsigned>(k)); };
+  const auto any = [&] { return generator() % static_cast<unsigned>(k); };
   for (Eigen::Index times = any() / 2; times > 0; --times) {
     const Eigen::Index to = any();
     const Eigen::MatrixXd first = rows.col(any()), second = rows.col(any());
@@ -264,9 +264,8 @@ TEST_CASE("bad input is refused") {
   CHECK_THROWS_AS(least_squares(std::nan("")), gonio::error);
   const gonio::row_source broken{2000, 1, [](gonio::block range, gonio::row_block out) {
                                    for (Eigen::Index row = 0; row < out.rows(); ++row)
-                                     out(row, 0) = range.begin + static_cast<std::size_t>(row) == 1500
-                                                       ? std::numeric_limits<double>::infinity()
-                                                       : 1.0;
+                                     out(row, 0) =
+                                         range.begin + row == 1500 ? std::numeric_limits<double>::infinity() : 1.0;
                                  }};
   const least_squares_problem problem(broken, Eigen::MatrixXd::Ones(2000, 1));
   CHECK_THROWS_WITH_AS(least_squares().solve(problem), "row 1500 of a least-squares problem is not finite in column 0",

@@ -98,10 +98,9 @@ TEST_CASE("the golden instances, a real 99 x 99 Gram matrix of condition 4e7 amo
   for (const auto& instance : golden_json("nnls.json")) {
     const auto q = instance["Q"].get<std::vector<std::vector<double>>>();
     const auto c = instance["c"].get<std::vector<double>>(), x = instance["x"].get<std::vector<double>>();
-    const auto k = static_cast<Eigen::Index>(c.size());
+    const Eigen::Index k = std::ssize(c);
     Eigen::MatrixXd gram(k, k);
-    for (Eigen::Index row = 0; row < k; ++row)
-      gram.row(row) = Eigen::Map<const Eigen::RowVectorXd>(q[static_cast<std::size_t>(row)].data(), k);
+    for (Eigen::Index row = 0; row < k; ++row) gram.row(row) = Eigen::Map<const Eigen::RowVectorXd>(q[row].data(), k);
     const normal_equations normal(gram, Eigen::Map<const Eigen::VectorXd>(c.data(), k));
     const Eigen::VectorXd expected = Eigen::Map<const Eigen::VectorXd>(x.data(), k);
     const double objective = normal.objective(expected)[0];
@@ -122,36 +121,34 @@ TEST_CASE(
   const auto golden = golden_json("small_noell.json");
   const auto names = golden_json("small_ridge.json")["materials"].get<std::vector<std::string>>();
   const auto table = golden_csv("small_brdf.csv");
-  const auto measured = golden["measured_rows"].get<std::vector<std::size_t>>();
-  const auto outliers = golden["outlier_positions"].get<std::vector<std::size_t>>();
-  const auto sources = golden["outlier_source_rows"].get<std::vector<std::size_t>>();
+  const auto measured = golden["measured_rows"].get<std::vector<Eigen::Index>>();
+  const auto outliers = golden["outlier_positions"].get<std::vector<Eigen::Index>>();
+  const auto sources = golden["outlier_source_rows"].get<std::vector<Eigen::Index>>();
   for (std::size_t c = 0; c < 3; ++c) {
     const auto column = [&](std::size_t material) { return table.at(names[material] + "_" + "RGB"[c]); };
-    Eigen::MatrixXd all(static_cast<Eigen::Index>(column(0).size()), 12);
+    Eigen::MatrixXd all(std::ssize(column(0)), 12);
     for (std::size_t m = 0; m < 12; ++m)
-      all.col(static_cast<Eigen::Index>(m)) =
-          Eigen::Map<const Eigen::VectorXd>(column(m).data(), all.rows()).array().log1p();
+      all.col(m) = Eigen::Map<const Eigen::VectorXd>(column(m).data(), all.rows()).array().log1p();
     const auto expect = [](const gonio::solution& found, const nlohmann::json& expected) {
       const auto alpha = expected.get<std::vector<double>>();
       CHECK(found.report.kkt_residual[0] <= 1e-9);
       for (std::size_t i = 0; i < alpha.size(); ++i)
-        CHECK(found.weights(static_cast<Eigen::Index>(i), 0) == doctest::Approx(alpha[i]).epsilon(1e-6).scale(1e-3));
+        CHECK(found.weights(i, 0) == doctest::Approx(alpha[i]).epsilon(1e-6).scale(1e-3));
     };
 
     const Eigen::MatrixXd known = all.leftCols(11), gram = known.transpose() * known;
     for (Eigen::Index target = 0; target < 11; ++target)
       expect(gonio::nnls().solve(gonio::leave_one_out(gram, target, gonio::all_but(11, target))),
-             golden["channels"][c]["loo_alpha"][static_cast<std::size_t>(target)]);
+             golden["channels"][c]["loo_alpha"][target]);
 
-    gonio::row_matrix rows(static_cast<Eigen::Index>(measured.size()), 11);
+    gonio::row_matrix rows(std::ssize(measured), 11);
     Eigen::MatrixXd clean(rows.rows(), 1);
     for (std::size_t i = 0; i < measured.size(); ++i) {
-      rows.row(static_cast<Eigen::Index>(i)) = known.row(static_cast<Eigen::Index>(measured[i]));
-      clean(static_cast<Eigen::Index>(i), 0) = all(static_cast<Eigen::Index>(measured[i]), 11);
+      rows.row(i) = known.row(measured[i]);
+      clean(i, 0) = all(measured[i], 11);
     }
     Eigen::MatrixXd disturbed = clean;
-    for (std::size_t i = 0; i < outliers.size(); ++i)
-      disturbed(static_cast<Eigen::Index>(outliers[i]), 0) = all(static_cast<Eigen::Index>(sources[i]), 11);
+    for (std::size_t i = 0; i < outliers.size(); ++i) disturbed(outliers[i], 0) = all(sources[i], 11);
     const auto& channel = golden["channels"][c];
     expect(gonio::nnls().solve(gonio::least_squares_problem(rows, clean)), channel["clean_gamma0"]["alpha"]);
     expect(gonio::nnls().solve(gonio::least_squares_problem(rows, disturbed)), channel["outliers_gamma3"]["alpha"]);

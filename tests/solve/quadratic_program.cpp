@@ -59,9 +59,9 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 normal_equations golden_equations(const nlohmann::json& instance) {
   const auto Q = instance["Q"].get<std::vector<std::vector<double>>>();
   const auto m = instance["c"].get<std::vector<double>>();  // A'b
-  const auto k = static_cast<Eigen::Index>(m.size());
+  const Eigen::Index k = std::ssize(m);
   matrix gram(k, k);
-  for (Eigen::Index j = 0; j < k; ++j) gram.col(j) = Eigen::Map<const vector>(Q[static_cast<std::size_t>(j)].data(), k);
+  for (Eigen::Index j = 0; j < k; ++j) gram.col(j) = Eigen::Map<const vector>(Q[j].data(), k);
   return {gram, matrix(Eigen::Map<const vector>(m.data(), k))};
 }
 
@@ -75,9 +75,7 @@ struct draw {
   explicit draw(unsigned from) : generator(from), seed(static_cast<unsigned>(generator()) >> 2) {}
 
   /// At least `from`, less than `to`.
-  Eigen::Index number(Eigen::Index from, Eigen::Index to) {
-    return from + static_cast<Eigen::Index>(generator()) % (to - from);
-  }
+  Eigen::Index number(Eigen::Index from, Eigen::Index to) { return from + generator() % (to - from); }
   bool coin() { return number(0, 2) == 1; }
   random_problem problem(Eigen::Index k) { return {k, static_cast<int>(number(0, random_problem::kinds)), seed}; }
 };

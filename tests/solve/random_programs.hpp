@@ -25,7 +25,7 @@ using vector = Eigen::VectorXd;
 inline matrix times(const matrix& a, const matrix& b) { return a * b; }
 
 inline vector numbers(std::initializer_list<double> list) {
-  return Eigen::Map<const vector>(list.begin(), static_cast<Eigen::Index>(list.size()));
+  return Eigen::Map<const vector>(list.begin(), std::ssize(list));
 }
 
 /// Shrinks A along orthogonal random directions, the last by 10^-decades (the square of that in Q).
@@ -75,9 +75,8 @@ using extended = std::vector<long double>;
 inline double objective(const random_problem& problem, const extended& x) {
   long double sum = 0;
   for (std::size_t j = 0; j < x.size(); ++j) {
-    const auto column = static_cast<Eigen::Index>(j);
-    for (std::size_t i = 0; i < x.size(); ++i)
-      sum += x[i] * x[j] * static_cast<long double>(problem.Q(static_cast<Eigen::Index>(i), column)) / 2;
+    const Eigen::Index column = j;
+    for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * x[j] * static_cast<long double>(problem.Q(i, column)) / 2;
     sum -= static_cast<long double>(problem.m[column]) * x[j];
   }
   return static_cast<double>(sum);
@@ -92,7 +91,7 @@ struct extended_system {
   /// A solution, if there is one, by elimination with complete pivoting.
   [[nodiscard]] std::optional<extended> solve() {
     const std::size_t n = rows.size();
-    std::vector<std::size_t> place(n);
+    std::vector<Eigen::Index> place(n);
     for (std::size_t i = 0; i < n; ++i) place[i] = i;
     std::size_t rank = 0;
     for (; rank < n && pivot(rank, place); ++rank)
@@ -112,7 +111,7 @@ struct extended_system {
   }
 
  private:
-  [[nodiscard]] bool pivot(std::size_t at, std::vector<std::size_t>& place) {
+  [[nodiscard]] bool pivot(std::size_t at, std::vector<Eigen::Index>& place) {
     const std::size_t n = rows.size();
     std::size_t row = at, column = at;
     for (std::size_t i = at; i < n; ++i)
@@ -131,7 +130,7 @@ struct extended_system {
 /// The KKT system with some inequalities as equations: first the bounds, then the rows.
 inline extended_system kkt_system(const random_problem& problem, const gonio::linear_constraints& constraints,
                                   unsigned active) {
-  const auto at = [](Eigen::Index i) { return static_cast<std::size_t>(i); };
+  const auto at = [](Eigen::Index i) { return i; };
   const Eigen::Index k = problem.m.size(), bounds = constraints.non_negative ? k : 0;
   const Eigen::Index equalities = constraints.e.size(), size = k + equalities + constraints.d.size();
   extended_system system(at(size));
@@ -161,7 +160,7 @@ inline bool feasible(const extended& x, const gonio::linear_constraints& constra
   if (constraints.non_negative && *std::ranges::min_element(x) < -1e-10L) return false;
   for (Eigen::Index i = 0; i < constraints.d.size(); ++i) {
     long double sum = -constraints.d[i];
-    for (std::size_t j = 0; j < x.size(); ++j) sum += x[j] * constraints.D(i, static_cast<Eigen::Index>(j));
+    for (std::size_t j = 0; j < x.size(); ++j) sum += x[j] * constraints.D(i, j);
     if (sum > 1e-10L) return false;
   }
   return true;
@@ -169,8 +168,8 @@ inline bool feasible(const extended& x, const gonio::linear_constraints& constra
 
 /// The lowest objective of all feasible points that are stationary on some set of active constraints.
 inline double lowest_objective(const random_problem& problem, const gonio::linear_constraints& constraints) {
-  const auto k = static_cast<std::size_t>(problem.m.size());
-  const auto inequalities = static_cast<std::size_t>(constraints.d.size()) + (constraints.non_negative ? k : 0);
+  const std::size_t k = problem.m.size();
+  const std::size_t inequalities = constraints.d.size() + (constraints.non_negative ? k : 0);
   double lowest = std::numeric_limits<double>::infinity();
   for (unsigned active = 0; active < 1U << inequalities; ++active) {
     auto x = kkt_system(problem, constraints, active).solve();

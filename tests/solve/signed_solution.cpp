@@ -243,7 +243,7 @@ TEST_CASE("the instances that are published with scipy's issues 20168, 20302 and
     const auto n = std::ssize(rows), k = std::ssize(rows.front());
     random_problems::problem problem{Eigen::MatrixXd(n, k), Eigen::Map<const Eigen::VectorXd>(right.data(), n)};
     for (Eigen::Index row = 0; row < n; ++row)
-      problem.matrix.row(row) = Eigen::Map<const Eigen::RowVectorXd>(rows[static_cast<std::size_t>(row)].data(), k);
+      problem.matrix.row(row) = Eigen::Map<const Eigen::RowVectorXd>(rows[row].data(), k);
     check_nnls(problem, hard_problems::equations(problem));
   }
 }

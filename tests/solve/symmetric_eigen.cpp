@@ -38,7 +38,7 @@ void check_decomposition(const Eigen::MatrixXd& a) {
 
 TEST_CASE("eigenvalues and eigenvectors of random symmetric matrices") {
   CHECK(rc::check([] {
-    const auto size = static_cast<Eigen::Index>(*rc::gen::inRange(1, 40));
+    const Eigen::Index size = *rc::gen::inRange(1, 40);
     check_decomposition(random_symmetric(size, *rc::gen::arbitrary<std::uint64_t>()));
   }));
   check_decomposition(random_symmetric(200, 1));

@@ -54,12 +54,12 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
   const auto table = golden_csv("small_brdf.csv");
   const auto names = golden["materials"].get<std::vector<std::string>>();
   const auto& cosine = table.at("cosweight");
-  const auto cells = static_cast<Eigen::Index>(cosine.size());
+  const Eigen::Index cells = std::ssize(cosine);
   const auto column = [&](std::size_t material, int channel) -> const std::vector<double>& {
     return table.at(names[material] + "_" + "RGB"[channel]);
   };
   std::vector<double> median(cosine.size());
-  for (std::size_t cell = 0; cell < median.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(median); ++cell) {
     std::vector<double> row;
     for (std::size_t m = 0; m < 11; ++m)
       for (int c = 0; c < 3; ++c) row.push_back(column(m, c)[cell]);
@@ -67,14 +67,12 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
     median[cell] = row[16];
   }
   const auto map = [&](double rho, Eigen::Index cell) {
-    const auto i = static_cast<std::size_t>(cell);
+    const std::size_t i = cell;
     return std::log((rho * cosine[i] + 1e-3) / (median[i] * cosine[i] + 1e-3));
   };
   row_matrix mapped(cells, 33);
   for (Eigen::Index cell = 0; cell < cells; ++cell)
-    for (Eigen::Index j = 0; j < 33; ++j)
-      mapped(cell, j) =
-          map(column(static_cast<std::size_t>(j / 3), static_cast<int>(j % 3))[static_cast<std::size_t>(cell)], cell);
+    for (Eigen::Index j = 0; j < 33; ++j) mapped(cell, j) = map(column(j / 3, static_cast<int>(j % 3))[cell], cell);
   const Eigen::VectorXd mean = mapped.rowwise().mean();
   mapped.colwise() -= mean;
   CHECK(mean[3] == doctest::Approx(golden["mu_first20"][3].get<double>()).epsilon(1e-12));
@@ -87,25 +85,22 @@ TEST_CASE("the ridge reconstruction of the small golden instance") {
     row_matrix rows(5, 33);
     Eigen::MatrixXd right(5, 3);
     for (Eigen::Index i = 0; i < 5; ++i) {
-      const Eigen::Index cell = samples[static_cast<std::size_t>(i)];
+      const Eigen::Index cell = samples[i];
       rows.row(i) = mapped.row(cell);
-      for (int c = 0; c < 3; ++c) right(i, c) = map(column(11, c)[static_cast<std::size_t>(cell)], cell) - mean[cell];
+      for (int c = 0; c < 3; ++c) right(i, c) = map(column(11, c)[cell], cell) - mean[cell];
     }
     const auto found = tikhonov(eta).solve(least_squares_problem{rows, right});
     for (Eigen::Index j = 0; j < 33; ++j)
       for (Eigen::Index c = 0; c < 3; ++c)
         CHECK(found.weights(j, c) ==
-              doctest::Approx(
-                  expected["dual_weights"][static_cast<std::size_t>(j)][static_cast<std::size_t>(c)].get<double>())
-                  .epsilon(1e-9)
-                  .scale(0.01));
+              doctest::Approx(expected["dual_weights"][j][c].get<double>()).epsilon(1e-9).scale(0.01));
     for (int c = 0; c < 3; ++c) {
       const Eigen::VectorXd estimate = mapped * found.weights.col(c) + mean;
       double sum = 0;
       for (Eigen::Index cell = 0; cell < cells; ++cell)
-        sum += std::pow(estimate[cell] - map(column(11, c)[static_cast<std::size_t>(cell)], cell), 2);
+        sum += std::pow(estimate[cell] - map(column(11, c)[cell], cell), 2);
       CHECK(std::sqrt(sum / static_cast<double>(cells)) ==
-            doctest::Approx(expected["rms_mapped"][static_cast<std::size_t>(c)].get<double>()).epsilon(1e-9));
+            doctest::Approx(expected["rms_mapped"][c].get<double>()).epsilon(1e-9));
     }
   }
 }

@@ -52,12 +52,12 @@ Eigen::Index euler_number(const gonio::shape::triangle_mesh& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& corners : mesh.triangles.colwise())
     for (int side = 0; side < 3; ++side) ++edges[std::minmax({corners[side], corners[(side + 1) % 3]})];
-  return mesh.vertices.cols() - static_cast<Eigen::Index>(edges.size()) + mesh.triangles.cols();
+  return mesh.vertices.cols() - std::ssize(edges) + mesh.triangles.cols();
 }
 
 bool uses_all_vertices(const gonio::shape::triangle_mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.vertices.cols()), false);
-  for (const int vertex : mesh.triangles.reshaped()) used[static_cast<std::size_t>(vertex)] = true;
+  std::vector<bool> used(mesh.vertices.cols(), false);
+  for (const int vertex : mesh.triangles.reshaped()) used[vertex] = true;
   return std::ranges::find(used, false) == used.end();
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("ear canals differ by one or two millimetres once they are aligned") {
   CHECK(odd <= 10);
 
   Eigen::MatrixXd changes(900, count);
-  for (int i = 0; i < count; ++i) changes.col(i) = (shapes[static_cast<std::size_t>(i)] - mean).reshaped();
+  for (int i = 0; i < count; ++i) changes.col(i) = (shapes[i] - mean).reshaped();
   const Eigen::VectorXd squares = dense_reference::svd(changes).values.array().square();
   CHECK(squares[0] / squares.sum() < 0.5);  // no single direction explains the family
   CHECK(squares.head(10).sum() / squares.sum() > 0.7);
@@ -295,7 +295,7 @@ TEST_CASE("the truth of a scan lies on the complete surface") {
       const Eigen::Vector2d place = ear_template().places().col(i);
       CHECK((point - scan.placed(place.x(), place.y())).norm() < 1e-12);
       farthest = std::max(farthest, complete.closest(point).distance);
-      if (scan.covered[static_cast<std::size_t>(i)]) to_scan = std::max(to_scan, scanned.closest(point).distance);
+      if (scan.covered[i]) to_scan = std::max(to_scan, scanned.closest(point).distance);
     }
     CHECK(farthest < 0.05);
     CHECK(to_scan < 0.25);
@@ -354,8 +354,8 @@ TEST_CASE("holes are where they were asked for, with disturbed edges") {
   // A missing vertex is far from the scan or at its border.
   for (Eigen::Index i = 0; i < holed.truth.cols(); i += 5) {
     const auto nearest = scanned.closest(holed.truth.col(i));
-    if (!holed.covered[static_cast<std::size_t>(i)]) CHECK((nearest.on_border || nearest.distance < 0.1));
-    if (holed.covered[static_cast<std::size_t>(i)]) CHECK(nearest.distance < 0.8);
+    if (!holed.covered[i]) CHECK((nearest.on_border || nearest.distance < 0.1));
+    if (holed.covered[i]) CHECK(nearest.distance < 0.8);
   }
   for (const auto& place : holed.places.colwise())
     CHECK(std::hypot((place.x() - 0.5) / 0.05, std::remainder(place.y() - 1.0, 2.0 * std::numbers::pi) / 0.8) > 1.0);

@@ -58,7 +58,7 @@ TEST_CASE("resampling keeps a table on its own cells and approximates it on othe
   const brdf_table table = gonio::tabulate(smooth_brdf(), fine);
   CHECK(std::ranges::equal(gonio::resample(table, valid_cells(gonio::grid({60, 60, 60}))).values(), table.values()));
   const brdf_table other = gonio::resample(table, coarse), exact = gonio::tabulate(smooth_brdf(), coarse);
-  for (std::size_t cell = 0; cell < coarse.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(coarse); ++cell) {
     // At the horizon the last valid value is held over at most one cell; away from it the error is quadratic.
     const auto cosine = cosines(coarse.angles(cell));
     const double tolerance = std::min(cosine.i, cosine.o) > 0.2 ? 2e-3 : 5e-2;

@@ -25,7 +25,7 @@ TEST_CASE("weights are positive and sum to one everywhere, over valid cells") {
       const auto at = gonio::locate(cells, any_angles());
       RC_ASSERT(at.count >= 1);
       double sum = 0;
-      for (std::size_t corner = 0; corner < static_cast<std::size_t>(at.count); ++corner) {
+      for (Eigen::Index corner = 0; corner < at.count; ++corner) {
         RC_ASSERT(at.weight[corner] > 0.0);
         RC_ASSERT(at.cell[corner] < cells.size());
         sum += at.weight[corner];
@@ -38,7 +38,7 @@ TEST_CASE("weights are positive and sum to one everywhere, over valid cells") {
 TEST_CASE("a node is located at its own cell alone") {
   for (const auto anchor : {gonio::cell_anchor::centre, gonio::cell_anchor::lower_corner}) {
     const valid_cells cells(gonio::grid({9, 7, 11}, anchor));
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
       const auto at = gonio::locate(cells, cells.angles(cell));
       REQUIRE(at.count == 1);
       REQUIRE(at.cell[0] == cell);

@@ -6,7 +6,7 @@
 
 TEST_CASE("a material is found by name and its table is three adjacent columns") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
-  gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 6)};
+  gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix(cells.size(), 6)};
   for (Eigen::Index i = 0; i < set.values.size(); ++i) set.values.data()[i] = static_cast<float>(i);
   CHECK(set.find("gold") == 1);
   CHECK_THROWS_WITH_AS(static_cast<void>(set.find("glod")), doctest::Contains("'glod'"), gonio::error);
@@ -17,8 +17,7 @@ TEST_CASE("a material is found by name and its table is three adjacent columns")
 
 TEST_CASE("some of the materials are copied in the order asked for") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
-  gonio::material_set set{
-      cells, {"clay", "gold", "wood"}, gonio::cell_matrix(static_cast<Eigen::Index>(cells.size()), 9)};
+  gonio::material_set set{cells, {"clay", "gold", "wood"}, gonio::cell_matrix(cells.size(), 9)};
   for (Eigen::Index i = 0; i < set.values.size(); ++i) set.values.data()[i] = static_cast<float>(i);
   const auto some = set.subset({2, 0});
   CHECK(some.names == std::vector<std::string>{"wood", "clay"});
@@ -30,7 +29,7 @@ TEST_CASE("some of the materials are copied in the order asked for") {
 
 TEST_CASE("a cell is mapped value by value, and what is not finite before or after is refused by name") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
-  const auto count = static_cast<Eigen::Index>(cells.size());
+  const Eigen::Index count = cells.size();
   gonio::material_set set{cells, {"clay", "gold"}, gonio::cell_matrix::Ones(count, 6)};
   const auto twice = [](double value) { return 2.0 * value; };
   const auto refused = [&](const auto& map, const char* words) {
@@ -48,7 +47,7 @@ TEST_CASE("a cell is mapped value by value, and what is not finite before or aft
 
 TEST_CASE("a set without materials, or whose table does not fit them and the cells, is not complete") {
   const gonio::valid_cells cells(gonio::grid({3, 3, 4}));
-  const auto count = static_cast<Eigen::Index>(cells.size());
+  const Eigen::Index count = cells.size();
   CHECK_NOTHROW(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count, 3)}));
   CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {}, gonio::cell_matrix(count, 0)}), gonio::error);
   CHECK_THROWS_AS(gonio::require_complete(gonio::material_set{cells, {"clay"}, gonio::cell_matrix(count, 4)}),

@@ -13,11 +13,11 @@ TEST_CASE("the valid cells of MERL's grid are the reference's") {
   CHECK(cells.size() == golden["nvalid"].get<std::size_t>());
   std::vector<unsigned char> mask(cells.grid().size());
   std::vector<int> per_theta_h(90), per_theta_d(90);
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     mask[cells.linear(cell)] = 1;
     const auto index = cells.grid().cell(cells.linear(cell));
-    ++per_theta_h[static_cast<std::size_t>(index.theta_h)];
-    ++per_theta_d[static_cast<std::size_t>(index.theta_d)];
+    ++per_theta_h[index.theta_h];
+    ++per_theta_d[index.theta_d];
   }
   CHECK(per_theta_h == golden["per_theta_h"].get<std::vector<int>>());
   CHECK(per_theta_d == golden["per_theta_d"].get<std::vector<int>>());
@@ -34,7 +34,7 @@ TEST_CASE("lower corners, and the stricter rule of one database") {
 TEST_CASE("a valid cell represents itself, an invalid one is represented by a valid one at smaller theta_h") {
   const valid_cells cells(gonio::grid({20, 15, 24}));
   std::size_t invalid = 0;
-  for (std::size_t linear = 0; linear < cells.grid().size(); ++linear) {
+  for (Eigen::Index linear = 0; linear < cells.grid().size(); ++linear) {
     const std::size_t stand_in = cells.linear(cells.representative(linear));
     if (cells.contains(linear)) {
       CHECK(stand_in == linear);

@@ -28,11 +28,11 @@ namespace cli {
 namespace {
 
 struct shape_demo_command {
-  std::size_t shapes = 310, held_out = 10;
+  Eigen::Index shapes = 310, held_out = 10;
   std::uint64_t seed = 1;
   std::string hole = "large";
   double edge_noise = 0.0;
-  std::size_t trials = 0;
+  Eigen::Index trials = 0;
   std::filesystem::path folder;
   bool as_json = false;
   gonio::thread_count threads;
@@ -48,7 +48,7 @@ struct judged_surface {
 /// All ways, and how sure ours says that it is.
 struct judged_ear {
   std::vector<judged_surface> ways;
-  std::size_t missing = 0;       ///< vertices in the hole
+  Eigen::Index missing = 0;      ///< vertices in the hole
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
@@ -80,8 +80,7 @@ synthetic::ear_scan scan_held_out(const synthetic::ear_canal_template& common, c
 std::vector<Eigen::Index> hole_of(const synthetic::ear_canal_template& common, const synthetic::ear_scan& scan) {
   std::vector<Eigen::Index> hole;
   for (std::size_t v = 0; v < scan.covered.size(); ++v)
-    if (!scan.covered[v] && common.places()(0, static_cast<Eigen::Index>(v)) > 0.1)
-      hole.push_back(static_cast<Eigen::Index>(v));
+    if (!scan.covered[v] && common.places()(0, v) > 0.1) hole.push_back(v);
   return hole;
 }
 

@@ -19,7 +19,7 @@ namespace cli {
 namespace {
 
 struct shape_grow_command {
-  std::size_t annotated = 12, scans = 310;
+  Eigen::Index annotated = 12, scans = 310;
   double defects = 0.1;
   std::uint64_t seed = 77;
   double wrong = 2.5;
@@ -30,13 +30,13 @@ struct shape_grow_command {
 
 /// What a bootstrap did to scans of which everything is known.
 struct judged_bootstrap {
-  std::size_t good = 0, defective = 0, accepted_good = 0, accepted_defective = 0;
+  Eigen::Index good = 0, defective = 0, accepted_good = 0, accepted_defective = 0;
   std::vector<double> off;  ///< mean distance from the true vertices of each that was accepted and is good, ascending
   std::vector<std::string> refusals;  ///< of the good ones
   std::vector<std::string> rightly;   ///< of the others
 
   [[nodiscard]] std::size_t farther_than(double distance) const {
-    return static_cast<std::size_t>(std::ranges::count_if(off, [=](double one) { return one > distance; }));
+    return std::ranges::count_if(off, [=](double one) { return one > distance; });
   }
   /// 0 is the least, 1 the largest.
   [[nodiscard]] double off_at(double share) const {
@@ -92,7 +92,7 @@ void grow_shapes(const shape_grow_command& options) {
   synthetic::number_source seeds(options.seed);
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < options.annotated; ++i) {
+  for (Eigen::Index i = 0; i < options.annotated; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("annotated-" + std::to_string(i + 1));
   }

@@ -22,7 +22,7 @@ namespace {
 struct shape_recover_command {
   std::filesystem::path scan, model, output, truth, image;
   double noise = 0.05;
-  std::size_t trials = 0;
+  Eigen::Index trials = 0;
   gonio::thread_count threads;
 };
 
@@ -69,7 +69,7 @@ void recover_shape(const shape_recover_command& options) {
   const std::vector<bool> known = gonio::shape::marks_of(found.known, model.vertices());
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < model.vertices(); ++v)
-    if (!known[static_cast<std::size_t>(v)]) missing.push_back(v);
+    if (!known[v]) missing.push_back(v);
   std::cout << missing.size() << " of " << model.vertices() << " vertices are recovered\n";
   // Estimate how sure they are by trials.
   if (options.trials > 0 && !missing.empty())

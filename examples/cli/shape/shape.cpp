@@ -12,9 +12,9 @@
 namespace cli {
 
 gonio::image shape_image(const gonio::shape::triangle_mesh& mesh, const Eigen::VectorXd& distances, double largest) {
-  std::vector<gonio::rgb> colours(static_cast<std::size_t>(mesh.vertices.cols()), gonio::rgb::Constant(0.5));
+  std::vector<gonio::rgb> colours(mesh.vertices.cols(), gonio::rgb::Constant(0.5));
   for (Eigen::Index v = 0; v < distances.size(); ++v)
-    colours[static_cast<std::size_t>(v)] = gonio::render::false_colour(distances[v], {-largest, largest});
+    colours[v] = gonio::render::false_colour(distances[v], {-largest, largest});
   const auto from = [&](const Eigen::Vector3d& towards) {
     gonio::shape::mesh_view view = gonio::shape::mesh_view::of(mesh, towards);
     view.radius = 18.0;  // mm: all ears at one scale

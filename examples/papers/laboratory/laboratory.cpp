@@ -35,7 +35,7 @@ struct laboratory_options {
   std::vector<std::filesystem::path> tables;
   std::filesystem::path directions, prior;
   machine_choice machine;
-  std::size_t many = 2000, repetitions = 5;
+  Eigen::Index many = 2000, repetitions = 5;
   double outliers = 0.05;
   std::uint64_t seed = 1;
   bool print_json = false;
@@ -77,11 +77,11 @@ std::vector<gonio::direction_pair> reachable(const laboratory_options& options,
   return poses;
 }
 
-std::vector<gonio::direction_pair> random_poses(const laboratory_options& options, std::size_t count) {
+std::vector<gonio::direction_pair> random_poses(const laboratory_options& options, Eigen::Index count) {
   const gonio::valid_cells cells;
   // In the order of their numbers cells are in that of theta_h, so the first would be those of the highlight.
   std::vector<gonio::direction_pair> pairs;
-  for (const std::size_t cell : gonio::random_choice(cells.size(), std::min(3 * count, cells.size()), options.seed))
+  for (const Eigen::Index cell : gonio::random_choice(cells.size(), std::min(3 * count, cells.size()), options.seed))
     pairs.push_back(gonio::to_directions(cells.angles(cell)));
   std::ranges::shuffle(pairs, std::mt19937_64(options.seed));
   return reachable(options, pairs, count);

@@ -26,7 +26,7 @@ angles by_condition(const laboratory& lab, const options& given, std::size_t n) 
   const gonio::design::point_geometry points(lab.prior().cells());
   const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
   gonio::design::capture_plan best;
-  for (std::size_t r = 0; r < given.repetitions; ++r) {
+  for (Eigen::Index r = 0; r < given.repetitions; ++r) {
     gonio::design::capture_plan plan = gonio::design::grow_and_descend(points, condition, n, 1, given.seed + r);
     if (plan.value < best.value || best.candidates.empty()) best = std::move(plan);
   }
@@ -65,7 +65,7 @@ std::vector<gonio::design::capture_plan> spheres_by_expected_error(const laborat
 /// A random set of cells.
 angles random_points(const laboratory& lab, std::size_t n, std::uint64_t seed) {
   angles directions;
-  for (const std::size_t cell : gonio::random_cells(lab.prior().cells(), n, seed))
+  for (const Eigen::Index cell : gonio::random_cells(lab.prior().cells(), n, seed))
     directions.push_back(lab.prior().cells().angles(cell));
   return directions;
 }
@@ -74,7 +74,7 @@ angles random_points(const laboratory& lab, std::size_t n, std::uint64_t seed) {
 template <class Draw>
 double error_of_random(const laboratory& lab, const options& given, Draw&& draw) {
   double sum = 0.0;
-  for (std::size_t r = 0; r < given.random_sets; ++r) sum += lab.error(draw(given.seed + r));
+  for (Eigen::Index r = 0; r < given.random_sets; ++r) sum += lab.error(draw(given.seed + r));
   return sum / static_cast<double>(given.random_sets);
 }
 
@@ -86,8 +86,8 @@ std::vector<double> published_slices(std::size_t n) {
   return {};
 }
 
-std::vector<std::size_t> numbers_of(const gonio::design::sphere_geometry& spheres, const std::vector<double>& slices) {
-  std::vector<std::size_t> numbers;
+std::vector<Eigen::Index> numbers_of(const gonio::design::sphere_geometry& spheres, const std::vector<double>& slices) {
+  std::vector<Eigen::Index> numbers;
   for (const double theta_d : slices)
     numbers.push_back(spheres.nearest(gonio::to_directions({0.0, gonio::radians(theta_d), 0.0})));
   return numbers;
@@ -167,7 +167,7 @@ Eigen::ArrayX3d fitted_ward(const laboratory& lab, const options& given, const a
 std::vector<named_errors> five_directions(const laboratory& lab, const options& given,
                                           const gonio::progress& listener) {
   Eigen::ArrayX3d random = Eigen::ArrayX3d::Zero(std::ssize(lab.tested.names()), 3);
-  for (std::size_t r = 0; r < given.random_sets; ++r)
+  for (Eigen::Index r = 0; r < given.random_sets; ++r)
     random += lab.tested.from(random_points(lab, 5, given.seed + r)) / static_cast<double>(given.random_sets);
   const angles expected = points_by_expected_error(lab, given, 5, listener).back();
   return {{"published", lab.tested.from(gonio::design::nielsen_directions(5))},
@@ -190,7 +190,7 @@ tables nielsen_8(const options& given, const gonio::progress& listener) {
   for (const named_errors& set : sets) errors.columns.push_back({set.name});
   for (Eigen::Index m = 0; m < std::ssize(lab.tested.names()); ++m) {
     auto& row = errors.rows.emplace_back();
-    row.emplace_back(lab.tested.names()[static_cast<std::size_t>(m)]);
+    row.emplace_back(lab.tested.names()[m]);
     for (const named_errors& set : sets) row.emplace_back(set.errors.row(m).mean());
   }
   auto& mean = errors.rows.emplace_back();
@@ -226,7 +226,7 @@ tables xu_19(const options& given, const gonio::progress& listener) {
     saved.rows.push_back({row[0], row[3], reached == points.rows.end() ? json("not reached") : (*reached)[0]});
   }
   table steps{"Does the error fall with each further point?", {{"criterion"}, {"steps", 0}, {"of which it rises", 0}}};
-  for (const std::size_t column : {std::size_t{2}, std::size_t{3}}) {
+  for (const Eigen::Index column : {Eigen::Index{2}, Eigen::Index{3}}) {
     std::size_t rises = 0;
     for (std::size_t i = 1; i < points.rows.size(); ++i)
       if (points.rows[i][column].number() > points.rows[i - 1][column].number()) ++rises;

@@ -14,7 +14,7 @@ namespace papers::figures {
 namespace {
 
 /// More points than that are not exchanged over all cells: it would take minutes.
-constexpr std::size_t most_exchanged_points = 10;
+constexpr Eigen::Index most_exchanged_points = 10;
 
 struct timed_plan {
   gonio::design::capture_plan plan;
@@ -31,12 +31,12 @@ timed_plan timed(Search&& search) {
 /// Random swaps for about as long as is said: as many as some take, and then as that run says.
 template <class Objective>
 timed_plan swaps_within(double seconds, const Objective& objective, std::size_t n, std::uint64_t seed) {
-  std::size_t count = 300;
+  Eigen::Index count = 300;
   timed_plan run;
   for (int round = 0; round < 3; ++round) {
     run = timed([&] { return gonio::design::swap_at_random(objective.geometry(), objective, n, count, seed); });
     const double share = seconds / std::max(run.seconds, 1e-6);
-    count = std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(share * static_cast<double>(count))));
+    count = std::max<std::size_t>(1, std::llround(share * static_cast<double>(count)));
   }
   return run;
 }
@@ -67,7 +67,7 @@ template <class Objective, class Search>
 std::vector<record> race(const std::string& name, const Objective& objective, std::size_t n, const options& given,
                          Search&& search) {
   std::vector<record> records{{name}, {"random swaps, the same time"}, {"random swaps, five times the time"}};
-  for (std::size_t r = 0; r < given.repetitions; ++r) {
+  for (Eigen::Index r = 0; r < given.repetitions; ++r) {
     const std::uint64_t seed = given.seed + r;
     records[0].found.push_back(timed([&] { return search(seed); }));
     const double seconds = records[0].found.back().seconds;
@@ -77,8 +77,8 @@ std::vector<record> race(const std::string& name, const Objective& objective, st
   return records;
 }
 
-std::vector<std::size_t> race_counts(const options& given) {
-  std::vector<std::size_t> counts{2, 5, 10, 15, 20};
+std::vector<Eigen::Index> race_counts(const options& given) {
+  std::vector<Eigen::Index> counts{2, 5, 10, 15, 20};
   std::erase_if(counts, [&](std::size_t n) { return n > given.up_to(20); });
   if (counts.empty()) gonio::refuse("--most needs at least 2: searches are compared from two measurements on");
   return counts;
@@ -95,13 +95,13 @@ table race_by_condition(const laboratory& lab, const options& given, const gonio
                {"mapped error of the best"}}};
   const gonio::design::point_geometry points(lab.prior().cells());
   const gonio::design::criterion_of_plan condition{lab.prior(), points, gonio::design::condition_number{}};
-  for (const std::size_t n : race_counts(given)) {
+  for (const Eigen::Index n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.0);
     auto records = race("descent (Nielsen et al.)", condition, n, given, [&](std::uint64_t seed) {
       return gonio::design::grow_and_descend(points, condition, n, 1, seed);
     });
     record& guessed = records.emplace_back(record{"descent from the best of 500"});
-    for (std::size_t r = 0; r < given.repetitions; ++r)
+    for (Eigen::Index r = 0; r < given.repetitions; ++r)
       guessed.found.push_back(
           timed([&] { return gonio::design::grow_and_descend(points, condition, n, 500, given.seed + r); }));
     for (const record& searched : records) add_row(shown, n, searched, condition, lab, 1.0);
@@ -121,7 +121,7 @@ table race_by_expected_error(const laboratory& lab, const options& given, const 
   const gonio::design::cell_candidates candidates(
       lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}), {}, given.threads);
   const double scale = std::sqrt(static_cast<double>(lab.prior().cells().size()));
-  for (const std::size_t n : race_counts(given)) {
+  for (const Eigen::Index n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.5);
     auto records = race("descent from the best of 500 (Xu et al.)", candidates, n, given, [&](std::uint64_t seed) {
       return gonio::design::grow_and_descend(candidates.geometry(), candidates, n, 500, seed);

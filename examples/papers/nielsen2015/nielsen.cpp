@@ -61,7 +61,7 @@ void run(const nielsen_options& options) {
 
   // Reconstruct the test materials from each published set of directions.
   json result{{"prior_components", prior.size()}, {"eta", options.eta}, {"directions", json::object()}};
-  for (const std::size_t n : gonio::design::nielsen_direction_counts) {
+  for (const Eigen::Index n : gonio::design::nielsen_direction_counts) {
     const auto directions = gonio::design::nielsen_directions(n);
     const auto reconstruct = [&](const gonio::log_relative_pca& from) {
       return reconstruct_from_directions(from, options.eta, directions, truths, prior.metric(), appearance,

@@ -34,7 +34,7 @@ namespace {
 
 struct soft_specular_options {
   studied_networks networks;
-  std::vector<std::size_t> counts{2, 5};
+  std::vector<Eigen::Index> counts{2, 5};
   double eta = 40.0;
   std::optional<double> eta_of_halves, threshold;
   bool print_json = false;
@@ -167,7 +167,7 @@ void run(const soft_specular_options& options) {
               {"specular_materials", from.specular},
               {"directions", json::object()}};
   if (!options.print_json) print_heading(from, truths, options);
-  for (const std::size_t count : options.counts) {
+  for (const Eigen::Index count : options.counts) {
     gonio::report(listener, "reconstructing from " + std::to_string(count), 0.0);
     for (const chosen_results& row : reconstruct_all_ways(from, truths, appearance, count, options.threads)) {
       if (!options.print_json) print_row(count, row);

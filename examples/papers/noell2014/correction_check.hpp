@@ -18,8 +18,8 @@ namespace papers {
 template <gonio::normal_solver Solver>
 [[nodiscard]] std::vector<double> deviations_from_others(const gonio::correction& functions, const Solver& solver,
                                                          gonio::thread_count threads = {}) {
-  const auto materials = static_cast<Eigen::Index>(functions.names().size());
-  const auto size = static_cast<Eigen::Index>(functions.size());
+  const Eigen::Index materials = std::ssize(functions.names());
+  const Eigen::Index size = functions.size();
   std::vector<Eigen::Index> targets = gonio::columns_of(functions);
   std::erase_if(targets, [&](Eigen::Index column) { return column >= materials; });
   Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::ssize(targets));
@@ -30,15 +30,14 @@ template <gonio::normal_solver Solver>
       std::vector<Eigen::Index> others = gonio::columns_of(functions);
       std::erase(others, targets[i]);
       const gonio::solution found = solver.solve(gonio::leave_one_out(channel.products(threads), targets[i], others));
-      residual.col(static_cast<Eigen::Index>(i)) =
-          -gonio::scatter_columns(found, others, size).weights.template cast<float>();
-      residual(targets[i], static_cast<Eigen::Index>(i)) = 1.0f;
+      residual.col(i) = -gonio::scatter_columns(found, others, size).weights.template cast<float>();
+      residual(targets[i], i) = 1.0f;
     }
     const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(std::ssize(targets));
     sums += gonio::sum_over_blocks(
         functions.cells().size(), 1024, zero,
         [&](Eigen::ArrayXd& sum, gonio::block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const Eigen::Index begin = range.begin, count = range.size();
           const Eigen::MatrixXf deviations = channel.values().middleRows(begin, count) * residual;
           sum += deviations.cwiseAbs().colwise().sum().transpose().template cast<double>().array();
         },

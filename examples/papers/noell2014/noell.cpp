@@ -178,7 +178,7 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
         harm[i] = std::max(harm[i], after[i]["delta_e_env"].number() / before[i]["delta_e_env"].number());
     }
     const auto worst = std::ranges::max_element(harm);
-    const auto material = static_cast<std::size_t>(worst - harm.begin()) % sweep.materials().size();
+    const std::size_t material = (worst - harm.begin()) % sweep.materials().size();
     std::cout << last.name() << ", data " << last.data_ratio << ", outliers " << last.outlier_ratio << ": at most "
               << fixed(*worst, 3) << " times the best (" << sweep.materials()[material] << "); more than 1.05 times in "
               << std::ranges::count_if(harm, [](double ratio) { return ratio > 1.05; }) << " of " << harm.size()

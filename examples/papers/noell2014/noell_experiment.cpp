@@ -173,8 +173,8 @@ noell_experiment::~noell_experiment() = default;
 
 const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
 
-std::size_t noell_experiment::samples_of(double data, std::size_t cells) noexcept {
-  return data <= 1.0 ? gonio::share_of(cells, data) : std::min(static_cast<std::size_t>(std::llround(data)), cells);
+Eigen::Index noell_experiment::samples_of(double data, Eigen::Index cells) noexcept {
+  return data <= 1.0 ? gonio::share_of(cells, data) : std::min<Eigen::Index>(std::llround(data), cells);
 }
 
 namespace {
@@ -182,7 +182,7 @@ namespace {
 /// The share of samples that are more than 5 % off the truth: an outlier has another cell's value, which may be right.
 [[nodiscard]] double share_off(const gonio::sample_set& samples, const gonio::sample_set& right) {
   constexpr double offset = 0.001, limit = 0.05;
-  std::size_t off = 0;
+  Eigen::Index off = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const gonio::rgb ratio = (samples[i].value.max(0.0) + offset) / (right[i].value.max(0.0) + offset);
     if (std::abs(ratio.log().mean()) > limit) ++off;

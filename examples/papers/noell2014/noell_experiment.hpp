@@ -38,7 +38,7 @@ class noell_experiment {
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 
   /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
-  [[nodiscard]] static std::size_t samples_of(double data, std::size_t cells) noexcept;
+  [[nodiscard]] static Eigen::Index samples_of(double data, Eigen::Index cells) noexcept;
 
   /// Does a method correct its estimate again and again?
   [[nodiscard]] static bool iterates(const std::string& method);

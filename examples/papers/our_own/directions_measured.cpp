@@ -39,10 +39,10 @@ struct directions_options {
   std::filesystem::path networks, tables, folder = shipped_directions(), state;
   std::vector<std::filesystem::path> samples;
   std::vector<std::string> sets{"published", "expected-error", "perceived", "random"};
-  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
   std::string eta = "auto";
   std::uint64_t seed = 0;
-  std::size_t repetitions = 5;
+  Eigen::Index repetitions = 5;
   bool print_json = false;
   gonio::thread_count threads;
 };
@@ -62,11 +62,11 @@ benchmark_setup open_benchmark_setup(const directions_options& given, const goni
 // ---- tables: judged as a whole -------------------------------------------------------------------------------------
 
 /// The cells to measure, as many times as a set is drawn.
-std::vector<std::vector<std::size_t>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
-                                               const std::string& set, std::size_t count) {
-  std::vector<std::vector<std::size_t>> drawn;
+std::vector<std::vector<Eigen::Index>> cells_of(const directions_options& given, const gonio::valid_cells& cells,
+                                                const std::string& set, std::size_t count) {
+  std::vector<std::vector<Eigen::Index>> drawn;
   if (set == "random") {
-    for (std::size_t r = 0; r < given.repetitions; ++r)
+    for (Eigen::Index r = 0; r < given.repetitions; ++r)
       drawn.push_back(gonio::random_cells(cells, count, given.seed + r));
   } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(gonio::cells_at(cells, *directions));
@@ -83,7 +83,7 @@ double eta_for(const directions_options& given, const gonio::log_relative_pca& p
 
 /// Means over the repetitions.
 json judge_table(const directions_options& given, const benchmark_setup& shop, const std::string& name,
-                 const gonio::brdf_table& truth, const std::vector<std::vector<std::size_t>>& drawn) {
+                 const gonio::brdf_table& truth, const std::vector<std::vector<Eigen::Index>>& drawn) {
   std::vector<material_result> results;
   double mean_eta = 0.0;
   for (const auto& cells : drawn) {
@@ -120,7 +120,7 @@ double angle_between(const gonio::direction_pair& from, const gonio::direction_p
 
 /// Which measurement stands for which direction, and how far away it is, in radians.
 struct stand_ins {
-  std::vector<std::size_t> samples;
+  std::vector<Eigen::Index> samples;
   std::vector<double> distances;
 };
 
@@ -151,7 +151,7 @@ std::vector<stand_ins> samples_of(const directions_options& given, const gonio::
                                   std::size_t count) {
   std::vector<stand_ins> drawn;
   if (set == "random") {
-    for (std::size_t r = 0; r < given.repetitions; ++r)
+    for (Eigen::Index r = 0; r < given.repetitions; ++r)
       drawn.push_back({gonio::random_choice(all.size(), count, given.seed + r), std::vector<double>(count, 0.0)});
   } else if (const auto directions = written_points(given.folder, set, count)) {
     drawn.push_back(nearest_measured(all, *directions));
@@ -235,7 +235,7 @@ class experiment {
   /// A row for each number and set that exists; `judge` returns nothing where it does not.
   template <class Judge>
   void each_set(const std::string& name, json& rows, Judge&& judge) {
-    for (const std::size_t count : given_.counts)
+    for (const Eigen::Index count : given_.counts)
       for (const std::string& set : given_.sets) {
         const json key{name, count, set, given_.eta, given_.seed, given_.repetitions};
         if (!results_.find(key)) {

@@ -24,7 +24,7 @@ namespace {
 struct eta_options {
   studied_networks networks;
   std::vector<std::string> sets{"expected-error", "published"};
-  std::vector<std::size_t> counts{5, 10, 20};
+  std::vector<Eigen::Index> counts{5, 10, 20};
   std::vector<double> noises{0.0, 0.02, 0.1, 0.3};
   int repetitions = 5;
   std::uint64_t seed = 0;
@@ -42,15 +42,15 @@ struct mapped_truths {
 mapped_truths map_truths(const gonio::log_relative_pca& prior, const gonio::material_set& materials,
                          gonio::thread_count threads) {
   mapped_truths truths;
-  const auto count = static_cast<Eigen::Index>(3 * materials.names.size());
-  truths.products.resize(static_cast<Eigen::Index>(prior.size()), count);
+  const Eigen::Index count = 3 * materials.names.size();
+  truths.products.resize(prior.size(), count);
   truths.energies.setZero(count);
   for (std::size_t m = 0; m < materials.names.size(); ++m) {
     const gonio::brdf_table& table = truths.tables.emplace_back(materials.table(m));
-    const auto first = static_cast<Eigen::Index>(3 * m);
+    const Eigen::Index first = 3 * m;
     truths.products.middleCols(first, 3) =
         prior.singular_values().array().square().matrix().asDiagonal() * gonio::project(prior, table, threads);
-    for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+    for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
       for (Eigen::Index c = 0; c < 3; ++c)
         truths.energies[first + c] += std::pow(prior.metric().forward(table.at(cell)[c], cell) - prior.offset(cell), 2);
   }
@@ -74,7 +74,7 @@ class reconstruction_error {
   [[nodiscard]] double operator()(std::size_t material, const Eigen::MatrixXd& measured, double eta) const {
     double sum = 0.0;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const Eigen::Index column = static_cast<Eigen::Index>(3 * material) + c;
+      const Eigen::Index column = (3 * material) + c;
       const Eigen::VectorXd g =
           (vectors_.transpose() * measured.col(c)).cwiseQuotient((values_.array() + eta).matrix());
       const double squared = truths_.energies[column] - 2.0 * g.dot(products_.col(column)) + g.dot(norm_ * g);
@@ -112,7 +112,7 @@ json outcome_row(const eta_outcome& choice, double best) {
 
 /// All ways to choose eta for measurements at some cells with some noise.
 json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& truths,
-                   std::span<const std::size_t> cells, double noise, const eta_options& options) {
+                   std::span<const Eigen::Index> cells, double noise, const eta_options& options) {
   const auto equations_of = [&](const gonio::sample_set& samples) {
     return gonio::basis_equations(prior, gonio::locate_samples(prior.cells(), samples)).problem();
   };
@@ -127,7 +127,7 @@ json judge_choices(const gonio::log_relative_pca& prior, const mapped_truths& tr
   const Eigen::VectorXd etas = gonio::detail::geometric(1e-3, 1e5, 97);
   Eigen::VectorXd shared = Eigen::VectorXd::Zero(etas.size());
   eta_outcome each, forty, of_noise, unknown, free;
-  const auto repetitions = static_cast<std::size_t>(noise > 0.0 ? options.repetitions : 1);
+  const std::size_t repetitions = noise > 0.0 ? options.repetitions : 1;
   const std::size_t all = repetitions * truths.tables.size();
   for (std::size_t repetition = 0; repetition < repetitions; ++repetition)
     for (std::size_t m = 0; m < truths.tables.size(); ++m) {
@@ -183,7 +183,7 @@ void compare_etas(const eta_options& options) {
 
   json rows = json::array();
   for (const std::string& set : options.sets)
-    for (const std::size_t count : options.counts) {
+    for (const Eigen::Index count : options.counts) {
       const auto at = gonio::cells_at(prior.cells(), directions_of(set, count));
       for (const double noise : options.noises) {
         gonio::report(listener, "choosing for " + std::to_string(count) + " of " + set, 0.0);

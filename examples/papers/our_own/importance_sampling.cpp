@@ -28,7 +28,7 @@ namespace {
 struct sampling_options {
   studied_networks networks;
   std::vector<std::filesystem::path> environments, tables;
-  std::size_t points = 10'000, draws = 200;
+  Eigen::Index points = 10'000, draws = 200;
   std::uint64_t seed = 1;
   bool print_json = false;
   gonio::thread_count threads;
@@ -88,7 +88,7 @@ double ratio_of_variances(const sampled_material& f, const gonio::render::enviro
   std::mt19937_64 generator(options.seed);
   const auto number = [&] { return gonio::uniform_number(generator); };
   variances sum;
-  for (std::size_t point = 0; point < options.points; ++point) {
+  for (Eigen::Index point = 0; point < options.points; ++point) {
     const double within = number(), turn = 2.0 * std::numbers::pi * number();
     const double squared = (static_cast<double>(point) + within) / static_cast<double>(options.points);
     const double radius = std::sqrt(squared);
@@ -126,7 +126,7 @@ void run_sampling(const sampling_options& options) {
   const auto tables = tables_of(options);
   std::vector<std::vector<double>> ratios(tables.size(), std::vector<double>(lights.size()));
   std::mutex reporting;
-  std::size_t done = 0;
+  Eigen::Index done = 0;
   gonio::for_each_block(
       tables.size(), 1,
       [&](gonio::block range) {

@@ -35,13 +35,13 @@ struct measured_options {
   std::vector<std::size_t> counts{20, 500};
   double eta = 40.0;
   std::uint64_t seed = 1;
-  std::size_t repetitions = 5;
+  Eigen::Index repetitions = 5;
   bool print_json = false;
   gonio::thread_count threads;
 };
 
 /// The lower bound that the prior allows: a fit to a random tenth of the cells.
-constexpr std::size_t many_samples = 100'000;
+constexpr Eigen::Index many_samples = 100'000;
 
 gonio::brdf_table reconstruct(const measured_options& options, const gonio::log_relative_pca& prior,
                               const gonio::brdf_table& truth, std::size_t count, std::uint64_t seed) {
@@ -65,10 +65,10 @@ table_report judge_table(const measured_options& options, const gonio::log_relat
                                                             gonio::render::two_lights(),
                                                             {.size = 128, .supersampling = 2}, options.threads));
   };
-  for (const std::size_t count : options.counts) {
+  for (const Eigen::Index count : options.counts) {
     auto& repetitions = result.errors.emplace_back();
-    const std::size_t times = count >= many_samples ? 1 : options.repetitions;
-    for (std::size_t r = 0; r < times; ++r) {
+    const Eigen::Index times = count >= many_samples ? 1 : options.repetitions;
+    for (Eigen::Index r = 0; r < times; ++r) {
       const auto estimate = reconstruct(options, prior, truth, count, options.seed + r);
       repetitions.push_back({name, gonio::compare(estimate, truth, prior.metric(), appearance, options.threads)});
       if (r == 0) draw(estimate);

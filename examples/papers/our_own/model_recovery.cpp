@@ -19,7 +19,7 @@ namespace papers {
 namespace {
 
 struct recovery_options {
-  std::size_t draws = 100, samples = 600, few = 20, starts = 10;
+  Eigen::Index draws = 100, samples = 600, few = 20, starts = 10;
   double noise = 0.01;
   std::uint64_t seed = 0;
   bool print_json = false;
@@ -116,10 +116,10 @@ json recover(const gonio::model::lobe_kind& kind, const recovery_options& given)
   std::mt19937_64 random(given.seed);
   const auto& lambert = gonio::model::lobe_kind::of<gonio::model::lambert_shape>();
   const gonio::model::model_fit_options fit{.threads = given.threads};
-  std::size_t found = 0, evaluations = 0;
+  Eigen::Index found = 0, evaluations = 0;
   double worst = 0.0;
   std::vector<double> passed_on;
-  for (std::size_t draw = 0; draw < given.draws; ++draw) {
+  for (Eigen::Index draw = 0; draw < given.draws; ++draw) {
     // Draw a model, and recover it from exact values.
     const gonio::model::analytic_brdf truth({draw_lobe(lambert, random), draw_lobe(kind, random)});
     const Eigen::VectorXd exact = unknowns_of(truth);

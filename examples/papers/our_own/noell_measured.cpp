@@ -80,7 +80,7 @@ void judge_table(const measured_options& given, const benchmark_setup& shop, con
                      [&](const std::string& method, const auto& fit) {
                        const gonio::brdf_table estimate = fit.tabulate(truth.cells(), shop.threads);
                        logarithmic_error error;
-                       for (std::size_t cell = 0; cell < truth.cells().size(); ++cell)
+                       for (Eigen::Index cell = 0; cell < truth.cells().size(); ++cell)
                          error.add(estimate.at(cell), truth.at(cell));
                        json result = row(name, method, count, outlier_ratio);
                        result["log_error"] = error.value();

@@ -30,7 +30,7 @@ using gonio::cosine_weighting;
 
 struct cosine_options {
   studied_networks networks;
-  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
   std::vector<std::string> etas{"40", "auto"};
   bool print_json = false;
   gonio::thread_count threads;
@@ -87,7 +87,7 @@ void run(const cosine_options& options) {
   for (const auto& [name, weighting] : weightings) {
     const auto prior = learn_all_components(networks_except(networks, gonio::nielsen_test_materials()), cells,
                                             options.threads, bar.listener(), weighting);
-    for (const std::size_t n : options.counts)
+    for (const Eigen::Index n : options.counts)
       for (const std::string& eta : options.etas) {
         gonio::report(bar.listener(), std::string("weight ") + name + ", " + std::to_string(n), 0.0);
         rows.push_back({{"n", n},
@@ -104,7 +104,7 @@ void run(const cosine_options& options) {
   }
   std::cout << "| n | eta | weight | rms, mapped with the product | rms, mapped with the larger | cosine rms | Delta E "
                "env | Delta E lights | peak |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const std::size_t n : options.counts)
+  for (const Eigen::Index n : options.counts)
     for (const json& row : rows.elements())
       if (row["n"].number() == static_cast<double>(n)) print_row(row);
 }

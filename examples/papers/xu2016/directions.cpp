@@ -39,7 +39,7 @@ struct directions_options {
   std::filesystem::path state, folder;
   std::vector<std::string> sets{"published", "industry",  "random",         "condition",
                                 "a-optimal", "d-optimal", "expected-error", "perceived"};
-  std::vector<std::size_t> counts{1, 2, 5, 10, 20};
+  std::vector<Eigen::Index> counts{1, 2, 5, 10, 20};
   std::vector<std::filesystem::path> files;  ///< of directions, judged beside the sets
   std::string geometry = "point";
   std::string reconstruction_eta = "auto";
@@ -92,7 +92,7 @@ designed point_samples(const std::vector<gonio::half_difference>& directions) {
 /// A set of directions and how many there are: by its name, or in a file.
 struct judged_set {
   std::string name;
-  std::size_t count = 0;
+  Eigen::Index count = 0;
   std::vector<gonio::direction_pair> directions = {};  ///< those of the file
 };
 
@@ -112,7 +112,7 @@ std::vector<judged_set> sets_to_judge(const directions_options& options) {
     const std::size_t count = directions.size();
     all.push_back({file.filename().string(), count, std::move(directions)});
   }
-  for (const std::size_t count : options.counts)
+  for (const Eigen::Index count : options.counts)
     for (const std::string& set : options.sets)
       if (exists(options, set, count)) all.push_back({set, count});
   return all;
@@ -133,7 +133,7 @@ designed find_set(const laboratory& lab, const directions_options& options, cons
   if (set == "industry") return point_samples(gonio::design::westlund_meyer_directions());
   if (set == "random") {
     std::vector<gonio::half_difference> angles;
-    for (const std::size_t cell : gonio::random_cells(lab.truths.cells, count, options.seed))
+    for (const Eigen::Index cell : gonio::random_cells(lab.truths.cells, count, options.seed))
       angles.push_back(lab.truths.cells.angles(cell));
     return point_samples(angles);
   }

@@ -18,8 +18,8 @@ namespace papers::figures {
 
 struct options {
   studied_networks networks;
-  std::size_t most = 0;  ///< measurements; 0: as many as the figure has
-  std::size_t repetitions = 5, random_sets = 20;
+  Eigen::Index most = 0;  ///< measurements; 0: as many as the figure has
+  Eigen::Index repetitions = 5, random_sets = 20;
   double eta = 40.0, step = 10.0;
   std::vector<double> fields_of_view{15.0, 25.0, 35.0, 45.0};
   std::uint64_t seed = 0;
@@ -67,9 +67,9 @@ struct laboratory {
 /// All samples of a plan.
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
-                                                             const std::vector<std::size_t>& candidates) {
+                                                             const std::vector<Eigen::Index>& candidates) {
   std::vector<gonio::half_difference> samples;
-  for (const std::size_t candidate : candidates) {
+  for (const Eigen::Index candidate : candidates) {
     const auto more = geometry.directions(candidate);
     samples.insert(samples.end(), more.begin(), more.end());
   }

@@ -142,9 +142,9 @@ std::vector<gonio::design::capture_plan> plans_by_descent(const Geometry& geomet
 /// Half and difference angles of the images of a plan in degrees, as the paper tabulates them.
 std::vector<std::vector<json>> printed_angles(const std::string& name,
                                               const gonio::design::near_field_geometry& geometry,
-                                              const std::vector<std::size_t>& candidates) {
+                                              const std::vector<Eigen::Index>& candidates) {
   std::vector<std::vector<json>> rows;
-  for (const std::size_t candidate : candidates) {
+  for (const Eigen::Index candidate : candidates) {
     const auto [wi, wo] = geometry.centre(candidate);
     const gonio::half_difference at = gonio::to_half_difference(wi, wo);
     rows.push_back({name, candidates.size(), gonio::degrees(at.theta_h), gonio::degrees(at.theta_d),
@@ -172,12 +172,12 @@ class with_one_in_place {
       : all_(all), fixed_(fixed), polar_angle_(polar_angle) {}
 
   [[nodiscard]] const gonio::design::near_field_geometry& geometry() const noexcept { return all_.geometry(); }
-  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return std::ranges::all_of(candidates, [&](std::size_t c) { return in_place(c); })
                ? all_(candidates)
                : std::numeric_limits<double>::infinity();
   }
-  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
     std::vector<float> errors(geometry().size(), std::numeric_limits<float>::infinity());
     const auto with = all_.beside(candidates);
     for (std::size_t candidate = 0; candidate < errors.size(); ++candidate)
@@ -274,10 +274,10 @@ tables xu_7(const options& given, const gonio::progress& listener) {
   std::ranges::shuffle(order, generator);
   table shown{"Two images at 25 degrees by number of materials learned",
               {{"materials", 0}, {"components", 0}, {"mapped error"}, {"projection: mapped error"}}};
-  const std::size_t largest = given.most > 0 ? std::min(given.most, order.size()) : order.size();
-  const std::size_t step = std::min<std::size_t>(largest, 10);
-  for (std::size_t count = step; count <= largest; count += step) {
-    const std::vector<std::string> names(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count));
+  const Eigen::Index largest = given.most > 0 ? std::min(given.most, std::ssize(order)) : std::ssize(order);
+  const Eigen::Index step = std::min<Eigen::Index>(largest, 10);
+  for (Eigen::Index count = step; count <= largest; count += step) {
+    const std::vector<std::string> names(order.begin(), order.begin() + count);
     const laboratory lab = open_laboratory(given, networks_in(learned, names), listener);
     const images all = read_images(lab, given, figures_field_of_view, listener);
     const auto plans = refined_plans(lab, given, all, 2, listener);

@@ -15,17 +15,17 @@ mapped_errors::mapped_errors(gonio::log_relative_pca prior, const gonio::materia
                              gonio::thread_count threads)
     : prior_(std::move(prior)), names_(truths.names), eta_(eta) {
   const auto columns = 3 * std::ssize(names_);
-  centred_.resize(static_cast<Eigen::Index>(prior_.cells().size()), columns);
-  projected_.resize(static_cast<Eigen::Index>(prior_.size()), columns);
+  centred_.resize(std::ssize(prior_.cells()), columns);
+  projected_.resize(prior_.size(), columns);
   missed_.resize(columns);
   for (std::size_t m = 0; m < names_.size(); ++m) {
     const gonio::brdf_table truth = truths.table(m);
-    const auto first = static_cast<Eigen::Index>(3 * m);
+    const Eigen::Index first = 3 * m;
     projected_.middleCols(first, 3) = gonio::project(prior_, truth, threads);
-    for (std::size_t cell = 0; cell < truth.cells().size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < truth.cells().size(); ++cell) {
       const gonio::rgb value = truth.at(cell);
       for (Eigen::Index channel = 0; channel < 3; ++channel)
-        centred_(static_cast<Eigen::Index>(cell), first + channel) =
+        centred_(cell, first + channel) =
             static_cast<float>(prior_.metric().forward(value[channel], cell) - prior_.offset(cell));
     }
   }
@@ -37,13 +37,13 @@ mapped_errors::mapped_errors(gonio::log_relative_pca prior, const gonio::materia
 
 Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> directions) const {
   const gonio::valid_cells& cells = prior_.cells();
-  gonio::row_matrix rows(std::ssize(directions), static_cast<Eigen::Index>(prior_.size()));
+  gonio::row_matrix rows(std::ssize(directions), prior_.size());
   Eigen::MatrixXd values(std::ssize(directions), centred_.cols());
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const auto& angles = directions[static_cast<std::size_t>(i)];
+    const auto& angles = directions[i];
     const std::size_t cell = cells.representative(cells.grid().linear(cells.grid().nearest(angles)));
-    rows.row(i) = prior_.components().row(static_cast<Eigen::Index>(cell)).cast<double>();
-    values.row(i) = centred_.row(static_cast<Eigen::Index>(cell)).cast<double>();
+    rows.row(i) = prior_.components().row(cell).cast<double>();
+    values.row(i) = centred_.row(cell).cast<double>();
   }
   const gonio::solution found =
       gonio::tikhonov(eta_).solve(gonio::least_squares_problem(std::move(rows), std::move(values)));
@@ -54,12 +54,10 @@ Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> dire
 gonio::sample_set mapped_errors::measured(std::size_t material,
                                           std::span<const gonio::half_difference> directions) const {
   gonio::sample_set samples;
-  for (const std::size_t cell : gonio::cells_at(prior_.cells(), directions)) {
+  for (const Eigen::Index cell : gonio::cells_at(prior_.cells(), directions)) {
     gonio::sample seen{prior_.cells().angles(cell), {}, 1.0};
     for (Eigen::Index channel = 0; channel < 3; ++channel) {
-      const double mapped =
-          double{centred_(static_cast<Eigen::Index>(cell), static_cast<Eigen::Index>(3 * material) + channel)} +
-          prior_.offset(cell);
+      const double mapped = double{centred_(cell, (3 * material) + channel)} + prior_.offset(cell);
       seen.value[channel] = prior_.metric().inverse(mapped, cell);
     }
     samples.push_back(seen);
@@ -72,14 +70,14 @@ Eigen::ArrayX3d mapped_errors::of(const std::vector<gonio::model::analytic_brdf>
   const Eigen::ArrayXd squares = gonio::sum_over_blocks(
       prior_.cells().size(), 1024, Eigen::ArrayXd::Zero(3 * std::ssize(names_)).eval(),
       [&](Eigen::ArrayXd& sum, gonio::block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
           const auto [wi, wo] = gonio::to_directions(prior_.cells().angles(cell));
           for (std::size_t m = 0; m < estimates.size(); ++m) {
             const gonio::rgb value = estimates[m](wi, wo);
             for (Eigen::Index channel = 0; channel < 3; ++channel) {
-              const Eigen::Index column = static_cast<Eigen::Index>(3 * m) + channel;
-              const double off = prior_.metric().forward(value[channel], cell) - prior_.offset(cell) -
-                                 double{centred_(static_cast<Eigen::Index>(cell), column)};
+              const Eigen::Index column = (3 * m) + channel;
+              const double off =
+                  prior_.metric().forward(value[channel], cell) - prior_.offset(cell) - double{centred_(cell, column)};
               sum[column] += off * off;
             }
           }

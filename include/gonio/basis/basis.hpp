@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 
 #include <concepts>
-#include <cstddef>
 #include <numeric>
 #include <span>
 #include <type_traits>
@@ -19,8 +18,8 @@ namespace gonio {
 /// offset + row . weights; the row holds the values of all functions there. Other domains, such as vertex coordinates,
 /// work the same way.
 template <class Basis>
-concept function_set = requires(const Basis& functions, std::size_t cell) {
-  { functions.size() } -> std::convertible_to<std::size_t>;
+concept function_set = requires(const Basis& functions, Eigen::Index cell) {
+  { functions.size() } -> std::convertible_to<Eigen::Index>;
   requires domain<std::remove_cvref_t<decltype(functions.cells())>>;
   { functions.offset(cell) } -> std::convertible_to<double>;
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
@@ -54,10 +53,10 @@ concept function_set = requires(const Basis& functions, std::size_t cell) {
 ///
 /// struct constant_basis {
 ///   gonio::valid_cells over;
-///   std::size_t size() const { return 1; }
+///   Eigen::Index size() const { return 1; }
 ///   const gonio::valid_cells& cells() const { return over; }
-///   std::span<const float> row(std::size_t) const { static constexpr float one = 1; return {&one, 1}; }
-///   double offset(std::size_t) const { return 0; }
+///   std::span<const float> row(Eigen::Index) const { static constexpr float one = 1; return {&one, 1}; }
+///   double offset(Eigen::Index) const { return 0; }
 ///   gonio::lin metric() const { return {}; }
 /// };
 /// static_assert(gonio::tabulated_basis<constant_basis>);
@@ -70,7 +69,7 @@ concept function_set = requires(const Basis& functions, std::size_t cell) {
 /// }
 /// ```
 template <class Basis>
-concept tabulated_basis = function_set<Basis> && requires(const Basis& functions, std::size_t cell) {
+concept tabulated_basis = function_set<Basis> && requires(const Basis& functions, Eigen::Index cell) {
   { functions.row(cell) } -> std::convertible_to<std::span<const float>>;
 };
 
@@ -94,7 +93,7 @@ using function_row = Eigen::Ref<Eigen::RowVectorXd>;
 /// int main() {
 ///   const gonio::rbf functions{gonio::valid_cells(), gonio::log{}};
 ///   const gonio::location here = gonio::locate(functions.cells(), {0.1, 0.2, 0.3});
-///   std::printf("the first of %zu is %g\n", std::size_t{functions.size()}, gonio::row_at(functions, here)[0]);
+///   std::printf("the first of %td is %g\n", functions.size(), gonio::row_at(functions, here)[0]);
 /// }
 /// ```
 /// With a model of your own, a polynomial in theta_d:
@@ -106,10 +105,10 @@ using function_row = Eigen::Ref<Eigen::RowVectorXd>;
 ///
 /// struct theta_d_polynomial {
 ///   gonio::valid_cells over;
-///   std::size_t size() const { return 2; }
+///   Eigen::Index size() const { return 2; }
 ///   const gonio::valid_cells& cells() const { return over; }
 ///   void read_row(const gonio::location& at, gonio::function_row out) const { out << 1, at.angles.theta_d; }
-///   double offset(std::size_t) const { return 0; }
+///   double offset(Eigen::Index) const { return 0; }
 ///   gonio::lin metric() const { return {}; }
 /// };
 /// static_assert(gonio::computed_basis<theta_d_polynomial>);
@@ -131,8 +130,8 @@ concept basis = tabulated_basis<Basis> || computed_basis<Basis>;
 
 /// Three bases over the same cells with the same number of functions and the same metric, one for each colour channel.
 template <class Basis>
-concept channelwise_basis = requires(const Basis& functions, std::size_t channel) {
-  { functions.size() } -> std::convertible_to<std::size_t>;
+concept channelwise_basis = requires(const Basis& functions, Eigen::Index channel) {
+  { functions.size() } -> std::convertible_to<Eigen::Index>;
   { functions.cells() } -> std::convertible_to<const valid_cells&>;
   { functions.channel(channel) } -> basis;
   requires error_metric<std::remove_cvref_t<decltype(functions.metric())>>;
@@ -148,7 +147,7 @@ using domain_of = std::remove_cvref_t<decltype(std::declval<const Basis&>().cell
 
 /// The basis of one colour channel.
 template <colour_basis Basis>
-[[nodiscard]] auto channel_of(const Basis& functions, std::size_t channel) {
+[[nodiscard]] auto channel_of(const Basis& functions, Eigen::Index channel) {
   if constexpr (basis<Basis>)
     return functions;
   else
@@ -163,7 +162,7 @@ template <colour_basis Basis>
   if constexpr (requires { functions.columns(); }) {
     columns.assign(functions.columns().begin(), functions.columns().end());
   } else {
-    columns.resize(static_cast<std::size_t>(functions.size()));
+    columns.resize(functions.size());
     std::iota(columns.begin(), columns.end(), Eigen::Index{0});
   }
   return columns;
@@ -181,9 +180,9 @@ namespace detail {
 /// Adds a weight times the values of a row to `out`, or writes it there if it is the first.
 inline void blend_row(double weight, std::span<const float> values, bool first, double* out) {
   if (first)
-    for (std::size_t i = 0; i < values.size(); ++i) out[i] = weight * double{values[i]};
+    for (Eigen::Index i = 0; i < std::ssize(values); ++i) out[i] = weight * double{values[i]};
   else
-    for (std::size_t i = 0; i < values.size(); ++i) out[i] += weight * double{values[i]};
+    for (Eigen::Index i = 0; i < std::ssize(values); ++i) out[i] += weight * double{values[i]};
 }
 
 }  // namespace detail
@@ -196,8 +195,7 @@ void read_row_at(const Basis& functions, const location& at, Row&& out) {
     functions.read_row(at, out);
   } else {
     for (int corner = 0; corner < at.count; ++corner) {
-      const auto slot = static_cast<std::size_t>(corner);
-      detail::blend_row(at.weight[slot], functions.row(at.cell[slot]), corner == 0, out.data());
+      detail::blend_row(at.weight[corner], functions.row(at.cell[corner]), corner == 0, out.data());
     }
   }
 }
@@ -205,7 +203,7 @@ void read_row_at(const Basis& functions, const location& at, Row&& out) {
 /// The values of all functions at a location: size() numbers. See `read_row_at`.
 template <basis Basis>
 [[nodiscard]] Eigen::RowVectorXd row_at(const Basis& functions, const location& at) {
-  Eigen::RowVectorXd row(static_cast<Eigen::Index>(functions.size()));
+  Eigen::RowVectorXd row(functions.size());
   read_row_at(functions, at, row);
   return row;
 }
@@ -214,7 +212,7 @@ template <basis Basis>
 template <basis Basis>
 [[nodiscard]] double offset_at(const Basis& functions, const location& at) {
   return interpolate(
-      at, [&](std::size_t cell) { return functions.offset(cell); }, 0.0);
+      at, [&](Eigen::Index cell) { return functions.offset(cell); }, 0.0);
 }
 
 }  // namespace gonio

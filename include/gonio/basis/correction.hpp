@@ -66,7 +66,7 @@ namespace detail {
 
 /// Turns an array of mapped values into reflectances, at least zero. A metric that is chosen at run time has `held()`.
 template <error_metric Metric, class Values>
-void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t first, Values&& values) {
+void unmap_at_cells(const Metric& metric, const valid_cells& cells, Eigen::Index first, Values&& values) {
   if constexpr (requires { metric.unmap_all(values); }) {
     metric.unmap_all(values);
     values = values.max(0.0f);
@@ -74,7 +74,7 @@ void unmap_at_cells(const Metric& metric, const valid_cells& cells, std::size_t 
     std::visit([&](const auto& one) { unmap_at_cells(one, cells, first, values); }, metric.held());
   } else {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
-      const location at = locate_cell(cells, first + static_cast<std::size_t>(i));
+      const location at = locate_cell(cells, first + i);
       for (Eigen::Index j = 0; j < values.cols(); ++j)
         values(i, j) = static_cast<float>(std::max(metric.inverse(values(i, j), at), 0.0));
     }
@@ -88,10 +88,10 @@ class leave_one_out_approximations {
   /// Throws gonio::error if fewer than two materials take part.
   leave_one_out_approximations(measured<Metric> materials, const Solver& solver, thread_count threads)
       : materials_(at_least_two(std::move(materials))), solver_(solver), threads_(threads) {
-    const auto count = static_cast<Eigen::Index>(materials_.size());
+    const Eigen::Index count = materials_.size();
     std::vector<Eigen::Index> all(materials_.size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
       weights_[c] = Eigen::MatrixXf::Zero(count, count);
       approximate(c, all);
     }
@@ -104,7 +104,7 @@ class leave_one_out_approximations {
   [[nodiscard]] leave_one_out_approximations without(const std::vector<std::string>& excluded) const {
     leave_one_out_approximations fewer(*this);
     fewer.materials_ = at_least_two(materials_.without(excluded));
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
       fewer.renewed_[c].clear();
       for (const Eigen::Index i : fewer.materials_.columns())
         if (std::ranges::any_of(materials_.columns(), [&](Eigen::Index other) {
@@ -118,9 +118,9 @@ class leave_one_out_approximations {
 
   /// Writes the factors of the approximations that were made last into their columns of cells x 3 `functions`.
   void write_factors(const correction_factor& factor, cell_matrix& tables, Eigen::Index functions) const {
-    for (std::size_t c = 0; c < 3; ++c) {
-      auto channel = tables.middleCols(static_cast<Eigen::Index>(c) * functions, functions);
-      if (renewed_[c].size() == materials_.size())  // no need to look columns up one by one
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      auto channel = tables.middleCols(c * functions, functions);
+      if (std::ssize(renewed_[c]) == materials_.size())  // no need to look columns up one by one
         write_columns(c, Eigen::seqN(Eigen::Index{0}, weights_[c].cols()), factor, channel);
       else
         write_columns(c, renewed_[c], factor, channel);
@@ -137,14 +137,14 @@ class leave_one_out_approximations {
   }
 
   template <class Columns, class Channel>
-  void write_columns(std::size_t c, const Columns& columns, const correction_factor& factor, Channel& out) const {
+  void write_columns(Eigen::Index c, const Columns& columns, const correction_factor& factor, Channel& out) const {
     using values = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const auto channel = materials_.channel(c);
     const Eigen::MatrixXf transposed = weights_[c](Eigen::all, columns).transpose();
     for_each_block(
         materials_.cells().size(), 128,
         [&](block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
+          const Eigen::Index begin = range.begin, rows = range.size();
           const auto mapped = channel.values().middleRows(begin, rows);
           values approximation = values::Zero(rows, transposed.rows()), truth = mapped(Eigen::all, columns);
           add_product(transposed, mapped.transpose(), approximation.matrix().transpose());
@@ -156,7 +156,7 @@ class leave_one_out_approximations {
         threads_);
   }
 
-  void approximate(std::size_t channel, const std::vector<Eigen::Index>& targets) {
+  void approximate(Eigen::Index channel, const std::vector<Eigen::Index>& targets) {
     const Eigen::MatrixXd& products = materials_.channel(channel).products(threads_);
     for_each_block(
         targets.size(), 1,
@@ -225,12 +225,12 @@ class correction : public material_functions<lin> {
   [[nodiscard]] static cell_matrix tables(const Approximations& approximations, const correction_rule& rule,
                                           const correction* known) {
     const auto& materials = approximations.materials();
-    const auto functions = static_cast<Eigen::Index>(materials.size()) + (rule.has_constant ? 1 : 0);
-    cell_matrix tables(static_cast<Eigen::Index>(materials.cells().size()), 3 * functions);
+    const Eigen::Index functions = materials.size() + (rule.has_constant ? 1 : 0);
+    cell_matrix tables(materials.cells().size(), 3 * functions);
     for_each_block(
         materials.cells().size(), 1024,
         [&](block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
+          const Eigen::Index begin = range.begin, rows = range.size();
           if (known)
             tables.middleRows(begin, rows) = known->mapped().middleRows(begin, rows);
           else

@@ -5,6 +5,8 @@
 #include <gonio/solve/product.hpp>
 #include <gonio/table/material_set.hpp>
 
+#include <Eigen/Core>
+
 namespace gonio {
 
 /// Every material that principal components were learned from, over the components' own cells, as far as they are kept:
@@ -14,17 +16,17 @@ template <error_metric Metric>
 [[nodiscard]] material_set expand(const pca<Metric>& prior, thread_count threads = {}) {
   material_set materials{prior.cells(), prior.names(), {}};
   const Eigen::Index columns = prior.coefficients().rows();
-  materials.values.resize(static_cast<Eigen::Index>(prior.cells().size()), columns);
+  materials.values.resize(prior.cells().size(), columns);
   const Eigen::MatrixXd coefficients = prior.coefficients().transpose().template cast<double>();
   for_each_block(
       prior.cells().size(), 1024,
       [&](block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const Eigen::Index begin = range.begin, count = range.size();
         auto rows = materials.values.middleRows(begin, count);
         const Eigen::MatrixXd mapped =
             product(prior.components().middleRows(begin, count).template cast<double>(), coefficients);
         for (Eigen::Index i = 0; i < count; ++i) {
-          const auto cell = static_cast<std::size_t>(begin + i);
+          const Eigen::Index cell = begin + i;
           const location at = locate_cell(prior.cells(), cell);
           for (Eigen::Index j = 0; j < columns; ++j)
             rows(i, j) =

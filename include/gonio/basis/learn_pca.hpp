@@ -22,10 +22,10 @@ template <observation_set Set, error_metric Metric>
   std::vector<float> mean(materials.cells.size());
   for_each_index(
       mean.size(), 1024,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         const location at = locate_cell(materials.cells, cell);
         map_cell(materials, cell, [&](double rho) { return metric.forward(rho, at); });
-        auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+        auto row = materials.values.row(cell);
         mean[cell] = static_cast<float>(row.template cast<double>().mean());
         row.array() -= mean[cell];
       },
@@ -44,7 +44,7 @@ struct component_set {
 /// Of rows whose means were taken away: at most `count` components, fewer where the rest is rounding, largest first,
 /// each with the largest entry of its U positive, so that the result does not depend on the eigensolver's sign. Throws
 /// gonio::error if there is none.
-[[nodiscard]] component_set principal_components(const cell_matrix& centred, std::size_t count, thread_count threads,
+[[nodiscard]] component_set principal_components(const cell_matrix& centred, Eigen::Index count, thread_count threads,
                                                  const progress& listener);
 
 }  // namespace detail
@@ -61,9 +61,9 @@ struct component_set {
 /// const auto prior = gonio::learn_pca(std::move(materials), metric, 60);
 /// ```
 template <observation_set Set, error_metric Metric>
-[[nodiscard]] pca<Metric, domain_of_set<Set>> learn_pca(Set materials, const Metric& metric, std::size_t components,
+[[nodiscard]] pca<Metric, domain_of_set<Set>> learn_pca(Set materials, const Metric& metric, Eigen::Index components,
                                                         thread_count threads = {}, const progress& listener = {}) {
-  if (components == 0) refuse("at least one principal component must be kept");
+  if (components < 1) refuse("at least one principal component must be kept");
   require_complete(materials);
   report(listener, "mapping", 0.0);
   std::vector<float> mean = detail::map_and_centre(materials, metric, threads);
@@ -78,11 +78,11 @@ template <observation_set Set, error_metric Metric>
 /// domain, or copied where the cells' nodes coincide. The metric must be able to move: `metric.on(cells)`.
 template <error_metric Metric>
 [[nodiscard]] pca<Metric> thin(const pca<Metric>& basis, const valid_cells& cells) {
-  cell_matrix components(static_cast<Eigen::Index>(cells.size()), static_cast<Eigen::Index>(basis.size()));
+  cell_matrix components(cells.size(), basis.size());
   std::vector<float> mean(cells.size());
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const location at = locate(basis.cells(), cells.angles(cell));
-    components.row(static_cast<Eigen::Index>(cell)) = row_at(basis, at).template cast<float>();
+    components.row(cell) = row_at(basis, at).template cast<float>();
     mean[cell] = static_cast<float>(offset_at(basis, at));
   }
   return pca<Metric>({cells, basis.metric().on(cells), basis.names(), basis.singular_values(), std::move(components),

@@ -6,6 +6,8 @@
 #include <gonio/solve/gram.hpp>
 #include <gonio/table/material_set.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -44,13 +46,13 @@ class material_channel {
         gram_(std::move(gram)) {}
 
   /// Number of functions, those of materials left out included.
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(count_); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return count_; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
-  [[nodiscard]] std::span<const float> row(std::size_t cell) const noexcept {
-    return {mapped_->data() + static_cast<Eigen::Index>(cell) * mapped_->cols() + first_, size()};
+  [[nodiscard]] std::span<const float> row(Eigen::Index cell) const noexcept {
+    return std::span(mapped_->data() + cell * mapped_->cols() + first_, size());
   }
-  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+  [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
   /// The functions that take part in a fit, ascending.
   [[nodiscard]] std::span<const Eigen::Index> columns() const noexcept { return *columns_; }
 
@@ -87,8 +89,8 @@ class material_functions {
         cells_(std::move(cells)),
         metric_(std::move(metric)),
         mapped_(std::make_shared<const cell_matrix>(std::move(mapped))) {
-    if (mapped_->cols() % 3 != 0 || mapped_->cols() < static_cast<Eigen::Index>(3 * names_->size()) ||
-        mapped_->cols() == 0 || mapped_->rows() != static_cast<Eigen::Index>(cells_.size()))
+    if (mapped_->cols() % 3 != 0 || mapped_->cols() < 3 * std::ssize(*names_) || mapped_->cols() == 0 ||
+        mapped_->rows() != cells_.size())
       refuse({"functions of ", names_->size(), " materials over ", cells_.size(), " cells do not match in size"});
     std::vector<Eigen::Index> all(size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
@@ -97,7 +99,7 @@ class material_functions {
   }
 
   /// Number of functions, those of materials left out included.
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(mapped_->cols() / 3); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return mapped_->cols() / 3; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return *names_; }
@@ -107,14 +109,14 @@ class material_functions {
   /// The names of the materials that take no part.
   [[nodiscard]] std::vector<std::string> left_out() const {
     std::vector<std::string> found;
-    for (std::size_t i = 0; i < names_->size(); ++i)
-      if (!std::ranges::binary_search(*columns_, static_cast<Eigen::Index>(i))) found.push_back((*names_)[i]);
+    for (Eigen::Index i = 0; i < std::ssize(*names_); ++i)
+      if (!std::ranges::binary_search(*columns_, i)) found.push_back((*names_)[i]);
     return found;
   }
 
-  [[nodiscard]] material_channel<Metric> channel(std::size_t index) const {
-    const auto count = static_cast<Eigen::Index>(size());
-    return {mapped_, static_cast<Eigen::Index>(index) * count, count, cells_, metric_, columns_, grams_[index]};
+  [[nodiscard]] material_channel<Metric> channel(Eigen::Index index) const {
+    const Eigen::Index count = size();
+    return {mapped_, index * count, count, cells_, metric_, columns_, grams_[index]};
   }
 
  protected:
@@ -127,13 +129,12 @@ class material_functions {
     for (const std::string& name : excluded)
       if (std::ranges::find(*names_, name) == names_->end())
         refuse({"there is no material named '", name, "' to leave out"});
-    const auto is_out = [&](Eigen::Index column) {
-      const auto i = static_cast<std::size_t>(column);
-      return i < names_->size() && std::ranges::find(excluded, (*names_)[i]) != excluded.end();
+    const auto is_out = [&](Eigen::Index i) {
+      return i < std::ssize(*names_) && std::ranges::find(excluded, (*names_)[i]) != excluded.end();
     };
     std::vector<Eigen::Index> kept;
     std::ranges::copy_if(*columns_, std::back_inserter(kept), [&](Eigen::Index column) { return !is_out(column); });
-    if (kept.empty() || static_cast<std::size_t>(kept.front()) >= names_->size())
+    if (kept.empty() || kept.front() >= std::ssize(*names_))
       refuse({"all ", columns_->size() - kept.size(), " materials are left out"});
     columns_ = std::make_shared<const std::vector<Eigen::Index>>(std::move(kept));
   }

@@ -5,6 +5,8 @@
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/metric/log.hpp>
 
+#include <Eigen/Core>
+
 namespace gonio {
 
 namespace detail {
@@ -18,10 +20,10 @@ template <error_metric Metric>
       materials.cells.size(), 1024,
       [&](block range) {
         Eigen::RowVectorXf sorted(3 * count);
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
           const location at = locate_cell(materials.cells, cell);
           map_cell(materials, cell, [&](double rho) { return metric.forward(rho, at); });
-          auto row = materials.values.row(static_cast<Eigen::Index>(cell));
+          auto row = materials.values.row(cell);
           for (Eigen::Index i = 0; i < count; ++i)
             for (Eigen::Index c = 0; c < 3; ++c) sorted[c * count + i] = row[3 * i + c];
           row = sorted;

@@ -42,26 +42,26 @@ class pca {
 
   /// Throws gonio::error if the sizes of the parts do not match.
   explicit pca(parts_type parts) : parts_(std::make_shared<const parts_type>(std::move(parts))) {
-    const auto cells = static_cast<Eigen::Index>(parts_->cells.size());
+    const Eigen::Index cells = parts_->cells.size();
     const Eigen::Index k = parts_->components.cols();
-    if (k == 0 || parts_->components.rows() != cells || parts_->mean.size() != parts_->cells.size() ||
+    if (k == 0 || parts_->components.rows() != cells || std::ssize(parts_->mean) != cells ||
         parts_->singular_values.size() != k || parts_->coefficients.cols() != k ||
-        parts_->coefficients.rows() != channels * static_cast<Eigen::Index>(parts_->names.size()))
+        parts_->coefficients.rows() != channels * std::ssize(parts_->names))
       refuse({"the parts of a principal component basis of ", k, " components over ", cells, " cells and ",
               parts_->names.size(), " materials do not match in size"});
   }
 
   /// Number of components k.
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(parts_->components.cols()); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return parts_->components.cols(); }
   [[nodiscard]] const Places& cells() const noexcept { return parts_->cells; }
   [[nodiscard]] const Metric& metric() const noexcept { return parts_->metric; }
 
   /// The k scaled components at a cell.
-  [[nodiscard]] std::span<const float> row(std::size_t cell) const noexcept {
-    return {parts_->components.data() + cell * size(), size()};
+  [[nodiscard]] std::span<const float> row(Eigen::Index cell) const noexcept {
+    return std::span(parts_->components.data() + cell * size(), size());
   }
   /// The mean mu at a cell.
-  [[nodiscard]] double offset(std::size_t cell) const noexcept { return parts_->mean[cell]; }
+  [[nodiscard]] double offset(Eigen::Index cell) const noexcept { return parts_->mean[cell]; }
 
   /// Q = V Sigma, cells x k.
   [[nodiscard]] const cell_matrix& components() const noexcept { return parts_->components; }
@@ -73,12 +73,11 @@ class pca {
   [[nodiscard]] const std::string& source() const noexcept { return parts_->source; }
 
   /// The first k components alone. Throws gonio::error unless k is from 1 to size().
-  [[nodiscard]] pca truncated(std::size_t k) const {
-    if (k == 0 || k > size()) refuse({"cannot keep ", k, " of ", size(), " components"});
-    const auto kept = static_cast<Eigen::Index>(k);
-    const double share = parts_->singular_values.head(kept).squaredNorm() / parts_->singular_values.squaredNorm();
-    return pca({parts_->cells, parts_->metric, parts_->names, parts_->singular_values.head(kept),
-                parts_->components.leftCols(kept), parts_->mean, parts_->coefficients.leftCols(kept),
+  [[nodiscard]] pca truncated(Eigen::Index k) const {
+    if (k < 1 || k > size()) refuse({"cannot keep ", k, " of ", size(), " components"});
+    const double share = parts_->singular_values.head(k).squaredNorm() / parts_->singular_values.squaredNorm();
+    return pca({parts_->cells, parts_->metric, parts_->names, parts_->singular_values.head(k),
+                parts_->components.leftCols(k), parts_->mean, parts_->coefficients.leftCols(k),
                 parts_->explained_variance * share, parts_->source});
   }
 
@@ -90,10 +89,8 @@ class pca {
   }
 
   /// Weights, k x 3 (or as many as there are channels), that expand to one of the materials the basis was learned from.
-  [[nodiscard]] Eigen::MatrixXd weights_of(std::size_t material) const {
-    return parts_->coefficients.middleRows(channels * static_cast<Eigen::Index>(material), channels)
-        .transpose()
-        .template cast<double>();
+  [[nodiscard]] Eigen::MatrixXd weights_of(Eigen::Index material) const {
+    return parts_->coefficients.middleRows(channels * material, channels).transpose().template cast<double>();
   }
 
  private:

@@ -4,6 +4,8 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#include <Eigen/Core>
+
 namespace gonio {
 
 /// Weights, k x 3, of the projection of a table on the components: c = Sigma^-2 Q'(x - mu), because
@@ -13,15 +15,15 @@ namespace gonio {
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd project(const pca<Metric>& basis, const brdf_table& table, thread_count threads = {}) {
   if (!(table.cells() == basis.cells())) refuse("only a table over the basis' own cells can be projected on it");
-  const auto k = static_cast<Eigen::Index>(basis.size());
+  const Eigen::Index k = basis.size();
   const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(k, 3);
   Eigen::MatrixXd products = sum_over_blocks(
       table.cells().size(), 1024, zero,
       [&](Eigen::MatrixXd& sum, block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const Eigen::Index begin = range.begin, count = range.size();
         Eigen::MatrixXd mapped(count, 3);
         for (Eigen::Index i = 0; i < count; ++i) {
-          const auto cell = static_cast<std::size_t>(begin + i);
+          const Eigen::Index cell = begin + i;
           const location at = locate_cell(table.cells(), cell);
           const rgb value = table.at(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel)

@@ -88,13 +88,13 @@ struct linear_kernel {
 static_assert(radial_kernel<linear_kernel>);
 
 /// Centres of Noell et al. 2014, for each colour channel.
-inline constexpr std::size_t published_centre_count = 758;
+inline constexpr Eigen::Index published_centre_count = 758;
 
 /// `count` cells such that each is the farthest, in radial coordinates, from those before it; the first is random. At
 /// most 60,000 cells, chosen at random, are candidates. O(cells + candidates x count). Throws gonio::error unless there
 /// are as many different locations.
 [[nodiscard]] std::vector<half_difference> farthest_point_centres(const valid_cells& cells,
-                                                                  std::size_t count = published_centre_count,
+                                                                  Eigen::Index count = published_centre_count,
                                                                   std::uint64_t seed = 0);
 
 /// Radial basis functions in the domain of a metric: one around each centre, and four that are affine in the radial
@@ -119,11 +119,11 @@ class rbf {
   rbf(valid_cells cells, Metric metric, const std::vector<half_difference>& centres, Kernel kernel = Kernel())
       : cells_(std::move(cells)), metric_(std::move(metric)), kernel_(std::move(kernel)) {
     if (centres.empty()) refuse("radial basis functions need at least one centre");
-    coordinate_rows places(3, static_cast<Eigen::Index>(centres.size()));
-    for (std::size_t i = 0; i < centres.size(); ++i) {
+    coordinate_rows places(3, std::ssize(centres));
+    for (Eigen::Index i = 0; i < std::ssize(centres); ++i) {
       const Eigen::Vector3d place = radial_coordinates(centres[i]);
       if (!place.allFinite()) refuse({"centre ", i + 1, " of radial basis functions is not finite"});
-      places.col(static_cast<Eigen::Index>(i)) = place.array();
+      places.col(i) = place.array();
     }
     centres_ = std::make_shared<const coordinate_rows>(std::move(places));
   }
@@ -134,11 +134,11 @@ class rbf {
       : rbf(cells, std::move(metric), farthest_point_centres(cells), std::move(kernel)) {}
 
   /// Number of centres, and four more.
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(centres_->cols()) + 4; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return centres_->cols() + 4; }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
   [[nodiscard]] const Kernel& kernel() const noexcept { return kernel_; }
-  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+  [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
 
   /// The kernel of the distance to each centre, then 1 and the three coordinates.
   void read_row(const location& at, function_row out) const noexcept {

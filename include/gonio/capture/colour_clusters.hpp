@@ -9,7 +9,8 @@
 #include <gonio/capture/k_means.hpp>
 #include <gonio/core/parallel.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <vector>
 
@@ -17,18 +18,18 @@ namespace gonio::capture {
 
 /// The pixels of an image by material.
 struct colour_clusters {
-  Eigen::VectorXi labels;          ///< for each pixel the number of its cluster, 0 the largest
-  point_matrix centres;            ///< mean linear colour of each cluster, k x 3
-  std::vector<std::size_t> sizes;  ///< how many pixels each cluster has
+  Eigen::VectorXi labels;           ///< for each pixel the number of its cluster, 0 the largest
+  point_matrix centres;             ///< mean linear colour of each cluster, k x 3
+  std::vector<Eigen::Index> sizes;  ///< how many pixels each cluster has
   /// How well the clusters stand apart, see `mean_silhouette`, by 2,000 of the pixels; 0 of one cluster.
   double silhouette = 0.0;
   /// The same of 1, 2, ... clusters before they were refined on all pixels, where their number was chosen.
   std::vector<double> silhouettes;
 
-  [[nodiscard]] std::size_t count() const noexcept { return sizes.size(); }
+  [[nodiscard]] Eigen::Index count() const noexcept { return sizes.size(); }
 
   /// The pixels of a cluster, in their order.
-  [[nodiscard]] std::vector<std::size_t> pixels(std::size_t cluster) const;
+  [[nodiscard]] std::vector<Eigen::Index> pixels(Eigen::Index cluster) const;
 };
 
 /// How the number of clusters is chosen: the one of 2 to `most` whose silhouette is largest, if that is
@@ -55,7 +56,7 @@ struct cluster_count_choice {
 ///
 /// ```cpp
 /// const auto materials = gonio::capture::cluster_colours(second_image, 3, seed);
-/// for (std::size_t m = 0; m < materials.count(); ++m) estimate_from(materials.pixels(m));
+/// for (Eigen::Index m = 0; m < materials.count(); ++m) estimate_from(materials.pixels(m));
 /// ```
 [[nodiscard]] colour_clusters cluster_colours(const point_matrix_view& colours, Eigen::Index k, std::uint64_t seed,
                                               thread_count threads = {});

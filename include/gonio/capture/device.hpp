@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <stdexcept>
@@ -51,15 +50,15 @@ struct placement {
 /// all others are off; `switch_off()` may be called at any time, also twice.
 /// ```cpp
 /// struct torch {
-///   std::size_t lamps() const { return 1; }
-///   void switch_on(std::size_t) {}
+///   Eigen::Index lamps() const { return 1; }
+///   void switch_on(Eigen::Index) {}
 ///   void switch_off() {}
 /// };
 /// static_assert(gonio::capture::light_source<torch>);
 /// ```
 template <class L>
-concept light_source = requires(L& lights, const L& same, std::size_t lamp) {
-  { same.lamps() } -> std::convertible_to<std::size_t>;
+concept light_source = requires(L& lights, const L& same, Eigen::Index lamp) {
+  { same.lamps() } -> std::convertible_to<Eigen::Index>;
   lights.switch_on(lamp);
   lights.switch_off();
 };
@@ -165,8 +164,8 @@ template <camera Camera>
   };
   for (const double time : times) expose(time);
   const auto [least, most] = std::ranges::minmax_element(taken.times);
-  const auto darkest = static_cast<std::size_t>(least - taken.times.begin());
-  const auto brightest = static_cast<std::size_t>(most - taken.times.begin());
+  const Eigen::Index darkest = least - taken.times.begin();
+  const Eigen::Index brightest = most - taken.times.begin();
   // A frame without pixels is for whoever checks the reading.
   const auto is_bright = [&](const camera_frame& each) {
     return each.rows() > 0 && each.maxCoeff() >= largest - largest / 8;

@@ -5,6 +5,8 @@
 #include <gonio/capture/camera_response.hpp>
 #include <gonio/capture/device.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

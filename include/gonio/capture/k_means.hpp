@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -21,10 +20,10 @@ using point_matrix_view = Eigen::Ref<const point_matrix>;
 /// Points in k clusters, none of which is empty, the largest first; of as large ones that whose centre comes first in
 /// the order of its coordinates.
 struct point_clusters {
-  Eigen::VectorXi labels;          ///< n numbers from 0 to k - 1: that of the nearest centre
-  point_matrix centres;            ///< k x d, the means of the clusters
-  std::vector<std::size_t> sizes;  ///< how many points each cluster has
-  double inertia = 0.0;            ///< sum of the squared distances of the points to their centres
+  Eigen::VectorXi labels;           ///< n numbers from 0 to k - 1: that of the nearest centre
+  point_matrix centres;             ///< k x d, the means of the clusters
+  std::vector<Eigen::Index> sizes;  ///< how many points each cluster has
+  double inertia = 0.0;             ///< sum of the squared distances of the points to their centres
 };
 
 namespace detail {

@@ -77,7 +77,7 @@ void require_size(const image& picture, const camera_intrinsics& intrinsics);
 
 /// The numbers, row by row, of the pixels that see the region of interest. Throws gonio::error as `require_usable`
 /// does.
-[[nodiscard]] std::vector<std::size_t> pixels_of_region(const near_field_setup& setup);
+[[nodiscard]] std::vector<Eigen::Index> pixels_of_region(const near_field_setup& setup);
 
 /// One sample for each block of pixels that see the region of interest, row by row from the image's (or the
 /// window's) top left corner. Value and viewing direction are the means of those pixels, the weight is their share of

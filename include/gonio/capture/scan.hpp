@@ -8,6 +8,8 @@
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/progress.hpp>
 
+#include <Eigen/Core>
+
 #include <concepts>
 #include <optional>
 #include <span>
@@ -19,7 +21,7 @@ namespace gonio::capture {
 
 /// A pose that a scan goes without, counted from 0, and why.
 struct missing_pose {
-  std::size_t number = 0;
+  Eigen::Index number = 0;
   std::string reason;
 };
 
@@ -45,7 +47,7 @@ template <goniometer Machine>
 [[nodiscard]] scan_plan plan_scan(const Machine& machine, std::span<const direction_pair> pairs) {
   scan_plan plan;
   std::vector<direction_pair> reachable;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(pairs); ++i) {
     const placement found = place_either_way(machine, pairs[i]);
     if (found.is_reachable())
       reachable.push_back(found.at);
@@ -53,9 +55,10 @@ template <goniometer Machine>
       plan.unreachable.push_back({i, found.obstacle});
   }
   const auto order = short_way(
-      reachable.size(), [&](std::size_t i, std::size_t j) { return machine.travel(reachable[i], reachable[j]); });
-  for (const std::size_t i : order) plan.poses.push_back(reachable[i]);
-  for (std::size_t i = 1; i < plan.poses.size(); ++i) plan.length += machine.travel(plan.poses[i - 1], plan.poses[i]);
+      reachable.size(), [&](Eigen::Index i, Eigen::Index j) { return machine.travel(reachable[i], reachable[j]); });
+  for (const Eigen::Index i : order) plan.poses.push_back(reachable[i]);
+  for (Eigen::Index i = 1; i < std::ssize(plan.poses); ++i)
+    plan.length += machine.travel(plan.poses[i - 1], plan.poses[i]);
   return plan;
 }
 
@@ -95,7 +98,7 @@ template <goniometer Machine>
 /// }
 /// ```
 template <class J>
-concept scan_record = requires(J& record, const J& same, std::size_t pose, const reading& taken) {
+concept scan_record = requires(J& record, const J& same, Eigen::Index pose, const reading& taken) {
   { same.has(pose) } -> std::convertible_to<bool>;
   record.add(pose, taken);
 };
@@ -107,7 +110,7 @@ struct scan_options {
 
 /// What a scan did.
 struct scan_outcome {
-  std::size_t measured = 0, kept_before = 0;
+  Eigen::Index measured = 0, kept_before = 0;
   std::vector<missing_pose> missing;  ///< to be tried by the next scan of the same record
   bool is_broken_off = false;         ///< too many failures in a row: not all poses were tried
 
@@ -145,7 +148,7 @@ scan_outcome scan(Machine& machine, std::span<const direction_pair> poses, Recor
   GONIO_ASSERT(options.attempts > 0 && options.failures_in_a_row > 0);
   scan_outcome outcome;
   int failures = 0;
-  for (std::size_t number = 0; number < poses.size(); ++number) {
+  for (Eigen::Index number = 0; number < std::ssize(poses); ++number) {
     report(listener, "scanning", static_cast<double>(number) / static_cast<double>(poses.size()));
     if (record.has(number)) {
       ++outcome.kept_before;

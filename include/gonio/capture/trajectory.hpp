@@ -73,25 +73,24 @@ struct angular_grid {
 /// `between(i, j)` is the way between two places, the same both ways. The way starts at the first place and does not
 /// return. O(count^2) for each improvement's sweep; the result depends on nothing but the input.
 template <class Between>
-[[nodiscard]] std::vector<std::size_t> short_way(std::size_t count, const Between& between) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto step = [&](std::size_t i, std::size_t j) { return between(order[i], order[j]); };
-  for (std::size_t i = 1; i < count; ++i) {
-    std::size_t nearest = i;
-    for (std::size_t j = i + 1; j < count; ++j)
+[[nodiscard]] std::vector<Eigen::Index> short_way(Eigen::Index count, const Between& between) {
+  std::vector<Eigen::Index> order(count);
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  const auto step = [&](Eigen::Index i, Eigen::Index j) { return between(order[i], order[j]); };
+  for (Eigen::Index i = 1; i < count; ++i) {
+    Eigen::Index nearest = i;
+    for (Eigen::Index j = i + 1; j < count; ++j)
       if (step(i - 1, j) < step(i - 1, nearest)) nearest = j;
     std::swap(order[i], order[nearest]);
   }
   constexpr double gain_worth_turning = 1e-9;
   for (bool improved = true; improved;) {
     improved = false;
-    for (std::size_t i = 1; i + 1 < count; ++i)
-      for (std::size_t j = i + 1; j < count; ++j) {
+    for (Eigen::Index i = 1; i + 1 < count; ++i)
+      for (Eigen::Index j = i + 1; j < count; ++j) {
         const double after = j + 1 < count ? step(j, j + 1) - step(i, j + 1) : 0.0;
         if (step(i - 1, i) - step(i - 1, j) + after <= gain_worth_turning) continue;
-        std::reverse(order.begin() + static_cast<std::ptrdiff_t>(i),
-                     order.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        std::reverse(order.begin() + i, order.begin() + j + 1);
         improved = true;
       }
   }
@@ -99,10 +98,10 @@ template <class Between>
 }
 
 /// The way through directions: the camera moves along its sphere, so that it never comes close to the sample.
-[[nodiscard]] std::vector<std::size_t> short_way(const std::vector<direction>& directions);
+[[nodiscard]] std::vector<Eigen::Index> short_way(const std::vector<direction>& directions);
 
 /// The length in radians of the way through directions in an order.
-[[nodiscard]] double length_of_way(const std::vector<direction>& directions, const std::vector<std::size_t>& order);
+[[nodiscard]] double length_of_way(const std::vector<direction>& directions, const std::vector<Eigen::Index>& order);
 
 /// What a scan spends its time on.
 struct scan_pace {
@@ -114,7 +113,7 @@ struct scan_pace {
 
 /// Seconds that a scan takes along a way, in radians, with some stops, at each of which images are taken under some
 /// lamps, one after the other. Throws gonio::error for a speed that is not positive.
-[[nodiscard]] double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
+[[nodiscard]] double duration_of_scan(double length_of_way, Eigen::Index stops, Eigen::Index lamps,
                                       const scan_pace& pace = {});
 
 }  // namespace gonio::capture

@@ -2,8 +2,9 @@
 /// Loops over blocks of a range on several threads whose results do not depend on the number of threads:
 /// the partition is fixed by the range alone, and partial results are merged in the order of the range.
 
+#include <Eigen/Core>
+
 #include <algorithm>
-#include <cstddef>
 #include <type_traits>
 #include <vector>
 
@@ -18,10 +19,10 @@ struct thread_count {
 
 /// A half-open range of indices.
 struct block {
-  std::size_t begin = 0;
-  std::size_t end = 0;
+  Eigen::Index begin = 0;
+  Eigen::Index end = 0;
 
-  [[nodiscard]] std::size_t size() const noexcept { return end - begin; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return end - begin; }
 };
 
 namespace detail {
@@ -35,7 +36,7 @@ struct block_body {
   void operator()(block range) const { call(body, range); }
 };
 
-void run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads);
+void run_blocks(Eigen::Index count, Eigen::Index block_size, block_body body, thread_count threads);
 
 }  // namespace detail
 
@@ -43,18 +44,18 @@ void run_blocks(std::size_t count, std::size_t block_size, block_body body, thre
 /// and concurrently. If bodies throw, the exception of the first block in the range's order among those
 /// that ran is rethrown after all threads have stopped; blocks not yet started are then skipped.
 template <class Body>
-void for_each_block(std::size_t count, std::size_t block_size, Body&& body, thread_count threads = {}) {
+void for_each_block(Eigen::Index count, Eigen::Index block_size, Body&& body, thread_count threads = {}) {
   const auto call = [](void* held, block range) { (*static_cast<std::remove_reference_t<Body>*>(held))(range); };
   detail::run_blocks(count, block_size, {const_cast<void*>(static_cast<const void*>(&body)), call}, threads);
 }
 
 /// Calls `body(i)` once for each i of [0, count), in blocks of at most `block_size`, as `for_each_block` does.
 template <class Body>
-void for_each_index(std::size_t count, std::size_t block_size, Body&& body, thread_count threads = {}) {
+void for_each_index(Eigen::Index count, Eigen::Index block_size, Body&& body, thread_count threads = {}) {
   for_each_block(
       count, block_size,
       [&](block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) body(i);
+        for (Eigen::Index i = range.begin; i < range.end; ++i) body(i);
       },
       threads);
 }
@@ -63,17 +64,17 @@ void for_each_index(std::size_t count, std::size_t block_size, Body&& body, thre
 /// starts as a copy of `zero`, and the partial results are added with `+=`. The range is cut into at most
 /// 16 runs of blocks, each summed in order, so that the same bytes come out for any number of threads.
 template <class Result, class Accumulate>
-[[nodiscard]] Result sum_over_blocks(std::size_t count, std::size_t block_size, const Result& zero,
+[[nodiscard]] Result sum_over_blocks(Eigen::Index count, Eigen::Index block_size, const Result& zero,
                                      Accumulate&& accumulate, thread_count threads = {}) {
-  constexpr std::size_t runs = 16;
-  const std::size_t blocks = (count + block_size - 1) / block_size;
-  const std::size_t run_size = std::max<std::size_t>(1, (blocks + runs - 1) / runs) * block_size;
+  constexpr Eigen::Index runs = 16;
+  const Eigen::Index blocks = (count + block_size - 1) / block_size;
+  const Eigen::Index run_size = std::max<Eigen::Index>(1, (blocks + runs - 1) / runs) * block_size;
   std::vector<Result> partial((count + run_size - 1) / run_size, zero);
   for_each_block(
       count, run_size,
       [&](block run) {
         Result& sum = partial[run.begin / run_size];
-        for (std::size_t begin = run.begin; begin < run.end; begin += block_size)
+        for (Eigen::Index begin = run.begin; begin < run.end; begin += block_size)
           accumulate(sum, block{begin, std::min(run.end, begin + block_size)});
       },
       threads);

@@ -2,7 +2,8 @@
 /// Random numbers from seeds. `uniform_number` is the same everywhere, since the standard fixes what std::mt19937_64
 /// draws; `random_choice` is the same wherever the standard library's uniform_int_distribution is.
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <random>
 #include <vector>
@@ -16,7 +17,7 @@ namespace gonio {
 
 /// `count` different ones of the numbers 0 ... all - 1, each set equally likely, in increasing order; all of them if
 /// there are not more. O(all).
-[[nodiscard]] std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed);
+[[nodiscard]] std::vector<Eigen::Index> random_choice(Eigen::Index all, Eigen::Index count, std::uint64_t seed);
 
 }  // namespace gonio
 

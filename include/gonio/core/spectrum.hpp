@@ -7,10 +7,11 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/rgb.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <span>
 #include <string>
 
@@ -36,7 +37,7 @@ namespace gonio {
                              80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.3490, 61.6040, 69.8856,
                              75.0870, 63.5927, 46.4182, 66.8054, 63.3828};
   const double position = std::clamp((wavelength - 380.0) / 10.0, 0.0, static_cast<double>(power.size() - 1));
-  const auto below = std::min(static_cast<std::size_t>(position), power.size() - 2);
+  const auto below = std::min(static_cast<Eigen::Index>(position), std::ssize(power) - 2);
   return std::lerp(power[below], power[below + 1], position - static_cast<double>(below));
 }
 
@@ -46,15 +47,14 @@ class spectral_colour {
  public:
   /// Wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, one of which
   /// the observer sees.
-  explicit spectral_colour(std::span<const double> wavelengths)
-      : weights_(static_cast<Eigen::Index>(wavelengths.size()), 3) {
+  explicit spectral_colour(std::span<const double> wavelengths) : weights_(std::ssize(wavelengths), 3) {
     if (wavelengths.size() < 2) refuse("a spectrum needs at least two wavelengths");
-    for (std::size_t i = 0; i < wavelengths.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(wavelengths); ++i) {
       if (!std::isfinite(wavelengths[i]) || (i > 0 && !(wavelengths[i] > wavelengths[i - 1])))
         refuse({"wavelength ", i + 1, " of a spectrum is not above the one before"});
-      const double from = wavelengths[i == 0 ? 0 : i - 1], to = wavelengths[std::min(i + 1, wavelengths.size() - 1)];
-      weights_.row(static_cast<Eigen::Index>(i)) =
-          (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();
+      const double from = wavelengths[i == 0 ? 0 : i - 1],
+                   to = wavelengths[std::min(i + 1, std::ssize(wavelengths) - 1)];
+      weights_.row(i) = (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();
     }
     const Eigen::Array3d white = weights_.colwise().sum().transpose();
     if (!(white > 0.0).all()) refuse("a spectrum has no visible wavelength");
@@ -62,11 +62,11 @@ class spectral_colour {
   }
 
   /// The number of wavelengths.
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(weights_.rows()); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return weights_.rows(); }
 
   /// The colour of as many reflectances as there are wavelengths. Components of saturated colours may be negative.
   [[nodiscard]] rgb operator()(std::span<const double> reflectance) const {
-    GONIO_ASSERT(reflectance.size() == size());
+    GONIO_ASSERT(std::ssize(reflectance) == size());
     const Eigen::Map<const Eigen::ArrayXd> values(reflectance.data(), weights_.rows());
     return from_xyz((weights_.colwise() * values).colwise().sum().transpose());
   }

@@ -6,9 +6,10 @@
 #include <gonio/design/capture_constraint.hpp>
 #include <gonio/table/valid_cells.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -35,8 +36,8 @@ using grid_step = std::array<int, 3>;
 ///
 /// int main() {
 ///   const gonio::design::point_geometry points{gonio::valid_cells()};
-///   const std::size_t candidate = points.nearest({{0, 0, 1}, {0, 0, 1}});
-///   std::printf("candidate %zu of %zu\n", candidate, std::size_t{points.size()});
+///   const Eigen::Index candidate = points.nearest({{0, 0, 1}, {0, 0, 1}});
+///   std::printf("candidate %td of %td\n", candidate, points.size());
 /// }
 /// ```
 /// With a model of your own, ten lamps above a camera at the normal:
@@ -46,23 +47,23 @@ using grid_step = std::array<int, 3>;
 /// #include <cmath>
 ///
 /// struct row_of_lamps {
-///   std::size_t size() const { return 10; }
-///   bool allows(std::size_t) const { return true; }
-///   gonio::direction_pair centre(std::size_t lamp) const {
+///   Eigen::Index size() const { return 10; }
+///   bool allows(Eigen::Index) const { return true; }
+///   gonio::direction_pair centre(Eigen::Index lamp) const {
 ///     const double theta = 0.1 * static_cast<double>(lamp + 1);
 ///     return {{std::sin(theta), 0, std::cos(theta)}, {0, 0, 1}};
 ///   }
-///   std::size_t nearest(const gonio::direction_pair& pair) const {
+///   Eigen::Index nearest(const gonio::direction_pair& pair) const {
 ///     const double theta = std::acos(std::clamp(pair.wi.z(), -1.0, 1.0));
-///     return static_cast<std::size_t>(std::clamp(std::round(10 * theta) - 1, 0.0, 9.0));
+///     return static_cast<Eigen::Index>(std::clamp(std::round(10 * theta) - 1, 0.0, 9.0));
 ///   }
-///   std::vector<gonio::half_difference> directions(std::size_t lamp) const {
+///   std::vector<gonio::half_difference> directions(Eigen::Index lamp) const {
 ///     return {gonio::to_half_difference(centre(lamp).wi, centre(lamp).wo)};
 ///   }
-///   std::optional<std::size_t> stepped(std::size_t lamp, const gonio::design::grid_step& step) const {
+///   std::optional<Eigen::Index> stepped(Eigen::Index lamp, const gonio::design::grid_step& step) const {
 ///     const int to = static_cast<int>(lamp) + step[0];
 ///     if (to < 0 || to > 9 || step[1] != 0 || step[2] != 0) return {};
-///     return static_cast<std::size_t>(to);
+///     return to;
 ///   }
 /// };
 /// static_assert(gonio::design::capture_geometry<row_of_lamps>);
@@ -70,14 +71,14 @@ using grid_step = std::array<int, 3>;
 /// int main() { return row_of_lamps{}.nearest({{0, 0, 1}, {0, 0, 1}}) == 0 ? 0 : 1; }
 /// ```
 template <class Geometry>
-concept capture_geometry = requires(const Geometry& geometry, std::size_t candidate, const grid_step& step,
+concept capture_geometry = requires(const Geometry& geometry, Eigen::Index candidate, const grid_step& step,
                                     const direction_pair& pair) {
-  { geometry.size() } -> std::convertible_to<std::size_t>;
+  { geometry.size() } -> std::convertible_to<Eigen::Index>;
   { geometry.allows(candidate) } -> std::convertible_to<bool>;
   { geometry.centre(candidate) } -> std::convertible_to<direction_pair>;
-  { geometry.nearest(pair) } -> std::convertible_to<std::size_t>;
+  { geometry.nearest(pair) } -> std::convertible_to<Eigen::Index>;
   { geometry.directions(candidate) } -> std::convertible_to<std::vector<half_difference>>;
-  { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<std::size_t>>;
+  { geometry.stepped(candidate, step) } -> std::convertible_to<std::optional<Eigen::Index>>;
 };
 
 /// Each valid cell of a grid is a sample by itself; where only one of light and viewer can be in a place, the other one
@@ -88,15 +89,15 @@ class point_geometry {
       : cells_(std::move(cells)), constraint_(std::move(constraint)) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
-  [[nodiscard]] std::size_t size() const noexcept { return cells_.size(); }
-  [[nodiscard]] bool allows(std::size_t cell) const {
+  [[nodiscard]] Eigen::Index size() const noexcept { return cells_.size(); }
+  [[nodiscard]] bool allows(Eigen::Index cell) const {
     return constraint_.is_none() || constraint_.pose_of(cells_.angles(cell)).has_value();
   }
-  [[nodiscard]] direction_pair centre(std::size_t cell) const;
-  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const;
-  [[nodiscard]] std::vector<half_difference> directions(std::size_t cell) const { return {cells_.angles(cell)}; }
+  [[nodiscard]] direction_pair centre(Eigen::Index cell) const;
+  [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
+  [[nodiscard]] std::vector<half_difference> directions(Eigen::Index cell) const { return {cells_.angles(cell)}; }
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
+  [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;
 
  private:
   valid_cells cells_;

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,35 +28,35 @@ class cell_candidates {
       : cell_candidates(basis.cells(), basis.components(), std::move(criterion), std::move(constraint), threads,
                         sample_noise_penalties) {}
 
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(materials_.rows()); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return materials_.rows(); }
   [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
   /// Y and W of some cells.
-  [[nodiscard]] expected_error::rows rows_of(std::span<const std::size_t> cells) const;
+  [[nodiscard]] expected_error::rows rows_of(std::span<const Eigen::Index> cells) const;
 
   /// E of measurements at some cells.
-  [[nodiscard]] double operator()(std::span<const std::size_t> cells) const;
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> cells) const;
 
   /// E of measurements at some cells and one more, as a function of that cell.
   class with_one_more;
 
   /// That of some cells: O(n m) a call instead of O(n^2 m). It refers to the candidates.
-  [[nodiscard]] with_one_more beside(std::span<const std::size_t> cells) const;
+  [[nodiscard]] with_one_more beside(std::span<const Eigen::Index> cells) const;
 
   /// E of measurements at some cells and, in turn, at each cell beside them: one value a cell, infinity for those
   /// that the constraint excludes. 8 n m operations a cell for n measurements and m observations; reads Y and W once.
-  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> cells) const;
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> cells) const;
 
  private:
   cell_candidates(const valid_cells& cells, const cell_matrix& components, expected_error criterion,
                   capture_constraint constraint, thread_count threads, std::span<const double> sample_noise_penalties);
 
-  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> sample_noise_penalties, std::size_t cells);
+  [[nodiscard]] static Eigen::ArrayXf checked(std::span<const double> sample_noise_penalties, Eigen::Index cells);
 
   point_geometry geometry_;
   expected_error criterion_;
-  std::vector<std::size_t> excluded_;
+  std::vector<Eigen::Index> excluded_;
   cell_matrix materials_, weighted_;
   Eigen::ArrayXf sample_noise_penalties_;
   thread_count threads_;
@@ -65,9 +64,9 @@ class cell_candidates {
 
 class cell_candidates::with_one_more {
  public:
-  with_one_more(const cell_candidates& candidates, std::span<const std::size_t> cells);
+  with_one_more(const cell_candidates& candidates, std::span<const Eigen::Index> cells);
 
-  [[nodiscard]] double operator()(std::size_t cell) const;
+  [[nodiscard]] double operator()(Eigen::Index cell) const;
 
  private:
   const cell_candidates* candidates_;

@@ -24,8 +24,8 @@ struct component_rows {
 namespace detail {
 
 /// The cells next to some directions, ascending, and how often each is met.
-[[nodiscard]] std::vector<std::pair<std::size_t, double>> cells_next_to(std::span<const half_difference> directions,
-                                                                        const valid_cells& cells);
+[[nodiscard]] std::vector<std::pair<Eigen::Index, double>> cells_next_to(std::span<const half_difference> directions,
+                                                                         const valid_cells& cells);
 
 }  // namespace detail
 
@@ -33,14 +33,14 @@ namespace detail {
 /// times sqrt(c): the same normal equations. O(n k).
 template <basis Basis>
 [[nodiscard]] component_rows rows_at(const Basis& basis, std::span<const half_difference> directions) {
-  const std::vector<std::pair<std::size_t, double>> counts = detail::cells_next_to(directions, basis.cells());
-  const auto n = std::ssize(counts), k = static_cast<std::ptrdiff_t>(basis.size());
+  const std::vector<std::pair<Eigen::Index, double>> counts = detail::cells_next_to(directions, basis.cells());
+  const Eigen::Index n = std::ssize(counts), k = basis.size();
   component_rows rows{Eigen::MatrixXd(n, k), Eigen::VectorXd(n)};
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& [cell, count] = counts[static_cast<std::size_t>(i)];
+    const auto& [cell, count] = counts[i];
     const std::span<const float> row = basis.row(cell);
     const double root = std::sqrt(count);
-    for (Eigen::Index j = 0; j < k; ++j) rows.components(i, j) = root * double{row[static_cast<std::size_t>(j)]};
+    for (Eigen::Index j = 0; j < k; ++j) rows.components(i, j) = root * double{row[j]};
     rows.noise[i] = root;
   }
   return rows;

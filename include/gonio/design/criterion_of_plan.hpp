@@ -5,6 +5,8 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/design_criterion.hpp>
 
+#include <Eigen/Core>
+
 #include <span>
 #include <utility>
 #include <vector>
@@ -27,9 +29,9 @@ class criterion_of_plan {
 
   [[nodiscard]] const Geometry& geometry() const noexcept { return geometry_; }
 
-  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     std::vector<half_difference> directions;
-    for (const std::size_t candidate : candidates) {
+    for (const Eigen::Index candidate : candidates) {
       const std::vector<half_difference> more = geometry_.directions(candidate);
       directions.insert(directions.end(), more.begin(), more.end());
     }

@@ -5,13 +5,15 @@
 
 #include <gonio/design/search.hpp>
 
+#include <Eigen/Core>
+
 namespace gonio::design {
 
 /// An objective that also tells, all at once, what a set is worth with each of all candidates beside it; infinity for
 /// those that are not allowed.
 template <class Objective>
 concept sweeping_objective = plan_objective<Objective> &&
-    requires(const Objective& objective, std::span<const std::size_t> candidates) {
+    requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
   { objective.geometry() } -> capture_geometry;
   { objective.errors_with_each(candidates) } -> std::same_as<std::vector<float>>;
 };
@@ -20,10 +22,10 @@ namespace detail {
 
 /// The candidate that is worth most beside those of a plan, none of them again.
 template <sweeping_objective Objective>
-[[nodiscard]] std::size_t best_addition(const Objective& objective, std::span<const std::size_t> plan) {
+[[nodiscard]] Eigen::Index best_addition(const Objective& objective, std::span<const Eigen::Index> plan) {
   std::vector<float> errors = objective.errors_with_each(plan);
-  for (const std::size_t candidate : plan) errors[candidate] = std::numeric_limits<float>::infinity();
-  return static_cast<std::size_t>(std::ranges::min_element(errors) - errors.begin());
+  for (const Eigen::Index candidate : plan) errors[candidate] = std::numeric_limits<float>::infinity();
+  return std::ranges::min_element(errors) - errors.begin();
 }
 
 }  // namespace detail
@@ -31,10 +33,10 @@ template <sweeping_objective Objective>
 /// Adds the best of all candidates until there are n. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <sweeping_objective Objective>
-[[nodiscard]] capture_plan grow_greedily(const Objective& objective, std::size_t n, capture_plan plan = {},
+[[nodiscard]] capture_plan grow_greedily(const Objective& objective, Eigen::Index n, capture_plan plan = {},
                                          const progress& listener = {}) {
   detail::require_choice(n, objective.geometry());
-  while (plan.candidates.size() < n) {
+  while (std::ssize(plan.candidates) < n) {
     plan.candidates.push_back(detail::best_addition(objective, plan.candidates));
     report(listener, "measurements", static_cast<double>(plan.candidates.size()) / static_cast<double>(n));
   }
@@ -47,8 +49,8 @@ template <sweeping_objective Objective>
 template <sweeping_objective Objective>
 [[nodiscard]] capture_plan exchange(const Objective& objective, capture_plan plan, const progress& listener = {}) {
   plan.value = objective(plan.candidates);
-  std::size_t without_improvement = 0, position = 0;
-  while (without_improvement < plan.candidates.size()) {
+  Eigen::Index without_improvement = 0, position = 0;
+  while (without_improvement < std::ssize(plan.candidates)) {
     capture_plan other = plan;
     other.candidates[position] = detail::best_addition(objective, detail::all_but(plan.candidates, position));
     other.value = objective(other.candidates);

@@ -8,6 +8,8 @@
 #include <gonio/design/compressed_rows.hpp>
 #include <gonio/design/expected_error.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -37,20 +39,20 @@ class image_objective {
   [[nodiscard]] const expected_error& criterion() const noexcept { return criterion_; }
 
   /// Y and W of one image, compressed. O(s k min(s, k)) for s samples.
-  [[nodiscard]] expected_error::rows rows_of(std::size_t candidate) const {
+  [[nodiscard]] expected_error::rows rows_of(Eigen::Index candidate) const {
     const std::vector<half_difference> directions = geometry_.directions(candidate);
     const component_rows few = compressed(rows_at(basis_, directions), 1e-3 * criterion_.options().eta);
     return criterion_.prepare(few.components, few.noise);
   }
 
   /// E of some images.
-  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return criterion_(rows_of_all(candidates));
   }
 
   /// E of some images and one more, as a function of that one.
-  [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
-    return [this, others = rows_of_all(candidates)](std::size_t candidate) {
+  [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
+    return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const expected_error::rows one = rows_of(candidate);
       const std::array<const expected_error::rows*, 2> both{&others, &one};
       return criterion_(detail::joined(both, others.both.cols()));
@@ -58,9 +60,9 @@ class image_objective {
   }
 
  private:
-  [[nodiscard]] expected_error::rows rows_of_all(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] expected_error::rows rows_of_all(std::span<const Eigen::Index> candidates) const {
     std::vector<expected_error::rows> each;
-    for (const std::size_t candidate : candidates) each.push_back(rows_of(candidate));
+    for (const Eigen::Index candidate : candidates) each.push_back(rows_of(candidate));
     std::vector<const expected_error::rows*> parts;
     for (const auto& rows : each) parts.push_back(&rows);
     return detail::joined(parts, criterion_.coefficients().rows());
@@ -80,13 +82,13 @@ class image_candidates {
   explicit image_candidates(image_objective<Metric, Geometry> objective, thread_count threads = {},
                             const progress& listener = {})
       : objective_(std::move(objective)), rows_(objective_.geometry().size()), threads_(threads) {
-    constexpr std::size_t batch = 64;
-    for (std::size_t begin = 0; begin < rows_.size(); begin += batch) {
-      const std::size_t count = std::min(batch, rows_.size() - begin);
+    constexpr Eigen::Index batch = 64;
+    for (Eigen::Index begin = 0; begin < std::ssize(rows_); begin += batch) {
+      const Eigen::Index count = std::min(batch, std::ssize(rows_) - begin);
       for_each_block(
           count, 1,
           [&](block range) {
-            const std::size_t candidate = begin + range.begin;
+            const Eigen::Index candidate = begin + range.begin;
             if (objective_.geometry().allows(candidate)) rows_[candidate] = objective_.rows_of(candidate);
           },
           threads_);
@@ -97,25 +99,25 @@ class image_candidates {
   [[nodiscard]] const Geometry& geometry() const noexcept { return objective_.geometry(); }
 
   /// E of some images.
-  [[nodiscard]] double operator()(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] double operator()(std::span<const Eigen::Index> candidates) const {
     return objective_.criterion()(rows_of_all(candidates));
   }
 
   /// E of some images and one more, as a function of that one.
-  [[nodiscard]] auto beside(std::span<const std::size_t> candidates) const {
-    return [this, others = rows_of_all(candidates)](std::size_t candidate) {
+  [[nodiscard]] auto beside(std::span<const Eigen::Index> candidates) const {
+    return [this, others = rows_of_all(candidates)](Eigen::Index candidate) {
       const std::array<const expected_error::rows*, 2> both{&others, &rows_[candidate]};
       return objective_.criterion()(detail::joined(both, others.both.cols()));
     };
   }
 
   /// E of some images and, in turn, each candidate beside them; infinity for those that are not allowed.
-  [[nodiscard]] std::vector<float> errors_with_each(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] std::vector<float> errors_with_each(std::span<const Eigen::Index> candidates) const {
     std::vector<float> errors(rows_.size(), std::numeric_limits<float>::infinity());
     const auto with = beside(candidates);
     for_each_index(
         rows_.size(), 16,
-        [&](std::size_t candidate) {
+        [&](Eigen::Index candidate) {
           if (geometry().allows(candidate)) errors[candidate] = static_cast<float>(with(candidate));
         },
         threads_);
@@ -123,9 +125,9 @@ class image_candidates {
   }
 
  private:
-  [[nodiscard]] expected_error::rows rows_of_all(std::span<const std::size_t> candidates) const {
+  [[nodiscard]] expected_error::rows rows_of_all(std::span<const Eigen::Index> candidates) const {
     std::vector<const expected_error::rows*> parts;
-    for (const std::size_t candidate : candidates) parts.push_back(&rows_[candidate]);
+    for (const Eigen::Index candidate : candidates) parts.push_back(&rows_[candidate]);
     return detail::joined(parts, objective_.criterion().coefficients().rows());
   }
 

@@ -4,7 +4,8 @@
 
 #include <gonio/design/capture_geometry.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <optional>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct near_field_options {
   /// alpha = 2 atan(r / R) in radians, for a disc of radius r and a camera at distance R from its centre.
   double field_of_view = radians(25.0);
   /// Samples along the diameter of the disc as seen from above; the image's pixels, or blocks of them.
-  std::size_t pixels = 24;
+  Eigen::Index pixels = 24;
   /// Distance of neighbouring candidates in radians: of the polar angles, and of the azimuth between light and camera.
   double step = radians(5.0);
   /// Lights and cameras beyond this polar angle are no candidates.
@@ -31,7 +32,7 @@ struct near_field_options {
 
 /// The camera of such an image: at distance 1 in the direction wo, its square image just around the disc, whose
 /// radius is tan(field_of_view / 2).
-[[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels);
+[[nodiscard]] pinhole_camera near_field_camera(const direction& wo, double field_of_view, Eigen::Index pixels);
 
 /// A candidate is a polar angle of the light, one of the camera, and the azimuth from camera to light. An azimuth and
 /// its negative give mirror images of one another: they are from 0 to pi.
@@ -42,37 +43,34 @@ class near_field_geometry {
   explicit near_field_geometry(const near_field_options& options = {});
 
   [[nodiscard]] const near_field_options& options() const noexcept { return options_; }
-  [[nodiscard]] std::size_t size() const noexcept {
-    return static_cast<std::size_t>(extents_[0]) * static_cast<std::size_t>(extents_[1]) *
-           static_cast<std::size_t>(extents_[2]);
-  }
+  [[nodiscard]] Eigen::Index size() const noexcept { return Eigen::Index{extents_[0]} * extents_[1] * extents_[2]; }
 
   /// Azimuths are all the same where light or camera is at the zenith: the first stands for them.
-  [[nodiscard]] bool allows(std::size_t candidate) const;
+  [[nodiscard]] bool allows(Eigen::Index candidate) const;
 
   /// Light and camera as seen from the centre of the sample; the camera in the half plane of positive x.
-  [[nodiscard]] direction_pair centre(std::size_t candidate) const;
+  [[nodiscard]] direction_pair centre(Eigen::Index candidate) const;
 
   /// The candidate whose light and camera are next to those of a pair.
-  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const;
+  [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
 
   /// One direction for each pixel whose ray meets the disc, and which the light and the camera are above.
-  [[nodiscard]] std::vector<half_difference> directions(std::size_t candidate) const;
+  [[nodiscard]] std::vector<half_difference> directions(Eigen::Index candidate) const;
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
+  [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;
 
  private:
   [[nodiscard]] double polar(const std::optional<double>& fixed, int steps) const noexcept {
     return fixed ? *fixed : options_.step * steps;
   }
 
-  [[nodiscard]] grid_step place(std::size_t candidate) const noexcept {
+  [[nodiscard]] grid_step place(Eigen::Index candidate) const noexcept {
     const auto n = static_cast<int>(candidate);
     return {n / (extents_[1] * extents_[2]), n / extents_[2] % extents_[1], n % extents_[2]};
   }
 
-  [[nodiscard]] std::size_t number(const grid_step& at) const noexcept {
-    return static_cast<std::size_t>((at[0] * extents_[1] + at[1]) * extents_[2] + at[2]);
+  [[nodiscard]] Eigen::Index number(const grid_step& at) const noexcept {
+    return (at[0] * extents_[1] + at[1]) * extents_[2] + at[2];
   }
 
   near_field_options options_;

@@ -7,6 +7,8 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <string>
@@ -24,15 +26,15 @@ const std::vector<std::vector<printed_direction>>& nielsen_table_1();
 }  // namespace detail
 
 /// The numbers of directions for which Nielsen et al. 2015 print a set.
-inline constexpr std::array<std::size_t, 5> nielsen_direction_counts{1, 2, 5, 10, 20};
+inline constexpr std::array<Eigen::Index, 5> nielsen_direction_counts{1, 2, 5, 10, 20};
 
 /// Whether there is a set of that many.
-[[nodiscard]] constexpr bool has_nielsen_directions(std::size_t n) {
+[[nodiscard]] constexpr bool has_nielsen_directions(Eigen::Index n) {
   return std::ranges::find(nielsen_direction_counts, n) != nielsen_direction_counts.end();
 }
 
 /// Nielsen et al. 2015, Table 1, in radians. Throws gonio::error unless n is 1, 2, 5, 10 or 20.
-[[nodiscard]] std::vector<half_difference> nielsen_directions(std::size_t n);
+[[nodiscard]] std::vector<half_difference> nielsen_directions(Eigen::Index n);
 
 /// The five measurements of industry's goniospectrophotometers (Westlund and Meyer 2001), in radians: the light at 45
 /// degrees, the viewer in its plane at 15, 25, 45, 75 and 110 degrees from the mirror direction towards the light.

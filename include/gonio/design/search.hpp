@@ -8,6 +8,8 @@
 #include <gonio/core/progress.hpp>
 #include <gonio/design/capture_geometry.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
@@ -66,13 +68,13 @@ namespace gonio::design {
 /// }
 /// ```
 template <class Objective>
-concept plan_objective = requires(const Objective& objective, std::span<const std::size_t> candidates) {
+concept plan_objective = requires(const Objective& objective, std::span<const Eigen::Index> candidates) {
   { objective(candidates) } -> std::convertible_to<double>;
 };
 
 /// Different candidates to measure, and what they are worth.
 struct capture_plan {
-  std::vector<std::size_t> candidates;
+  std::vector<Eigen::Index> candidates;
   double value = std::numeric_limits<double>::infinity();
 };
 
@@ -80,47 +82,47 @@ namespace detail {
 
 /// Is there as much to choose from?
 template <capture_geometry Geometry>
-void require_choice(std::size_t n, const Geometry& geometry) {
-  std::size_t allowed = 0;
-  for (std::size_t candidate = 0; candidate < geometry.size(); ++candidate)
+void require_choice(Eigen::Index n, const Geometry& geometry) {
+  Eigen::Index allowed = 0;
+  for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) ++allowed;
-  if (n == 0 || n > allowed)
+  if (n < 1 || n > allowed)
     refuse("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
 }
 
-[[nodiscard]] inline bool holds(const std::vector<std::size_t>& candidates, std::size_t candidate) {
+[[nodiscard]] inline bool holds(const std::vector<Eigen::Index>& candidates, Eigen::Index candidate) {
   return std::ranges::find(candidates, candidate) != candidates.end();
 }
 
 /// A random candidate that the plan does not have yet.
 template <capture_geometry Geometry, class Generator>
-[[nodiscard]] std::size_t another_candidate(const std::vector<std::size_t>& plan, const Geometry& geometry,
-                                            Generator& generator) {
-  std::uniform_int_distribution<std::size_t> any(0, geometry.size() - 1);
-  std::size_t candidate = any(generator);
+[[nodiscard]] Eigen::Index another_candidate(const std::vector<Eigen::Index>& plan, const Geometry& geometry,
+                                             Generator& generator) {
+  std::uniform_int_distribution<Eigen::Index> any(0, geometry.size() - 1);
+  Eigen::Index candidate = any(generator);
   while (!geometry.allows(candidate) || holds(plan, candidate)) candidate = any(generator);
   return candidate;
 }
 
 /// The candidates of a plan without the one at a position.
-[[nodiscard]] std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position);
+[[nodiscard]] std::vector<Eigen::Index> all_but(std::vector<Eigen::Index> candidates, Eigen::Index position);
 
 /// The value of a plan as a function of what is at one position; infinity for what the plan has already.
 template <plan_objective Objective>
-[[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<std::size_t>& candidates,
-                                        std::size_t position) {
-  const std::vector<std::size_t> others = all_but(candidates, position);
+[[nodiscard]] auto value_of_replacement(const Objective& objective, const std::vector<Eigen::Index>& candidates,
+                                        Eigen::Index position) {
+  const std::vector<Eigen::Index> others = all_but(candidates, position);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if constexpr (requires { objective.beside(std::span<const std::size_t>(others)); }) {
-    return [=, with = objective.beside(std::span<const std::size_t>(others))](std::size_t candidate) -> double {
+  if constexpr (requires { objective.beside(std::span<const Eigen::Index>(others)); }) {
+    return [=, with = objective.beside(std::span<const Eigen::Index>(others))](Eigen::Index candidate) -> double {
       return holds(others, candidate) ? infinity : with(candidate);
     };
   } else {
-    return [=, &objective](std::size_t candidate) -> double {
+    return [=, &objective](Eigen::Index candidate) -> double {
       if (holds(others, candidate)) return infinity;
-      std::vector<std::size_t> all = others;
+      std::vector<Eigen::Index> all = others;
       all.push_back(candidate);
-      return objective(std::span<const std::size_t>(all));
+      return objective(std::span<const Eigen::Index>(all));
     };
   }
 }
@@ -133,14 +135,14 @@ template <plan_objective Objective>
 /// Moves one candidate of a plan to the best of its six neighbours at a distance, if that is an improvement.
 template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] bool move_one(const Geometry& geometry, const Objective& objective, capture_plan& plan,
-                            std::size_t position, int distance) {
+                            Eigen::Index position, int distance) {
   const auto value_with = value_of_replacement(objective, plan.candidates, position);
-  const std::size_t from = plan.candidates[position];
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  const Eigen::Index from = plan.candidates[position];
+  for (Eigen::Index axis = 0; axis < 3; ++axis)
     for (const int sign : {1, -1}) {
       grid_step step{};
       step[axis] = sign * distance;
-      const std::optional<std::size_t> to = geometry.stepped(from, step);
+      const std::optional<Eigen::Index> to = geometry.stepped(from, step);
       if (!to) continue;
       const double value = value_with(*to);
       if (!improves(value, plan.value)) continue;
@@ -159,19 +161,19 @@ template <capture_geometry Geometry, plan_objective Objective>
 [[nodiscard]] capture_plan descend(const Geometry& geometry, const Objective& objective, capture_plan plan,
                                    std::uint64_t seed = 0) {
   std::mt19937_64 generator(seed);
-  plan.value = objective(std::span<const std::size_t>(plan.candidates));
-  std::vector<std::size_t> order(plan.candidates.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  plan.value = objective(std::span<const Eigen::Index>(plan.candidates));
+  std::vector<Eigen::Index> order(plan.candidates.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
   for (const int distance : {3, 1}) {
     bool improved = true;
     while (improved) {
       improved = false;
       std::ranges::shuffle(order, generator);
-      for (const std::size_t position : order)
+      for (const Eigen::Index position : order)
         while (detail::move_one(geometry, objective, plan, position, distance)) improved = true;
     }
   }
-  plan.value = objective(std::span<const std::size_t>(plan.candidates));  // without the rounding of many steps
+  plan.value = objective(std::span<const Eigen::Index>(plan.candidates));  // without the rounding of many steps
   return plan;
 }
 
@@ -179,20 +181,20 @@ template <capture_geometry Geometry, plan_objective Objective>
 /// it is Nielsen et al.'s search, with 500 Xu et al.'s. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <capture_geometry Geometry, plan_objective Objective>
-[[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, std::size_t n,
-                                            std::size_t tries = 500, std::uint64_t seed = 0,
+[[nodiscard]] capture_plan grow_and_descend(const Geometry& geometry, const Objective& objective, Eigen::Index n,
+                                            Eigen::Index tries = 500, std::uint64_t seed = 0,
                                             const progress& listener = {}) {
   detail::require_choice(n, geometry);
   std::mt19937_64 generator(seed);
   capture_plan plan;
-  while (plan.candidates.size() < n) {
-    const std::size_t added = plan.candidates.size();
+  while (std::ssize(plan.candidates) < n) {
+    const Eigen::Index added = plan.candidates.size();
     plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
     const auto value_with = detail::value_of_replacement(objective, plan.candidates, added);
     double best = value_with(plan.candidates[added]);
-    const std::vector<std::size_t> others = detail::all_but(plan.candidates, added);
-    for (std::size_t i = 1; i < tries; ++i) {
-      const std::size_t candidate = detail::another_candidate(others, geometry, generator);
+    const std::vector<Eigen::Index> others = detail::all_but(plan.candidates, added);
+    for (Eigen::Index i = 1; i < tries; ++i) {
+      const Eigen::Index candidate = detail::another_candidate(others, geometry, generator);
       const double value = value_with(candidate);
       if (!(value < best)) continue;
       best = value;
@@ -208,19 +210,19 @@ template <capture_geometry Geometry, plan_objective Objective>
 /// `swaps` says: Matusik et al.'s search, the baseline. Throws gonio::error unless n is from 1 to the number of
 /// candidates.
 template <capture_geometry Geometry, plan_objective Objective>
-[[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, std::size_t n,
-                                          std::size_t swaps, std::uint64_t seed = 0) {
+[[nodiscard]] capture_plan swap_at_random(const Geometry& geometry, const Objective& objective, Eigen::Index n,
+                                          Eigen::Index swaps, std::uint64_t seed = 0) {
   detail::require_choice(n, geometry);
   std::mt19937_64 generator(seed);
   capture_plan plan;
-  while (plan.candidates.size() < n)
+  while (std::ssize(plan.candidates) < n)
     plan.candidates.push_back(detail::another_candidate(plan.candidates, geometry, generator));
-  plan.value = objective(std::span<const std::size_t>(plan.candidates));
-  std::uniform_int_distribution<std::size_t> any_position(0, n - 1);
-  for (std::size_t swap = 0; swap < swaps; ++swap) {
-    const std::size_t position = any_position(generator);
-    const std::vector<std::size_t> others = detail::all_but(plan.candidates, position);
-    const std::size_t candidate = detail::another_candidate(others, geometry, generator);
+  plan.value = objective(std::span<const Eigen::Index>(plan.candidates));
+  std::uniform_int_distribution<Eigen::Index> any_position(0, n - 1);
+  for (Eigen::Index swap = 0; swap < swaps; ++swap) {
+    const Eigen::Index position = any_position(generator);
+    const std::vector<Eigen::Index> others = detail::all_but(plan.candidates, position);
+    const Eigen::Index candidate = detail::another_candidate(others, geometry, generator);
     const double value = detail::value_of_replacement(objective, plan.candidates, position)(candidate);
     if (!detail::improves(value, plan.value)) continue;
     plan.candidates[position] = candidate;

@@ -5,6 +5,8 @@
 
 #include <gonio/design/capture_geometry.hpp>
 
+#include <Eigen/Core>
+
 #include <numeric>
 
 namespace gonio::design {
@@ -15,23 +17,23 @@ class sphere_geometry {
   explicit sphere_geometry(valid_cells cells) : cells_(std::move(cells)) {}
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
-  [[nodiscard]] std::size_t size() const noexcept { return static_cast<std::size_t>(cells_.grid().extents().theta_d); }
-  [[nodiscard]] bool allows(std::size_t slice) const { return !cells_of(slice).empty(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return cells_.grid().extents().theta_d; }
+  [[nodiscard]] bool allows(Eigen::Index slice) const { return !cells_of(slice).empty(); }
 
   /// As seen from where the sphere's normal is midway between light and camera.
-  [[nodiscard]] direction_pair centre(std::size_t slice) const {
+  [[nodiscard]] direction_pair centre(Eigen::Index slice) const {
     return to_directions({0.0, cells_.angles(cells_of(slice).front()).theta_d, 0.0});
   }
-  [[nodiscard]] std::size_t nearest(const direction_pair& pair) const {
-    return static_cast<std::size_t>(cells_.grid().nearest(to_half_difference(pair.wi, pair.wo)).theta_d);
+  [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const {
+    return cells_.grid().nearest(to_half_difference(pair.wi, pair.wo)).theta_d;
   }
 
-  [[nodiscard]] std::vector<half_difference> directions(std::size_t slice) const;
+  [[nodiscard]] std::vector<half_difference> directions(Eigen::Index slice) const;
 
-  [[nodiscard]] std::optional<std::size_t> stepped(std::size_t from, const grid_step& step) const;
+  [[nodiscard]] std::optional<Eigen::Index> stepped(Eigen::Index from, const grid_step& step) const;
 
   /// The valid cells of a slice.
-  [[nodiscard]] std::vector<std::size_t> cells_of(std::size_t slice) const;
+  [[nodiscard]] std::vector<Eigen::Index> cells_of(Eigen::Index slice) const;
 
  private:
   valid_cells cells_;

@@ -4,8 +4,9 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -48,7 +49,7 @@ template <error_metric Metric>
   std::vector<double> etas(basis.cells().size());
   for_each_index(
       etas.size(), 256,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         etas[cell] = angular_error_penalty(basis, to_directions(basis.cells().angles(cell)), angle);
       },
       threads);

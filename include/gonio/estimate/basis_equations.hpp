@@ -27,8 +27,8 @@ class basis_equations {
         threads_(threads) {}
 
   /// Number of systems to solve: one if the channels share their basis and their weights, else one for each channel.
-  [[nodiscard]] std::size_t systems() const noexcept {
-    return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : static_cast<std::size_t>(channels());
+  [[nodiscard]] Eigen::Index systems() const noexcept {
+    return basis<Basis> && !measured_->weighs_channels_apart() ? 1 : channels();
   }
 
   /// A system over all functions of the basis: of a channel, or of all if there is but one.
@@ -37,7 +37,7 @@ class basis_equations {
   /// All systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
     std::vector<least_squares_problem> all;
-    for (std::size_t system = 0; system < systems(); ++system) all.push_back(problem(system));
+    for (Eigen::Index system = 0; system < systems(); ++system) all.push_back(problem(system));
     return all;
   }
 
@@ -62,12 +62,11 @@ class basis_equations {
     Eigen::MatrixXd right(measured_->values.rows(), together);
     for_each_index(
         measured_->locations.size(), 4096,
-        [&](std::size_t i) {
+        [&](Eigen::Index i) {
           const location& at = measured_->locations[i];
           const double offset = offset_at(functions, at);
-          const auto row = static_cast<Eigen::Index>(i);
           for (Eigen::Index c = 0; c < together; ++c)
-            right(row, c) = functions.metric().forward(measured_->values(row, first + c), at) - offset;
+            right(i, c) = functions.metric().forward(measured_->values(i, first + c), at) - offset;
         },
         threads_);
     return right;

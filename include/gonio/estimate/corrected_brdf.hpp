@@ -54,7 +54,7 @@ class corrected_brdf {
     brdf_table table = initial_.tabulate(cells, threads);
     const brdf_table sigma = resample(correction_, cells, threads);
     for_each_index(
-        cells.size(), 4096, [&](std::size_t cell) { table.set(cell, corrected(table.at(cell), sigma.at(cell))); },
+        cells.size(), 4096, [&](Eigen::Index cell) { table.set(cell, corrected(table.at(cell), sigma.at(cell))); },
         threads);
     return table;
   }

@@ -8,6 +8,8 @@
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/estimate/values_at.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <utility>
 #include <vector>
@@ -85,7 +87,7 @@ class correction_run {
     else
       rhs_ = functions_.rhs(weights, wanted);
     Eigen::MatrixXd beta(functions_.unknowns(), 3);
-    for (std::size_t c = 0; c < 3; ++c) beta.col(static_cast<Eigen::Index>(c)) = solve(c);
+    for (Eigen::Index c = 0; c < 3; ++c) beta.col(c) = solve(c);
     const channel_values found = functions_.apply(beta);
     total_ = (total_ * found).min(correction_factor::largest_factor);
     weights_.push_back(std::move(beta));
@@ -120,17 +122,16 @@ class correction_run {
 
   void assemble(const channel_values& weights, const channel_values& sigma) {
     rhs_.resize(functions_.unknowns(), 3);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto channel = static_cast<Eigen::Index>(c);
-      const normal_equations normal = functions_.normal(c, weights.row(channel), sigma.row(channel));
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const normal_equations normal = functions_.normal(c, weights.row(c), sigma.row(c));
       grams_[c] = normal.gram();
-      rhs_.col(channel) = normal.rhs();
+      rhs_.col(c) = normal.rhs();
     }
     gram_weights_ = weights;
   }
 
-  [[nodiscard]] Eigen::VectorXd solve(std::size_t channel) const {
-    Eigen::MatrixXd gram = grams_[channel], rhs = rhs_.col(static_cast<Eigen::Index>(channel));
+  [[nodiscard]] Eigen::VectorXd solve(Eigen::Index channel) const {
+    Eigen::MatrixXd gram = grams_[channel], rhs = rhs_.col(channel);
     if (corrections_.rule().has_constant) {
       gram.diagonal().array() += limits_.inertia;
       rhs(rhs.rows() - 1, 0) += limits_.inertia;

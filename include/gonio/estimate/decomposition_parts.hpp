@@ -4,7 +4,8 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/solve/solver.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <type_traits>
 #include <utility>
 
@@ -26,14 +27,14 @@ struct metric_of<Basis> {
 template <class Basis, class Solver>
 struct decomposition_parts {
   using metric = typename metric_of<Basis>::type;
-  static constexpr bool channelwise = requires(const Basis& functions) { functions.channel(std::size_t{}); };
+  static constexpr bool channelwise = requires(const Basis& functions) { functions.channel(Eigen::Index{}); };
 
   static_assert(!std::is_void_v<metric>, "decomposition: the basis has no metric()");
   static_assert(
-      requires(const metric& map) { map.forward(1.0, std::size_t{}); },
+      requires(const metric& map) { map.forward(1.0, Eigen::Index{}); },
       "decomposition: the metric of the basis has no forward(rho, cell)");
   static_assert(
-      requires(const metric& map) { map.inverse(1.0, std::size_t{}); },
+      requires(const metric& map) { map.inverse(1.0, Eigen::Index{}); },
       "decomposition: the metric of the basis has no inverse(y, cell)");
   static_assert(error_metric<metric>, "decomposition: the metric of the basis is no gonio::error_metric");
 
@@ -42,10 +43,10 @@ struct decomposition_parts {
   static_assert(
       requires(const Basis& functions) { functions.cells(); }, "decomposition: the basis has no cells()");
   static_assert(
-      channelwise || requires(const Basis& functions) { functions.offset(std::size_t{}); },
+      channelwise || requires(const Basis& functions) { functions.offset(Eigen::Index{}); },
       "decomposition: the basis has no offset(cell)");
   static_assert(
-      channelwise || requires(const Basis& functions) { functions.row(std::size_t{}); } ||
+      channelwise || requires(const Basis& functions) { functions.row(Eigen::Index{}); } ||
           requires(const Basis& functions, const location& at, function_row out) { functions.read_row(at, out); },
       "decomposition: the basis has neither row(cell) nor read_row(location, out)");
   static_assert(colour_basis<Basis>, "decomposition: the basis is no gonio::basis and no gonio::channelwise_basis");

@@ -8,6 +8,8 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cmath>
 #include <string>
@@ -51,7 +53,7 @@ class errors_in_variables_decomposition {
   }
 
  private:
-  static constexpr std::size_t sides = 4;
+  static constexpr Eigen::Index sides = 4;
 
   /// The equations over the circles.
   struct system {
@@ -70,7 +72,7 @@ class errors_in_variables_decomposition {
   [[nodiscard]] displaced around(const location& meant) const {
     const direction_pair pair = to_directions(meant.angles);
     displaced all;
-    for (std::size_t place = 0; place < all.rows.size(); ++place) {
+    for (Eigen::Index place = 0; place < std::ssize(all.rows); ++place) {
       const direction wi = turned_above_horizon(pair.wi, angle_, side(place / sides)),
                       wo = turned_above_horizon(pair.wo, angle_, side(place % sides));
       const location there = locate(prior_.cells(), to_half_difference(wi, wo));
@@ -84,22 +86,21 @@ class errors_in_variables_decomposition {
   template <class Use>
   void for_each_sample(const located_samples& measured, Use&& use) const {
     for_each_index(
-        measured.size(), 16,
-        [&](std::size_t i) { use(static_cast<Eigen::Index>(i), measured.locations[i], around(measured.locations[i])); },
+        measured.size(), 16, [&](Eigen::Index i) { use(i, measured.locations[i], around(measured.locations[i])); },
         threads_);
   }
 
   [[nodiscard]] system average(const located_samples& measured) const {
-    const auto n = std::ssize(measured.locations), k = static_cast<std::ptrdiff_t>(prior_.size());
+    const Eigen::Index n = std::ssize(measured.locations), k = prior_.size();
     const double m = observations();
     system means{row_matrix::Zero(n, k), Eigen::VectorXd::Zero(n), Eigen::MatrixXd(n, 3), Eigen::VectorXd::Zero(n)};
     for_each_sample(measured, [&](Eigen::Index i, const location& meant, const displaced& seen) {
       constexpr double share = 1.0 / static_cast<double>(sides * sides);
-      for (std::size_t place = 0; place < seen.rows.size(); ++place) {
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
         means.rows.row(i) += share * seen.rows[place];
         means.offsets[i] += share * seen.offsets[place];
       }
-      for (std::size_t place = 0; place < seen.rows.size(); ++place)
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place)
         means.sample_noise_penalty[i] += share * ((seen.rows[place] - means.rows.row(i)).squaredNorm() +
                                                   m * square(seen.offsets[place] - means.offsets[i]));
       for (Eigen::Index c = 0; c < 3; ++c)
@@ -113,7 +114,7 @@ class errors_in_variables_decomposition {
                                                        const Eigen::MatrixXd& weights) const {
     Eigen::VectorXd etas = Eigen::VectorXd::Zero(means.offsets.size());
     for_each_sample(measured, [&](Eigen::Index i, const location&, const displaced& seen) {
-      for (std::size_t place = 0; place < seen.rows.size(); ++place) {
+      for (Eigen::Index place = 0; place < std::ssize(seen.rows); ++place) {
         const Eigen::RowVectorXd change = seen.rows[place] - means.rows.row(i);
         for (Eigen::Index c = 0; c < 3; ++c)
           etas[i] += square(change.dot(weights.col(c)) + seen.offsets[place] - means.offsets[i]) / 3.0;
@@ -139,7 +140,7 @@ class errors_in_variables_decomposition {
 
   [[nodiscard]] double observations() const { return static_cast<double>(prior_.coefficients().rows()); }
   /// A quarter of the circle, in radians.
-  [[nodiscard]] static double side(std::size_t quarter) noexcept {
+  [[nodiscard]] static double side(Eigen::Index quarter) noexcept {
     return 2.0 * std::numbers::pi * static_cast<double>(quarter) / static_cast<double>(sides);
   }
   [[nodiscard]] static double square(double x) noexcept { return x * x; }

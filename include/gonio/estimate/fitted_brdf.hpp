@@ -10,6 +10,8 @@
 #include <gonio/solve/vector_kernels.hpp>
 #include <gonio/table/upsample.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <concepts>
@@ -58,7 +60,7 @@ class fitted_brdf {
   [[nodiscard]] rgb at(const location& place) const noexcept { return reflectance(mapped_at(place), place); }
 
   /// The value at a cell of the basis in the metric's domain.
-  [[nodiscard]] rgb mapped(std::size_t cell) const noexcept {
+  [[nodiscard]] rgb mapped(Eigen::Index cell) const noexcept {
     if constexpr (computed)
       return mapped_at(locate_cell(basis_.cells(), cell));
     else
@@ -87,8 +89,8 @@ class fitted_brdf {
   static constexpr bool combinable = !computed || combining_basis<Basis>;
 
   /// One channel at a cell: a contiguous dot product, which runs at the speed of reading the row.
-  [[nodiscard]] float stored_value(std::size_t cell, std::size_t channel) const noexcept {
-    const float* weights = float_weights_.data() + static_cast<Eigen::Index>(channel) * weights_.rows();
+  [[nodiscard]] float stored_value(Eigen::Index cell, Eigen::Index channel) const noexcept {
+    const float* weights = float_weights_.data() + channel * weights_.rows();
     return dot(weights, channels_[channel].row(cell).data(), weights_.rows()) +
            static_cast<float>(channels_[channel].offset(cell));
   }
@@ -104,9 +106,8 @@ class fitted_brdf {
   [[nodiscard]] rgb interpolated_value(const location& at) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
     for (int corner = 0; corner < at.count; ++corner) {
-      const auto slot = static_cast<std::size_t>(corner);
-      const rgb value = mapped(at.cell[slot]);
-      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[slot] * value[channel];
+      const rgb value = mapped(at.cell[corner]);
+      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[corner] * value[channel];
     }
     return sum;
   }
@@ -116,7 +117,7 @@ class fitted_brdf {
     Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, most_computed_functions> row(weights_.rows());
     rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const channel_type& functions = channels_[static_cast<std::size_t>(c)];
+      const channel_type& functions = channels_[c];
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
       value[c] = row.dot(weights_.col(c)) + offset_at(functions, at);
     }

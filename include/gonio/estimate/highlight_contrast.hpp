@@ -48,7 +48,7 @@ template <class Luminance>
   const contrast_sums sums = sum_over_blocks(
       cells.size(), 1024, contrast_sums(materials),
       [&](contrast_sums& sum, block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
           const half_difference angles = cells.angles(cell);
           const bool in_peak = angles.theta_h <= regions.in_peak;
           if (!in_peak && angles.theta_h < regions.off_peak) continue;

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
@@ -75,17 +74,17 @@ class leave_one_material_out_error {
   template <error_metric Metric>
   [[nodiscard]] static sums add_rows(const pca<Metric>& basis, std::span<const location> locations,
                                      const Eigen::VectorXd& weights, const mapped_noise& mapped, thread_count threads) {
-    const auto k = static_cast<Eigen::Index>(basis.size());
+    const Eigen::Index k = basis.size();
     const auto observations = static_cast<double>(basis.coefficients().rows());
     const double beyond = (1.0 / basis.explained_variance() - 1.0) / observations;
     return sum_over_blocks(
         locations.size(), 256, sums(k),
         [&](sums& sum, block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const Eigen::Index begin = range.begin, count = range.size();
           Eigen::MatrixXd columns(k, count);
           Eigen::VectorXd variances = mapped.variance.segment(begin, count);
           for (Eigen::Index i = 0; i < count; ++i) {
-            const location& place = locations[range.begin + static_cast<std::size_t>(i)];
+            const location& place = locations[range.begin + i];
             read_row_at(basis, place, Eigen::Map<Eigen::RowVectorXd>(columns.col(i).data(), k));
             variances[i] += beyond * columns.col(i).squaredNorm();
           }
@@ -95,7 +94,7 @@ class leave_one_material_out_error {
   }
 
   /// Throws gonio::error unless there are as many weights as locations, at least one, and two materials.
-  static void require_sensible(std::size_t locations, const Eigen::VectorXd& weights, std::size_t materials);
+  static void require_sensible(Eigen::Index locations, const Eigen::VectorXd& weights, Eigen::Index materials);
 
   void initialise(const sums& all, const Eigen::VectorXd& singular_values, const Eigen::MatrixXf& coefficients);
 

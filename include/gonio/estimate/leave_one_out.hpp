@@ -5,6 +5,8 @@
 #include <gonio/basis/measured.hpp>
 #include <gonio/estimate/decomposition.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 
 namespace gonio {
@@ -25,23 +27,22 @@ class leave_one_out_decomposition {
   [[nodiscard]] const measured<Metric>& basis() const noexcept { return basis_; }
 
   /// The normal equations of one channel of one material over those that the basis does not leave out, itself excepted.
-  [[nodiscard]] normal_equations problem(std::size_t material, std::size_t channel) const {
-    return leave_one_out(basis_.channel(channel).products(threads_), static_cast<Eigen::Index>(material),
-                         others(material));
+  [[nodiscard]] normal_equations problem(Eigen::Index material, Eigen::Index channel) const {
+    return leave_one_out(basis_.channel(channel).products(threads_), material, others(material));
   }
 
   /// A material from all others. Throws gonio::error if it is the only one, or the solver gives up.
-  [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(std::size_t material) const {
+  [[nodiscard]] fitted_brdf<measured<Metric>> reconstruct(Eigen::Index material) const {
     const std::vector<Eigen::Index> columns = others(material);
     std::array<solution, 3> found;
-    for (std::size_t c = 0; c < 3; ++c) found[c] = solver_.solve(problem(material, c));
-    return {basis_, scatter_columns(concatenate_columns(found), columns, static_cast<Eigen::Index>(basis_.size()))};
+    for (Eigen::Index c = 0; c < 3; ++c) found[c] = solver_.solve(problem(material, c));
+    return {basis_, scatter_columns(concatenate_columns(found), columns, basis_.size())};
   }
 
  private:
-  [[nodiscard]] std::vector<Eigen::Index> others(std::size_t material) const {
+  [[nodiscard]] std::vector<Eigen::Index> others(Eigen::Index material) const {
     std::vector<Eigen::Index> columns = columns_of(basis_);
-    std::erase(columns, static_cast<Eigen::Index>(material));
+    std::erase(columns, material);
     return columns;
   }
 

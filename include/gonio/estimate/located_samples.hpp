@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -23,7 +22,7 @@ struct located_samples {
   /// n x channels, or n x 1 if each measurement counts the same in all channels.
   Eigen::MatrixXd weights;
 
-  [[nodiscard]] std::size_t size() const noexcept { return locations.size(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return locations.size(); }
 
   /// Is there a measurement that counts more in one channel than in another?
   [[nodiscard]] bool weighs_channels_apart() const noexcept { return weights.cols() > 1; }
@@ -39,7 +38,7 @@ struct located_samples {
   [[nodiscard]] channel_values channels() const;
 
   /// Some of the samples, by their positions.
-  [[nodiscard]] located_samples subset(const std::vector<std::size_t>& positions) const;
+  [[nodiscard]] located_samples subset(const std::vector<Eigen::Index>& positions) const;
 };
 
 namespace detail {
@@ -47,7 +46,7 @@ namespace detail {
 /// With a weight for each channel if these are `apart`. Throws gonio::error if there is room for none.
 [[nodiscard]] located_samples room_for_samples(Eigen::Index count, bool apart);
 /// Without its location but for the angles. `number` is the sample's among all, for the message.
-void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number);
+void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number);
 /// Completes the locations.
 void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads);
 
@@ -64,7 +63,7 @@ template <sample_range Samples>
   for (const sample& s : samples) count += s.weight.counts() ? 1 : 0;
   located_samples found = detail::room_for_samples(count, weigh_channels_apart(samples));
   Eigen::Index i = 0;
-  std::size_t number = 0;
+  Eigen::Index number = 0;
   for (const sample& s : samples) {
     ++number;
     if (s.weight.counts()) detail::put_sample(found, i++, s, number);
@@ -89,10 +88,9 @@ template <error_metric Metric>
   channel_values mapped(3, values.cols());
   for_each_index(
       locations.size(), 1024,
-      [&](std::size_t i) {
+      [&](Eigen::Index i) {
         for (Eigen::Index c = 0; c < 3; ++c) {
-          const auto place = static_cast<Eigen::Index>(i);
-          mapped(c, place) = static_cast<float>(metric.forward(double{values(c, place)}, locations[i]));
+          mapped(c, i) = static_cast<float>(metric.forward(double{values(c, i)}, locations[i]));
         }
       },
       threads);

@@ -35,14 +35,14 @@ template <basis Basis>
                                      thread_count threads = {}) {
   if (!(noise >= 0.0 && std::isfinite(noise)))
     refuse("the noise must be finite and not negative, not " + std::to_string(noise));
-  const auto n = static_cast<Eigen::Index>(locations.size());
+  const Eigen::Index n = std::ssize(locations);
   mapped_noise mapped{Eigen::VectorXd::Zero(n), Eigen::VectorXd::Zero(n)};
   if (noise == 0.0) return mapped;
   const std::vector<double> quantiles = detail::normal_quantiles(64);
   const auto count = static_cast<double>(quantiles.size());
   for_each_index(
       locations.size(), 1024,
-      [&](std::size_t i) {
+      [&](Eigen::Index i) {
         const auto& metric = functions.metric();
         const double value = std::max(metric.inverse(offset_at(functions, locations[i]), locations[i]), 0.0);
         const double exact = metric.forward(value, locations[i]);
@@ -52,9 +52,8 @@ template <basis Basis>
           sum += deviation;
           squares += deviation * deviation;
         }
-        const auto row = static_cast<Eigen::Index>(i);
-        mapped.shift[row] = sum / count;
-        mapped.variance[row] = std::max(squares / count - std::pow(sum / count, 2), 0.0);
+        mapped.shift[i] = sum / count;
+        mapped.variance[i] = std::max(squares / count - std::pow(sum / count, 2), 0.0);
       },
       threads);
   return mapped;

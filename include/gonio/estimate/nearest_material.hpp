@@ -9,6 +9,8 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -23,7 +25,7 @@ namespace gonio {
 
 /// A material times a factor.
 struct scaled_material {
-  std::size_t material = 0;
+  Eigen::Index material = 0;
   double factor = 1.0;
 };
 
@@ -60,8 +62,8 @@ class nearest_material {
     const located_samples few = samples.subset(random_choice(samples.size(), 1'500, seed_));
     const located_samples many = samples.subset(random_choice(samples.size(), 20'000, seed_));
     std::array<scaled_material, 3> chosen;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double offset = logarithm_offset(samples.values.col(static_cast<Eigen::Index>(c)));
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const double offset = logarithm_offset(samples.values.col(c));
       chosen[c] = choose(evidence(few, c, offset), evidence(many, c, offset), c);
     }
     return chosen;
@@ -73,7 +75,7 @@ class nearest_material {
     const auto chosen = choose(locate_samples(materials_.cells(), samples, threads_));
     const valid_cells& cells = materials_.cells();
     std::vector<location> locations(cells.size());
-    for (std::size_t cell = 0; cell < cells.size(); ++cell) locations[cell] = locate_cell(cells, cell);
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) locations[cell] = locate_cell(cells, cell);
     const channel_values found = values(chosen, locations);
     return completed_table(brdf_table(cells, std::vector<float>(found.data(), found.data() + found.size())));
   }
@@ -84,10 +86,10 @@ class nearest_material {
     // A factor found from a few bright samples may lead out of the range of float.
     constexpr double largest = std::numeric_limits<float>::max();
     channel_values found(3, std::ssize(locations));
-    for (std::size_t c = 0; c < 3; ++c) {
+    for (Eigen::Index c = 0; c < 3; ++c) {
       const auto functions = materials_.channel(c);
-      for (std::size_t i = 0; i < locations.size(); ++i)
-        found(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(i)) = static_cast<float>(
+      for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
+        found(c, i) = static_cast<float>(
             std::min(chosen[c].factor * reflectance(functions, chosen[c].material, locations[i]), largest));
     }
     return found;
@@ -95,18 +97,18 @@ class nearest_material {
 
  private:
   /// The reflectance of a material at a location, at least zero.
-  [[nodiscard]] double reflectance(const material_channel<Metric>& functions, std::size_t material,
+  [[nodiscard]] double reflectance(const material_channel<Metric>& functions, Eigen::Index material,
                                    const location& at) const {
     const double mapped = interpolate(
-        at, [&](std::size_t cell) { return double{functions.row(cell)[material]}; }, 0.0);
+        at, [&](Eigen::Index cell) { return double{functions.row(cell)[material]}; }, 0.0);
     return std::max(materials_.metric().inverse(mapped, at), 0.0);
   }
 
   /// Samples of one channel as a mixture sees them.
   struct evidence {
-    evidence(const located_samples& samples, std::size_t channel, double offset_of_logarithm)
+    evidence(const located_samples& samples, Eigen::Index channel, double offset_of_logarithm)
         : locations(&samples.locations), offset(offset_of_logarithm) {
-      logarithms = (samples.values.col(static_cast<Eigen::Index>(channel)).array().max(0.0) + offset).log();
+      logarithms = (samples.values.col(channel).array().max(0.0) + offset).log();
       const outlier_density density({logarithms.begin(), logarithms.end()});
       outliers = logarithms.unaryExpr([&](double value) { return density(value); });
     }
@@ -117,25 +119,23 @@ class nearest_material {
   };
 
   struct candidate {
-    std::size_t material = 0;
+    Eigen::Index material = 0;
     detail::scaled_likelihood found;
   };
 
   /// The logarithms of measurements less those of a material.
   [[nodiscard]] Eigen::ArrayXd differences(const evidence& seen, const material_channel<Metric>& functions,
-                                           std::size_t material) const {
+                                           Eigen::Index material) const {
     Eigen::ArrayXd values(seen.logarithms.size());
-    for (std::size_t i = 0; i < seen.locations->size(); ++i)
-      values[static_cast<Eigen::Index>(i)] =
-          std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
+    for (Eigen::Index i = 0; i < std::ssize(*seen.locations); ++i)
+      values[i] = std::log(reflectance(functions, material, (*seen.locations)[i]) + seen.offset);
     return seen.logarithms - values;
   }
 
-  [[nodiscard]] scaled_material choose(const evidence& few, const evidence& many, std::size_t channel) const {
+  [[nodiscard]] scaled_material choose(const evidence& few, const evidence& many, Eigen::Index channel) const {
     const auto functions = materials_.channel(channel);
     std::vector<candidate> candidates;
-    for (const Eigen::Index column : columns_of(materials_))
-      candidates.push_back({static_cast<std::size_t>(column), {}});
+    for (const Eigen::Index column : columns_of(materials_)) candidates.push_back({column, {}});
     const auto for_each_candidate = [&](const auto& body) {
       for_each_block(
           candidates.size(), 1, [&](block one) { body(candidates[one.begin]); }, threads_);
@@ -143,10 +143,10 @@ class nearest_material {
     for_each_candidate([&](candidate& each) {
       each.found = detail::best_factor(differences(few, functions, each.material), few.outliers);
     });
-    constexpr std::size_t shortlist = 20;
+    constexpr Eigen::Index shortlist = 20;
     const auto likelihood = [](const candidate& each) { return each.found.log_likelihood; };
     std::ranges::sort(candidates, std::greater{}, likelihood);
-    candidates.resize(std::min(candidates.size(), shortlist));
+    candidates.resize(std::min(std::ssize(candidates), shortlist));
     for_each_candidate([&](candidate& each) {
       each.found = detail::locate_mixture(differences(many, functions, each.material), many.outliers,
                                           each.found.logarithm_of_factor);

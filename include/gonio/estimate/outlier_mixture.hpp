@@ -30,11 +30,11 @@ class outlier_density {
 
   [[nodiscard]] double operator()(double logarithm) const noexcept {
     const auto bin = static_cast<std::ptrdiff_t>((logarithm - lowest_) / step_);
-    return density_[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(bin, 0, std::ssize(density_) - 1))];
+    return density_[std::clamp<std::ptrdiff_t>(bin, 0, std::ssize(density_) - 1)];
   }
 
  private:
-  static constexpr std::size_t bins = 200;
+  static constexpr Eigen::Index bins = 200;
   double lowest_, step_;
   std::vector<double> density_;
 };
@@ -48,7 +48,7 @@ inline outlier_density::outlier_density(const std::vector<double>& logarithms) :
   std::vector<double> counts(bins, 0.0);
   double mean = 0.0, square = 0.0;
   for (const double value : logarithms) {
-    counts[std::min(bins - 1, static_cast<std::size_t>((value - lowest_) / step_))] += 1.0;
+    counts[std::min(bins - 1, static_cast<Eigen::Index>((value - lowest_) / step_))] += 1.0;
     mean += value / n;
     square += value * value / n;
   }
@@ -60,7 +60,7 @@ inline outlier_density::outlier_density(const std::vector<double>& logarithms) :
     for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(i - reach, 0); j <= std::min(i + reach, std::ssize(counts) - 1);
          ++j) {
       const double z = static_cast<double>(i - j) * step_ / width;
-      density_[static_cast<std::size_t>(j)] += counts[static_cast<std::size_t>(i)] * std::exp(-0.5 * z * z);
+      density_[j] += counts[i] * std::exp(-0.5 * z * z);
     }
   // Flatten: a tenth of a measurement is where nothing was measured.
   double total = 0.0;
@@ -122,8 +122,8 @@ namespace detail {
 /// Of an array that stays as it is.
 template <class Values>
 [[nodiscard]] auto upper_median_of(const Values& values) {
-  std::vector<typename Values::Scalar> copy(static_cast<std::size_t>(values.size()));
-  for (Eigen::Index i = 0; i < values.size(); ++i) copy[static_cast<std::size_t>(i)] = values(i);
+  std::vector<typename Values::Scalar> copy(values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) copy[i] = values(i);
   return upper_median(copy);
 }
 
@@ -166,14 +166,14 @@ struct automatic_weights {
 
   /// Of some of the samples, which have a mixture of their own.
   [[nodiscard]] Eigen::ArrayXd weigh(const outlier_mixture& mixture, const deviations& found,
-                                     const outlier_density& density, std::span<const std::size_t> samples) const;
+                                     const outlier_density& density, std::span<const Eigen::Index> samples) const;
 
   /// The scale of good samples' distances, where `mixture` has that of their residuals: at least that.
   [[nodiscard]] static double scale_of_distances(const deviations& found, const outlier_density& density,
                                                  const outlier_mixture& mixture);
 
   /// The residual below which half of the good ones among some samples lie, if these are the ones with the least.
-  [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const std::size_t> samples,
+  [[nodiscard]] static double half_of_the_good(const Eigen::ArrayXf& residuals, std::span<const Eigen::Index> samples,
                                                double inlier_fraction);
 
   /// As many samples are good, and their scale is another one; above 1 it would tell nothing.

@@ -7,6 +7,8 @@
 #include <gonio/estimate/sampled_functions.hpp>
 #include <gonio/solve/nnls.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <memory>
 #include <utility>
@@ -53,13 +55,11 @@ class planned_decomposition {
     const Eigen::VectorXd energies = right_hand_sides.cast<double>().square().rowwise().sum();
     const std::vector<Eigen::Index> columns = columns_of(materials_);
     std::array<solution, 3> found;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto channel = static_cast<Eigen::Index>(c);
-      const normal_equations normal{plan_->grams[c], rhs.col(channel), energies.segment<1>(channel)};
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const normal_equations normal{plan_->grams[c], rhs.col(c), energies.segment<1>(c)};
       found[c] = solver_.solve(normal.subset(columns));
     }
-    return {materials_,
-            scatter_columns(concatenate_columns(found), columns, static_cast<Eigen::Index>(materials_.size()))};
+    return {materials_, scatter_columns(concatenate_columns(found), columns, materials_.size())};
   }
 
  private:
@@ -67,7 +67,7 @@ class planned_decomposition {
     plan(const measured<Metric>& materials, std::vector<location> at, thread_count threads)
         : locations(std::move(at)), functions(materials, locations, threads) {
       const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(std::ssize(locations));
-      for (std::size_t c = 0; c < 3; ++c) grams[c] = functions.normal(c, ones, ones).gram();
+      for (Eigen::Index c = 0; c < 3; ++c) grams[c] = functions.normal(c, ones, ones).gram();
     }
 
     std::vector<location> locations;

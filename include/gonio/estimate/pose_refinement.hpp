@@ -11,7 +11,6 @@
 #include <Eigen/Core>
 
 #include <cmath>
-#include <cstddef>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -64,9 +63,9 @@ class pose_iteration {
   [[nodiscard]] const std::vector<pose_correction>& turns() const noexcept { return turns_; }
   [[nodiscard]] double objective() const noexcept { return state_.objective; }
   [[nodiscard]] bool converged() const noexcept { return converged_; }
-  [[nodiscard]] std::size_t materials() const noexcept { return materials_.size(); }
-  [[nodiscard]] const Eigen::MatrixXd& weights(std::size_t material) const;
-  [[nodiscard]] sample_set samples(std::size_t material) const;
+  [[nodiscard]] Eigen::Index materials() const noexcept { return materials_.size(); }
+  [[nodiscard]] const Eigen::MatrixXd& weights(Eigen::Index material) const;
+  [[nodiscard]] sample_set samples(Eigen::Index material) const;
 
   void step(const reader& read);
   void solve(const reader& read);
@@ -89,7 +88,7 @@ class pose_iteration {
   };
 
   void require_sensible() const;
-  void require_material(std::size_t material) const;
+  void require_material(Eigen::Index material) const;
   [[nodiscard]] sample turned(const sample& s, const pose_correction& turns) const;
   /// The equations of one image from row `begin` on.
   void add_image(const sample_set& samples, const pose_correction& turns, const reader& read, Eigen::Index begin,
@@ -102,9 +101,9 @@ class pose_iteration {
   [[nodiscard]] std::vector<pose_correction> moved(const Eigen::VectorXd& by) const;
   [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t image_number, Eigen::Index unknown,
                                            const reader& read) const;
-  [[nodiscard]] Eigen::MatrixXd jacobian(std::size_t material, const reader& read) const;
+  [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index material, const reader& read) const;
   /// Adds a material's part of the normal equations of a step.
-  void add_curvature(std::size_t material, const reader& read, Eigen::MatrixXd& hessian,
+  void add_curvature(Eigen::Index material, const reader& read, Eigen::MatrixXd& hessian,
                      Eigen::MatrixXd& gradient) const;
   [[nodiscard]] Eigen::VectorXd newton_step(const reader& read) const;
 
@@ -150,23 +149,22 @@ class pose_refinement {
   pose_refinement(pca<Metric> prior, std::vector<std::vector<sample_set>> materials,
                   const pose_refinement_options& options = {})
       : prior_(std::move(prior)),
-        iteration_(std::move(materials), options, static_cast<Eigen::Index>(prior_.size()),
-                   prior_.coefficients().rows(), reader()) {}
+        iteration_(std::move(materials), options, prior_.size(), prior_.coefficients().rows(), reader()) {}
 
   [[nodiscard]] const std::vector<pose_correction>& turns() const noexcept { return iteration_.turns(); }
   /// What is minimised, divided by eta.
   [[nodiscard]] double objective() const noexcept { return iteration_.objective(); }
   /// Did the last step improve the objective by less than a millionth of it?
   [[nodiscard]] bool converged() const noexcept { return iteration_.converged(); }
-  [[nodiscard]] std::size_t materials() const noexcept { return iteration_.materials(); }
+  [[nodiscard]] Eigen::Index materials() const noexcept { return iteration_.materials(); }
   /// Throws gonio::error unless there is such a material.
-  [[nodiscard]] fitted_brdf<pca<Metric>> result(std::size_t material = 0) const {
+  [[nodiscard]] fitted_brdf<pca<Metric>> result(Eigen::Index material = 0) const {
     return {prior_, iteration_.weights(material)};
   }
 
   /// The samples of a material where they were found to be, with the values that they have there, for any estimator.
   /// Throws as `result` does.
-  [[nodiscard]] sample_set samples(std::size_t material = 0) const { return iteration_.samples(material); }
+  [[nodiscard]] sample_set samples(Eigen::Index material = 0) const { return iteration_.samples(material); }
 
   /// One step of Gauss and Newton.
   void step() { iteration_.step(reader()); }

@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -52,7 +51,7 @@ struct pyramid_level {
   template <class Visit>
   void for_each(Visit&& visit, thread_count threads) const {
     for_each_block(
-        static_cast<std::size_t>(theta_h.extent()), 1,
+        theta_h.extent(), 1,
         [&](block layer) {
           for (int d = 0; d < theta_d.extent(); ++d)
             for (int p = 0; p < phi_d.extent(); ++p) visit(static_cast<int>(layer.begin), d, p);
@@ -114,8 +113,7 @@ class pull_push {
   /// Sums of weighted values, and of weights, over the measurements nearest to each cell of a grid.
   class splats {
    public:
-    explicit splats(const grid& over)
-        : over_(over), sums_(Eigen::Array4Xd::Zero(4, static_cast<Eigen::Index>(over.size()))) {}
+    explicit splats(const grid& over) : over_(over), sums_(Eigen::Array4Xd::Zero(4, over.size())) {}
 
     void add(const sample& s);
 

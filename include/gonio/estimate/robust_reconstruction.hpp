@@ -8,6 +8,8 @@
 #include <gonio/estimate/nearest_material.hpp>
 #include <gonio/metric/log.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -52,9 +54,9 @@ class reweighted_combination {
 /// al. 2015 (doi:10.1145/2816795.2818085) and fifteen difficult ones (docs/results/robust-estimation.md).
 struct robust_start {
   /// Samples that it looks at, chosen at random,
-  std::size_t samples = 20'000;
+  Eigen::Index samples = 20'000;
   /// and those that the final iteration looks at: more do not make a hundred unknowns any better known.
-  std::size_t most_samples = 50'000;
+  Eigen::Index most_samples = 50'000;
   int combinations = 5;
   int corrections = 4;
   /// As many samples as this say, all over the cells, that the surface is like the nearest material. It decides where

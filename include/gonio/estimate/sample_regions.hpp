@@ -4,6 +4,8 @@
 
 #include <gonio/table/location.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <numeric>
 #include <span>
@@ -15,35 +17,35 @@ namespace gonio {
 /// leave eight samples in each. With fewer in a region chance decides; with more, few samples have but one.
 class sample_regions {
  public:
-  static constexpr std::size_t fewest_samples = 8;
+  static constexpr Eigen::Index fewest_samples = 8;
 
   /// O(n log n).
   explicit sample_regions(const std::vector<location>& locations);
 
-  [[nodiscard]] std::size_t count() const noexcept { return strips_ * parts_; }
+  [[nodiscard]] Eigen::Index count() const noexcept { return strips_ * parts_; }
 
   /// The positions of all samples.
-  [[nodiscard]] std::span<const std::size_t> all() const noexcept { return order_; }
+  [[nodiscard]] std::span<const Eigen::Index> all() const noexcept { return order_; }
   /// Those of one region; the first regions are nearest to the highlight.
-  [[nodiscard]] std::span<const std::size_t> operator[](std::size_t region) const noexcept {
-    return part_of<const std::size_t>(part_of<const std::size_t>(order_, region / parts_, strips_), region % parts_,
-                                      parts_);
+  [[nodiscard]] std::span<const Eigen::Index> operator[](Eigen::Index region) const noexcept {
+    return part_of<const Eigen::Index>(part_of<const Eigen::Index>(order_, region / parts_, strips_), region % parts_,
+                                       parts_);
   }
 
  private:
-  [[nodiscard]] static std::size_t at_most(std::size_t most, std::size_t samples) noexcept {
-    return std::clamp<std::size_t>(samples / fewest_samples, 1, most);
+  [[nodiscard]] static Eigen::Index at_most(Eigen::Index most, Eigen::Index samples) noexcept {
+    return std::clamp<Eigen::Index>(samples / fewest_samples, 1, most);
   }
 
   template <class Position>
-  [[nodiscard]] static std::span<Position> part_of(std::span<Position> whole, std::size_t part,
-                                                   std::size_t parts) noexcept {
-    const std::size_t begin = whole.size() * part / parts, end = whole.size() * (part + 1) / parts;
+  [[nodiscard]] static std::span<Position> part_of(std::span<Position> whole, Eigen::Index part,
+                                                   Eigen::Index parts) noexcept {
+    const Eigen::Index begin = whole.size() * part / parts, end = whole.size() * (part + 1) / parts;
     return whole.subspan(begin, end - begin);
   }
 
-  std::vector<std::size_t> order_;
-  std::size_t strips_, parts_;
+  std::vector<Eigen::Index> order_;
+  Eigen::Index strips_, parts_;
 };
 
 }  // namespace gonio

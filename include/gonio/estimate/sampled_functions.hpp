@@ -25,18 +25,18 @@ class sampled_functions {
  public:
   sampled_functions(const Basis& functions, const std::vector<location>& locations, thread_count threads = {})
       : columns_(columns_of(functions)),
-        unknowns_(static_cast<Eigen::Index>(functions.size())),
+        unknowns_(functions.size()),
         channels_{channel_of(functions, 0), channel_of(functions, 1), channel_of(functions, 2)},
         threads_(threads) {
     rows_.fill(std::vector<const float*>(locations.size()));
     interpolate_between_cells(locations);
-    for (std::size_t c = 0; c < 3; ++c)
-      for (std::size_t i = 0; i < locations.size(); ++i)
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
         if (locations[i].count == 1) rows_[c][i] = channels_[c].row(locations[i].cell[0]).data();
   }
 
   /// Number of locations.
-  [[nodiscard]] std::size_t size() const noexcept { return rows_[0].size(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return rows_[0].size(); }
   /// All functions of the basis, those that are left out included.
   [[nodiscard]] Eigen::Index unknowns() const noexcept { return unknowns_; }
   /// The functions that take part, ascending.
@@ -47,18 +47,17 @@ class sampled_functions {
   /// for rows of weight zero, which cost nothing. Products are double: a Gram matrix of float products is indefinite
   /// where columns nearly depend on one another, and no solver can vouch for its optimum. n k^2 operations at most.
   template <class Weights, class Values>
-  [[nodiscard]] normal_equations normal(std::size_t channel, const Weights& weights, const Values& values) const {
+  [[nodiscard]] normal_equations normal(Eigen::Index channel, const Weights& weights, const Values& values) const {
     using sum_type = detail::product_sum<double>;
     const float least = least_weight(weights);
     const auto add_rows = [&](sum_type& sum, block range) {
-      auto out = sum.rows(static_cast<Eigen::Index>(range.size()));
+      auto out = sum.rows(range.size());
       Eigen::Index count = 0;
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        const auto sample = static_cast<Eigen::Index>(i);
-        if (!counts(weights[sample], values[sample], least)) continue;
-        const double root = std::sqrt(static_cast<double>(weights[sample]));
+      for (Eigen::Index i = range.begin; i < range.end; ++i) {
+        if (!counts(weights[i], values[i], least)) continue;
+        const double root = std::sqrt(static_cast<double>(weights[i]));
         out.row(count).head(unknowns_) = root * row(channel, i).template cast<double>();
-        out(count++, unknowns_) = root * values[sample];
+        out(count++, unknowns_) = root * values[i];
       }
       sum.add(count);
     };
@@ -72,17 +71,16 @@ class sampled_functions {
   [[nodiscard]] Eigen::MatrixXd rhs(const channel_values& weights, const channel_values& values) const {
     const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(unknowns_, 3);
     std::array<float, 3> least{};
-    for (std::size_t c = 0; c < 3; ++c) least[c] = least_weight(weights.row(static_cast<Eigen::Index>(c)));
+    for (Eigen::Index c = 0; c < 3; ++c) least[c] = least_weight(weights.row(c));
     return sum_over_blocks(
         size(), 128, zero,
         [&](Eigen::MatrixXd& sum, block range) {
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            for (std::size_t c = 0; c < 3; ++c) {
-              const auto channel = static_cast<Eigen::Index>(c), sample = static_cast<Eigen::Index>(i);
-              const float weight = weights(channel, sample), value = values(channel, sample);
+          for (Eigen::Index i = range.begin; i < range.end; ++i)
+            for (Eigen::Index c = 0; c < 3; ++c) {
+              const float weight = weights(c, i), value = values(c, i);
               if (!counts(weight, value, least[c])) continue;
               const double factor = static_cast<double>(weight) * value;
-              sum.col(channel) += factor * row(c, i).transpose().template cast<double>();
+              sum.col(c) += factor * row(c, i).transpose().template cast<double>();
             }
         },
         threads_);
@@ -91,13 +89,12 @@ class sampled_functions {
   /// A x at all locations, 3 x n, for weights of the functions in each channel, k x 3. Reads the rows once.
   [[nodiscard]] channel_values apply(const Eigen::MatrixXd& x) const {
     const Eigen::MatrixXf weights = x.cast<float>();
-    channel_values values(3, static_cast<Eigen::Index>(size()));
+    channel_values values(3, size());
     for_each_index(
         size(), 1024,
-        [&](std::size_t i) {
-          for (std::size_t c = 0; c < 3; ++c) {
-            const auto channel = static_cast<Eigen::Index>(c);
-            values(channel, static_cast<Eigen::Index>(i)) = row(c, i).dot(weights.col(channel));
+        [&](Eigen::Index i) {
+          for (Eigen::Index c = 0; c < 3; ++c) {
+            values(c, i) = row(c, i).dot(weights.col(c));
           }
         },
         threads_);
@@ -114,22 +111,22 @@ class sampled_functions {
     return weight > 0.0f && weight * std::max(1.0f, std::abs(value)) >= least;
   }
 
-  [[nodiscard]] auto row(std::size_t channel, std::size_t place) const noexcept {
+  [[nodiscard]] auto row(Eigen::Index channel, Eigen::Index place) const noexcept {
     return Eigen::Map<const Eigen::RowVectorXf>(rows_[channel][place], unknowns_);
   }
 
   void interpolate_between_cells(const std::vector<location>& locations) {
-    std::vector<std::size_t> between;
-    for (std::size_t i = 0; i < locations.size(); ++i)
+    std::vector<Eigen::Index> between;
+    for (Eigen::Index i = 0; i < std::ssize(locations); ++i)
       if (locations[i].count != 1) between.push_back(i);
     interpolated_ = std::make_shared<cell_matrix>(3 * std::ssize(between), unknowns_);
     for_each_block(
         between.size(), 256,
         [&](block range) {
           Eigen::RowVectorXd row(unknowns_);
-          for (std::size_t slot = range.begin; slot < range.end; ++slot)
-            for (std::size_t c = 0; c < 3; ++c) {
-              auto own = interpolated_->row(static_cast<Eigen::Index>(3 * slot + c));
+          for (Eigen::Index slot = range.begin; slot < range.end; ++slot)
+            for (Eigen::Index c = 0; c < 3; ++c) {
+              auto own = interpolated_->row(3 * slot + c);
               read_row_at(channels_[c], locations[between[slot]], row);
               own = row.template cast<float>();
               rows_[c][between[slot]] = own.data();

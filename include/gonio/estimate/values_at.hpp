@@ -4,6 +4,8 @@
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/located_samples.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -19,10 +21,7 @@ template <tabulated_brdf Fit>
   const auto collect = [&](auto&& value_at) {
     channel_values values(3, std::ssize(locations));
     for_each_index(
-        locations.size(), 256,
-        [&](std::size_t i) {
-          values.col(static_cast<Eigen::Index>(i)) = value_at(locations[i]).template cast<float>();
-        },
+        locations.size(), 256, [&](Eigen::Index i) { values.col(i) = value_at(locations[i]).template cast<float>(); },
         threads);
     return values;
   };
@@ -34,7 +33,7 @@ template <tabulated_brdf Fit>
   if (std::ranges::count_if(locations, [](const location& at) { return at.count == 1; }) > worth_a_table)
     table = fit.tabulate(cells, threads);
   return collect([&](const location& at) {
-    if (table && at.count == 1) return rgb(table->at(std::size_t{at.cell[0]}));
+    if (table && at.count == 1) return rgb(table->at(Eigen::Index{at.cell[0]}));
     const auto [wi, wo] = to_directions(at.angles);
     return rgb(fit(wi, wo));
   });

@@ -8,6 +8,8 @@
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/metric/log_relative.hpp>
 
+#include <Eigen/Core>
+
 #include <limits>
 
 namespace gonio {
@@ -42,7 +44,7 @@ class metric_places {
   metric_places(const valid_cells& cells, const Metric& metric)
       : cells_(cells), metric_cells_(cells_of(metric, cells)), same_(cells_ == metric_cells_) {}
 
-  [[nodiscard]] location operator()(std::size_t cell) const noexcept {
+  [[nodiscard]] location operator()(Eigen::Index cell) const noexcept {
     return same_ ? locate_cell(cells_, cell) : locate(metric_cells_, cells_.angles(cell));
   }
 
@@ -68,7 +70,7 @@ template <error_metric Metric>
   return sum_over_blocks(
       truth.cells().size(), 4096, squared_differences(squared_differences::Zero()),
       [&](squared_differences& sum, block range) {
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
           const location at = places(cell);
           const rgb e = estimate.at(cell), t = truth.at(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel) {

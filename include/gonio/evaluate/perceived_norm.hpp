@@ -10,7 +10,6 @@
 #include <Eigen/Core>
 
 #include <cmath>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -24,25 +23,24 @@ namespace detail {
 /// How the lightness of one point of a sphere changes with the weights, for each observation of a basis: m x k.
 template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXf lightness_jacobian(const pca<Metric>& basis, const render::sphere_operator& sphere,
-                                                 std::size_t point) {
-  std::vector<std::size_t> cells;
+                                                 Eigen::Index point) {
+  std::vector<Eigen::Index> cells;
   std::vector<double> weights;
-  sphere.for_each_entry(point, [&](std::size_t cell, const rgb& weight) {
+  sphere.for_each_entry(point, [&](Eigen::Index cell, const rgb& weight) {
     cells.push_back(cell);
     weights.push_back(luminance(weight));
   });
   const auto entries = std::ssize(cells);
-  Eigen::MatrixXf components(static_cast<Eigen::Index>(basis.size()), entries);
-  for (Eigen::Index e = 0; e < entries; ++e)
-    components.col(e) = basis.components().row(static_cast<Eigen::Index>(cells[static_cast<std::size_t>(e)]));
+  Eigen::MatrixXf components(basis.size(), entries);
+  for (Eigen::Index e = 0; e < entries; ++e) components.col(e) = basis.components().row(cells[e]);
 
   // What each observation reflects in each of the directions, and how that changes with its mapped value.
   constexpr double step = 0.05;
   Eigen::MatrixXf mapped = product(basis.coefficients(), components);
   Eigen::VectorXd luminances = Eigen::VectorXd::Zero(mapped.rows());
   for (Eigen::Index e = 0; e < entries; ++e) {
-    const std::size_t cell = cells[static_cast<std::size_t>(e)];
-    const double weight = weights[static_cast<std::size_t>(e)], offset = basis.offset(cell);
+    const Eigen::Index cell = cells[e];
+    const double weight = weights[e], offset = basis.offset(cell);
     for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
       const double y = offset + double{mapped(i, e)};
       const double lower = basis.metric().inverse(y - step, cell), upper = basis.metric().inverse(y + step, cell);
@@ -69,15 +67,15 @@ template <error_metric Metric>
 [[nodiscard]] Eigen::MatrixXd perceived_norm(const pca<Metric>& basis, const render::sphere_operator& sphere,
                                              thread_count threads = {}) {
   if (!(basis.cells() == sphere.cells())) refuse("a basis and a sphere over other cells cannot be combined");
-  constexpr std::size_t points_of_a_sum = 8;
-  const std::size_t points = sphere.points().size();
-  const auto k = static_cast<Eigen::Index>(basis.size());
+  constexpr Eigen::Index points_of_a_sum = 8;
+  const Eigen::Index points = sphere.points().size();
+  const Eigen::Index k = basis.size();
   std::vector<Eigen::MatrixXd> sums((points + points_of_a_sum - 1) / points_of_a_sum, Eigen::MatrixXd::Zero(k, k));
   for_each_block(
       sums.size(), 1,
       [&](block range) {
-        const std::size_t end = std::min(range.end * points_of_a_sum, points);
-        for (std::size_t point = range.begin * points_of_a_sum; point < end; ++point) {
+        const Eigen::Index end = std::min(range.end * points_of_a_sum, points);
+        for (Eigen::Index point = range.begin * points_of_a_sum; point < end; ++point) {
           const Eigen::MatrixXf jacobian = detail::lightness_jacobian(basis, sphere, point);
           sums[point / points_of_a_sum] += product_with_transpose(jacobian.transpose().cast<double>());
         }

@@ -6,6 +6,8 @@
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -37,17 +39,17 @@ template <class Generator>
                                                 double angle, std::uint64_t seed = 0);
 
 /// How many of `all` a share of them, between 0 and 1, is: at least one.
-[[nodiscard]] inline std::size_t share_of(std::size_t all, double share) noexcept {
-  return std::max<std::size_t>(static_cast<std::size_t>(std::llround(share * static_cast<double>(all))), 1);
+[[nodiscard]] inline Eigen::Index share_of(Eigen::Index all, double share) noexcept {
+  return std::max<Eigen::Index>(std::llround(share * static_cast<double>(all)), 1);
 }
 
 /// `count` different cells chosen at random, in increasing order. Throws gonio::error unless count is
 /// between 1 and the number of cells.
-[[nodiscard]] std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed);
+[[nodiscard]] std::vector<Eigen::Index> random_cells(const valid_cells& cells, Eigen::Index count, std::uint64_t seed);
 
 /// The cells nearest to directions, the same cell twice if two directions share it. Throws gonio::error
 /// naming a direction that falls on no valid cell.
-[[nodiscard]] std::vector<std::size_t> cells_at(const valid_cells& cells, std::span<const half_difference> directions);
+[[nodiscard]] std::vector<Eigen::Index> cells_at(const valid_cells& cells, std::span<const half_difference> directions);
 
 /// Gives samples defects, which come from the seed alone: `any_value(generator)` is what an outlier's value becomes.
 /// Throws gonio::error for an outlier ratio outside [0, 1] or negative noise.
@@ -61,12 +63,11 @@ template <class AnyValue>
 
   // Replace exactly the asked share, so that a ratio means the same at 20 samples and at a million.
   std::mt19937_64 generator(seed);
-  std::vector<std::size_t> order(samples.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::vector<Eigen::Index> order(samples.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
   std::ranges::shuffle(order, generator);
-  const auto outliers =
-      static_cast<std::size_t>(std::llround(defects.outlier_ratio * static_cast<double>(samples.size())));
-  for (std::size_t i = 0; i < outliers; ++i) samples[order[i]].value = any_value(generator);
+  const Eigen::Index outliers = std::llround(defects.outlier_ratio * static_cast<double>(samples.size()));
+  for (Eigen::Index i = 0; i < outliers; ++i) samples[order[i]].value = any_value(generator);
 
   if (defects.noise > 0.0) {
     std::normal_distribution<double> normal;
@@ -79,7 +80,7 @@ template <class AnyValue>
 
 /// The table's values at cells, at the cells' own angles, with defects: an outlier has the value of a random cell.
 /// Throws as `corrupt` does.
-[[nodiscard]] sample_set sample_table(const brdf_table& table, std::span<const std::size_t> cells,
+[[nodiscard]] sample_set sample_table(const brdf_table& table, std::span<const Eigen::Index> cells,
                                       const measurement_defects& defects = {}, std::uint64_t seed = 0);
 
 /// Measurements parted in two.
@@ -89,7 +90,7 @@ struct sample_split {
 
 /// `count` of the samples, at random, and the others, both in their order. Throws gonio::error if there are not as
 /// many.
-[[nodiscard]] sample_split split_samples(const sample_set& samples, std::size_t count, std::uint64_t seed);
+[[nodiscard]] sample_split split_samples(const sample_set& samples, Eigen::Index count, std::uint64_t seed);
 
 }  // namespace gonio
 

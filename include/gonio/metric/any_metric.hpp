@@ -10,7 +10,6 @@
 
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -50,7 +49,7 @@ class any_metric {
 
   /// As many as the metric with the most has; of the others it is zero. See `row_metric`.
   static constexpr int companions = log_relative::companions;
-  [[nodiscard]] std::array<float, companions> companion(std::size_t cell) const noexcept {
+  [[nodiscard]] std::array<float, companions> companion(Eigen::Index cell) const noexcept {
     const auto* relative = std::get_if<log_relative>(&held_);
     return relative ? relative->companion(cell) : std::array<float, companions>{};
   }
@@ -61,7 +60,7 @@ class any_metric {
         metric.inverse_row(row, values, out);
       } else {
         metric.unmap_all(values);
-        Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, static_cast<Eigen::Index>(row.count)) =
+        Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, row.count) =
             values.template topRows<3>().max(0.0f);
       }
     };

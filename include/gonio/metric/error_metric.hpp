@@ -4,9 +4,10 @@
 #include <gonio/table/location.hpp>
 #include <gonio/table/upsample.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <span>
 
 namespace gonio {
@@ -45,12 +46,12 @@ namespace gonio {
 /// static_assert(gonio::error_metric<cube_root>);
 ///
 /// int main() {
-///   const std::size_t cell = 0;
+///   const Eigen::Index cell = 0;
 ///   std::printf("%g\n", cube_root{}.forward(0.008, cell));
 /// }
 /// ```
 template <class Metric>
-concept error_metric = requires(const Metric& metric, double value, std::size_t cell, const location& at) {
+concept error_metric = requires(const Metric& metric, double value, Eigen::Index cell, const location& at) {
   { metric.forward(value, cell) } -> std::convertible_to<double>;
   { metric.inverse(value, cell) } -> std::convertible_to<double>;
   { metric.forward(value, at) } -> std::convertible_to<double>;

@@ -7,6 +7,8 @@
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/cell_matrix.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -69,10 +71,10 @@ class log_relative {
     return (std::exp(y) * (reference * cosine_weight + epsilon) - epsilon) / cosine_weight;
   }
 
-  [[nodiscard]] double forward(double rho, std::size_t cell) const noexcept {
+  [[nodiscard]] double forward(double rho, Eigen::Index cell) const noexcept {
     return forward(rho, (*reference_)[cell], cosine_weight(cosines(cells_.angles(cell))));
   }
-  [[nodiscard]] double inverse(double y, std::size_t cell) const noexcept {
+  [[nodiscard]] double inverse(double y, Eigen::Index cell) const noexcept {
     return inverse(y, (*reference_)[cell], cosine_weight(cosines(cells_.angles(cell))));
   }
   [[nodiscard]] double forward(double rho, const location& at) const noexcept {
@@ -87,18 +89,17 @@ class log_relative {
 
   /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
   static constexpr int companions = 1;
-  [[nodiscard]] std::array<float, 1> companion(std::size_t cell) const noexcept {
+  [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept {
     return {static_cast<float>(log_reference((*reference_)[cell]))};
   }
   template <class Values>
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     constexpr auto small = static_cast<float>(epsilon);
     values = values.exp();
-    for (std::size_t i = 0; i < row.count; ++i) {
-      const auto column = static_cast<Eigen::Index>(i);
+    for (Eigen::Index i = 0; i < row.count; ++i) {
       const float shift = small / static_cast<float>(cosine_weight(row.cosine(i)));
       // All four of a column at once; the fourth is not used.
-      const Eigen::Array4f rho = (values.col(column) * (values(3, column) + shift) - shift).max(0.0f);
+      const Eigen::Array4f rho = (values.col(i) * (values(3, i) + shift) - shift).max(0.0f);
       std::copy_n(rho.data(), 3, out.data() + 3 * i);
     }
   }
@@ -109,7 +110,7 @@ class log_relative {
   /// The reference BRDF at a location, in sr^-1.
   [[nodiscard]] double reference(const location& at) const noexcept {
     if (at.count == 1) return (*reference_)[at.cell[0]];
-    const auto value = [&](std::size_t cell) { return log_reference((*reference_)[cell]); };
+    const auto value = [&](Eigen::Index cell) { return log_reference((*reference_)[cell]); };
     return std::exp(interpolate(at, value, 0.0));
   }
 

@@ -4,7 +4,6 @@
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/upsample.hpp>
 
-#include <cstddef>
 #include <span>
 
 namespace gonio {
@@ -27,8 +26,7 @@ class place_free_metric {
   template <class Values>
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     metric().unmap_all(values);
-    Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, static_cast<Eigen::Index>(row.count)) =
-        values.max(0.0f);
+    Eigen::Map<Eigen::Array<float, 3, Eigen::Dynamic>>(out.data(), 3, row.count) = values.max(0.0f);
   }
 
  private:

@@ -22,7 +22,7 @@ namespace gonio::model {
 /// The shape of a lobe behind function pointers. There is one object of each kind, in static storage.
 class lobe_kind {
  public:
-  static constexpr std::size_t most_parameters = 4;
+  static constexpr Eigen::Index most_parameters = 4;
   using values = std::array<double, most_parameters>;  ///< those that a kind does not have are zero
 
   /// The kind of a shape that is known at compile time.
@@ -40,7 +40,7 @@ class lobe_kind {
   /// Where a fit may start.
   [[nodiscard]] values typical() const noexcept {
     values start{};
-    for (std::size_t i = 0; i < parameters_.size(); ++i) start[i] = parameters_[i].typical;
+    for (Eigen::Index i = 0; i < std::ssize(parameters_); ++i) start[i] = parameters_[i].typical;
     return start;
   }
 
@@ -71,14 +71,14 @@ class lobe_kind {
 
   template <template <class> class Shape>
   [[nodiscard]] static double slopes_of(const lobe_geometry& at, const values& p, values& slopes) {
-    constexpr std::size_t count = parameter_count<Shape>;
+    constexpr Eigen::Index count = parameter_count<Shape>;
     if constexpr (count == 0) {
       return value_of<Shape>(at, p);
     } else {
       constexpr int size = static_cast<int>(count);
       using number = Eigen::AutoDiffScalar<Eigen::Matrix<double, size, 1>>;
       std::array<number, count> own;
-      for (int i = 0; i < size; ++i) own[static_cast<std::size_t>(i)] = number(p[static_cast<std::size_t>(i)], size, i);
+      for (int i = 0; i < size; ++i) own[i] = number(p[i], size, i);
       const number found = shape_from<Shape, number>(own)(at);
       std::copy_n(found.derivatives().data(), count, slopes.begin());
       return found.value();

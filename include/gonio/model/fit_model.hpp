@@ -8,6 +8,8 @@
 
 #include <gonio/model/model_loss.hpp>
 
+#include <Eigen/Core>
+
 #include <span>
 #include <vector>
 
@@ -17,7 +19,7 @@ namespace gonio::model {
 struct model_fit {
   analytic_brdf model;
   double loss = 0.0;  ///< the weighted mean over measurements and channels of the norm of the residual
-  std::size_t evaluations = 0;
+  Eigen::Index evaluations = 0;
   bool converged = false;
   double promised_gain = 0.0;  ///< see `local_minimum`
 };

@@ -6,6 +6,8 @@
 #include <gonio/model/phong.hpp>
 #include <gonio/model/ward.hpp>
 
+#include <Eigen/Core>
+
 namespace gonio::model {
 
 /// `with_fresnel<Shape>::shape` is Shape times `fresnel_dielectric`; its last parameter is the refractive index.
@@ -13,7 +15,7 @@ template <template <class> class Shape>
 struct with_fresnel {
   template <class Real>
   struct shape {
-    static constexpr std::size_t count = parameter_count<Shape> + 1;
+    static constexpr Eigen::Index count = parameter_count<Shape> + 1;
     static constexpr auto parameters = [] {
       std::array<shape_parameter, count> all{};
       std::ranges::copy(Shape<double>::parameters, all.begin());

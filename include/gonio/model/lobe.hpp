@@ -5,6 +5,8 @@
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/error.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,7 +106,7 @@ concept lobe_shape = requires(Shape<double>& shape, const Shape<double>& constan
 
 /// How many parameters a shape has.
 template <template <class> class Shape>
-inline constexpr std::size_t parameter_count =
+inline constexpr Eigen::Index parameter_count =
     std::tuple_size_v<decltype(Shape<double>::members(std::declval<Shape<double>&>()))>;
 
 /// The parameters of a shape as an array.
@@ -120,7 +122,7 @@ template <template <class> class Shape, class Real>
   Shape<Real> shape;
   std::apply(
       [&](auto&... member) {
-        std::size_t i = 0;
+        Eigen::Index i = 0;
         ((member = values[i++]), ...);
       },
       Shape<Real>::members(shape));
@@ -151,7 +153,7 @@ class lobe {
   explicit lobe(rgb colour = rgb::Ones(), const shape_type& shape = {}) : colour_(std::move(colour)), shape_(shape) {
     require_usable_colour(shape_type::name, colour_);
     const auto values = values_of<Shape, double>(shape_);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(values); ++i)
       require_within_bounds(shape_type::name, shape_type::parameters[i], values[i]);
   }
 

@@ -8,6 +8,8 @@
 #include <gonio/model/sampling_techniques.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +35,7 @@ class direction_mixture {
   }
 
   [[nodiscard]] direction sample(const direction& wo, double u1, double u2) const noexcept {
-    const std::size_t at = viewer(wo);
+    const Eigen::Index at = viewer(wo);
     const entry* chosen = nullptr;
     double share = 1.0;
     for (const entry& e : entries_) {
@@ -49,7 +51,7 @@ class direction_mixture {
   }
 
   [[nodiscard]] double pdf(const direction& wi, const direction& wo) const noexcept {
-    const std::size_t at = viewer(wo);
+    const Eigen::Index at = viewer(wo);
     double sum = 0.0;
     for (const entry& e : entries_)
       if (e.shares[at] > 0.0)
@@ -58,7 +60,7 @@ class direction_mixture {
   }
 
   /// The cosine in the middle of an interval.
-  [[nodiscard]] static double cosine_of(std::size_t interval) {
+  [[nodiscard]] static double cosine_of(Eigen::Index interval) {
     return (static_cast<double>(interval) + 0.5) / static_cast<double>(by_viewer{}.size());
   }
 
@@ -68,9 +70,9 @@ class direction_mixture {
     by_viewer shares;
   };
 
-  [[nodiscard]] static std::size_t viewer(const direction& wo) noexcept {
-    constexpr std::size_t count = by_viewer{}.size();
-    return std::min(static_cast<std::size_t>(wo.z() * static_cast<double>(count)), count - 1);
+  [[nodiscard]] static Eigen::Index viewer(const direction& wo) noexcept {
+    constexpr Eigen::Index count = by_viewer{}.size();
+    return std::min<std::size_t>(static_cast<std::size_t>(wo.z() * static_cast<double>(count)), count - 1);
   }
 
   std::vector<entry> entries_;
@@ -94,7 +96,7 @@ template <class Lobe>
   }
   constexpr int side = 12;
   weighed_lobe weighed{techniques, {}};
-  for (std::size_t interval = 0; interval < weighed.albedo.size(); ++interval) {
+  for (Eigen::Index interval = 0; interval < std::ssize(weighed.albedo); ++interval) {
     double sum = 0.0;
     for (int draw = 0; draw < side * side; ++draw) {
       const direction wo = spherical_direction(std::acos(direction_mixture::cosine_of(interval)), 2.4 * draw);

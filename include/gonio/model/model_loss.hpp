@@ -32,9 +32,9 @@ struct model_fit_options {
   /// is sqrt(r^2 + (rounding median)^2), so that its error in the minimum is below that.
   double rounding = 1e-3, huber_width = 0.1;
   /// Random starts beside the consecutive scheme, of which the best end counts.
-  std::size_t random_starts = 0;
+  Eigen::Index random_starts = 0;
   std::uint64_t seed = 0;
-  std::size_t iteration_limit = 200;
+  Eigen::Index iteration_limit = 200;
   thread_count threads = {};
 };
 
@@ -47,7 +47,7 @@ struct chosen_metric {
 
   template <smooth_metric Metric>
   explicit chosen_metric(const Metric& metric)
-      : forward([metric](double rho) { return metric.forward(rho, std::size_t{0}); }),
+      : forward([metric](double rho) { return metric.forward(rho, Eigen::Index{0}); }),
         slope([metric](double rho) { return metric.slope(rho); }),
         linear(std::is_same_v<Metric, lin>) {}
 };
@@ -96,12 +96,12 @@ class model_loss {
   [[nodiscard]] Eigen::VectorXd with_colours(const Eigen::VectorXd& u) const;
 
  private:
-  static constexpr std::size_t block_size = 256;
+  static constexpr Eigen::Index block_size = 256;
 
   struct parameter_owner {
-    std::size_t lobe, parameter;
+    Eigen::Index lobe, parameter;
   };
-  [[nodiscard]] parameter_owner owner(Eigen::Index j) const { return owners_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] parameter_owner owner(Eigen::Index j) const { return owners_[j]; }
   [[nodiscard]] const shape_parameter& description(Eigen::Index j) const {
     return kinds_[owner(j).lobe]->parameters()[owner(j).parameter];
   }

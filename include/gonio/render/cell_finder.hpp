@@ -9,11 +9,13 @@
 
 #include <gonio/table/grid.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -31,26 +33,26 @@ class border_counter {
   /// Borders of numbers from 0 up to `end`.
   border_counter(const std::vector<double>& borders, double end) : borders_(borders.begin(), borders.end()) {
     borders_.push_back(static_cast<Real>(2.0 * end));  // reached by none
-    std::size_t bins = 64;
+    Eigen::Index bins = 64;
     while (!fill(bins, static_cast<Real>(end))) bins *= 2;
   }
 
   /// For a number from 0 to `end`.
-  [[nodiscard]] std::size_t operator()(Real number) const noexcept {
-    const std::size_t before = before_[static_cast<std::size_t>(number * bins_per_unit_)];
+  [[nodiscard]] Eigen::Index operator()(Real number) const noexcept {
+    const Eigen::Index before = before_[static_cast<Eigen::Index>(number * bins_per_unit_)];
     return before + (number >= borders_[before] ? 1u : 0u);
   }
 
  private:
   /// False if a bin has two borders.
-  bool fill(std::size_t bins, Real end) {
+  bool fill(Eigen::Index bins, Real end) {
     bins_per_unit_ = static_cast<Real>(bins) / end;
     before_.assign(bins + 1, 0);  // the last is for `end` itself
     std::vector<int> in_bin(bins + 1, 0);
-    for (std::size_t i = 0; i + 1 < borders_.size(); ++i)
-      ++in_bin[static_cast<std::size_t>(borders_[i] * bins_per_unit_)];
+    for (Eigen::Index i = 0; i + 1 < std::ssize(borders_); ++i)
+      ++in_bin[static_cast<Eigen::Index>(borders_[i] * bins_per_unit_)];
     if (std::ranges::any_of(in_bin, [](int count) { return count > 1; })) return false;
-    for (std::size_t bin = 1; bin <= bins; ++bin)
+    for (Eigen::Index bin = 1; bin <= bins; ++bin)
       before_[bin] = static_cast<std::uint16_t>(before_[bin - 1] + in_bin[bin - 1]);
     return true;
   }
@@ -75,9 +77,7 @@ template <std::floating_point Real = float>
 class cell_finder {
  public:
   /// O(theta_h + theta_d + phi_d).
-  explicit cell_finder(const grid& cells = grid())
-      : rows_(static_cast<std::size_t>(cells.extents().theta_d)),
-        columns_(static_cast<std::size_t>(cells.extents().phi_d)) {
+  explicit cell_finder(const grid& cells = grid()) : rows_(cells.extents().theta_d), columns_(cells.extents().phi_d) {
     const auto [theta_h, theta_d, phi_d] = cells.extents();
     // The border before node k is half a cell from it, which on the axis of theta_h is not the middle of two angles.
     const double shift = cells.anchor() == cell_anchor::centre ? 0.0 : -0.5;
@@ -99,22 +99,22 @@ class cell_finder {
   }
 
   /// The number where there is no cell.
-  static constexpr std::size_t none = SIZE_MAX;
+  static constexpr Eigen::Index none = std::numeric_limits<Eigen::Index>::max();
 
   /// The cell of a pair, and whether there is one.
   struct place {
-    std::size_t theta_h = 0, theta_d = 0, phi_d = 0;
+    Eigen::Index theta_h = 0, theta_d = 0, phi_d = 0;
     bool exists = false;
   };
 
   /// The linear number of the cell, phi_d fastest and theta_h slowest; `none` if a direction is at or below the
   /// horizon, or not finite. Directions are anything with three components `[0]`, `[1]`, `[2]`.
   template <class Direction>
-  [[nodiscard]] std::size_t operator()(const Direction& wi, const Direction& wo) const noexcept {
+  [[nodiscard]] Eigen::Index operator()(const Direction& wi, const Direction& wo) const noexcept {
     return at(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
   }
 
-  [[nodiscard]] std::size_t at(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
+  [[nodiscard]] Eigen::Index at(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) const noexcept {
     const place cell = find(ix, iy, iz, ox, oy, oz);
     return cell.exists ? (cell.theta_h * rows_ + cell.theta_d) * columns_ + cell.phi_d : none;
   }
@@ -129,7 +129,7 @@ class cell_finder {
     const bool on_axis = !(across > 0);
     const Real along = sx * dx + sy * dy;
     const Real x = on_axis ? dx : (sz * along - across * dz) / length, y = on_axis ? dy : sx * dy - sy * dx;
-    const std::size_t phi = phi_d_(half_turn_share(x, y));
+    const Eigen::Index phi = phi_d_(half_turn_share(x, y));
     return {theta_h_(std::sqrt(radius / (radius + sz))), theta_d_(apart / (apart + length)), phi < columns_ ? phi : 0,
             true};
   }
@@ -151,7 +151,7 @@ class cell_finder {
     return right >= 0 ? up / total : 1 + side / total;
   }
 
-  std::size_t rows_, columns_;
+  Eigen::Index rows_, columns_;
   detail::border_counter<Real> theta_h_, theta_d_, phi_d_;
 };
 

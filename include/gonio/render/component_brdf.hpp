@@ -10,11 +10,13 @@
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/lookup_table.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,9 +25,9 @@ namespace gonio::render {
 /// What components can be taken from: a basis of principal components relative to a reference, as
 /// `gonio::log_relative_pca` is one.
 template <class Basis>
-concept log_relative_components = requires(const Basis& basis, std::size_t cell) {
+concept log_relative_components = requires(const Basis& basis, Eigen::Index cell) {
   { basis.cells().grid() } -> std::convertible_to<grid>;
-  { basis.size() } -> std::convertible_to<std::size_t>;
+  { basis.size() } -> std::convertible_to<Eigen::Index>;
   { basis.row(cell)[cell] } -> std::convertible_to<double>;
   { basis.offset(cell) } -> std::convertible_to<double>;
   { basis.metric().reference()[cell] } -> std::convertible_to<double>;
@@ -39,47 +41,46 @@ class shared_components {
  public:
   /// The first `count` components of a basis, or all. Throws gonio::error if it has fewer. O(cells x components).
   template <log_relative_components Basis>
-  explicit shared_components(const Basis& basis, std::size_t count = SIZE_MAX)
+  explicit shared_components(const Basis& basis, std::optional<Eigen::Index> count = {})
       : index_(basis.cells().grid()),
-        size_(count == SIZE_MAX ? basis.size() : count),
+        size_(count ? *count : basis.size()),
         epsilon_(static_cast<float>(basis.metric().epsilon)) {
-    if (size_ == 0 || size_ > basis.size())
+    if (size_ < 1 || size_ > basis.size())
       refuse("cannot take " + std::to_string(size_) + " of " + std::to_string(basis.size()) + " components");
     values_.resize(index_.size() * stride());
     const auto [heights, rows, columns] = grid().extents();
     for (int h = 0; h < heights; ++h)
       for (int d = 0; d < rows; ++d)
         for (int p = 0; p < columns; ++p) {
-          const std::size_t number =
-              index_(static_cast<std::size_t>(h), static_cast<std::size_t>(d), static_cast<std::size_t>(p));
-          const std::size_t cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
+          const Eigen::Index number = index_(h, d, p);
+          const Eigen::Index cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
           Stored* const row = values_.data() + number * stride();
           // Zeros are far below epsilon and are floored, as in `log_relative`.
           const double reference = static_cast<double>(basis.metric().reference()[cell]);
           row[0] = static_cast<Stored>(static_cast<float>(std::log(std::max(reference, 1e-8))));
           row[1] = static_cast<Stored>(static_cast<float>(basis.offset(cell)));
-          for (std::size_t k = 0; k < size_; ++k)
+          for (Eigen::Index k = 0; k < size_; ++k)
             row[2 + k] = static_cast<Stored>(static_cast<float>(basis.row(cell)[k]));
         }
   }
 
   /// The number of components.
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
   [[nodiscard]] const horizon_index& index() const noexcept { return index_; }
   [[nodiscard]] float epsilon() const noexcept { return epsilon_; }
 
   /// Of a cell: the logarithm of the reference, mu, and `size()` components.
-  [[nodiscard]] const Stored* row(std::size_t number) const noexcept { return values_.data() + number * stride(); }
+  [[nodiscard]] const Stored* row(Eigen::Index number) const noexcept { return values_.data() + number * stride(); }
 
   /// In bytes.
-  [[nodiscard]] std::size_t memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
+  [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
 
  private:
-  [[nodiscard]] std::size_t stride() const noexcept { return size_ + 2; }
+  [[nodiscard]] Eigen::Index stride() const noexcept { return size_ + 2; }
 
   horizon_index index_;
-  std::size_t size_;
+  Eigen::Index size_;
   float epsilon_;
   std::vector<Stored> values_;
 };
@@ -96,15 +97,14 @@ class component_brdf {
  public:
   /// `weights` is k x 3, a column for each channel. Throws gonio::error if it is not or one is not finite.
   explicit component_brdf(const shared_components<Stored>& components, const Eigen::Ref<const Eigen::MatrixXd>& weights)
-      : components_(&components), weights_(static_cast<std::size_t>(weights.size()), 0.0f) {
-    if (weights.rows() != static_cast<Eigen::Index>(components.size()) || weights.cols() != 3 || !weights.allFinite())
+      : components_(&components), weights_(weights.size(), 0.0f) {
+    if (weights.rows() != components.size() || weights.cols() != 3 || !weights.allFinite())
       refuse("a BRDF of " + std::to_string(components.size()) +
              " components needs as many finite weights for each of " + "3 channels, not " +
              std::to_string(weights.rows()) + " x " + std::to_string(weights.cols()));
     // The three weights of a component beside each other.
     for (Eigen::Index k = 0; k < weights.rows(); ++k)
-      for (Eigen::Index c = 0; c < 3; ++c)
-        weights_[static_cast<std::size_t>(3 * k + c)] = static_cast<float>(weights(k, c));
+      for (Eigen::Index c = 0; c < 3; ++c) weights_[3 * k + c] = static_cast<float>(weights(k, c));
   }
 
   /// Reflectance in sr^-1 of a pair, `float` or `double`.
@@ -120,7 +120,7 @@ class component_brdf {
     } else {
       const trilinear_corners<Real> corners = components_->index().around(place);
       Eigen::Array<Real, 4, 1> sum = Eigen::Array<Real, 4, 1>::Zero();
-      for (std::size_t k = 0; k < 8; ++k) sum += corners.weight[k] * mapped<Real>(corners.number[k]);
+      for (Eigen::Index k = 0; k < 8; ++k) sum += corners.weight[k] * mapped<Real>(corners.number[k]);
       return reflectance(sum, weight);
     }
   }
@@ -128,18 +128,18 @@ class component_brdf {
   [[nodiscard]] const shared_components<Stored>& components() const noexcept { return *components_; }
 
   /// In bytes, without the components that are shared.
-  [[nodiscard]] std::size_t memory() const noexcept { return sizeof(*this) + weights_.size() * sizeof(float); }
+  [[nodiscard]] Eigen::Index memory() const noexcept { return sizeof(*this) + weights_.size() * sizeof(float); }
 
  private:
   /// Q c + mu of the three channels, and the logarithm of the reference.
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 4, 1> mapped(std::size_t number) const noexcept {
+  [[nodiscard]] Eigen::Array<Real, 4, 1> mapped(Eigen::Index number) const noexcept {
     const Stored* const row = components_->row(number);
     const auto mean = static_cast<float>(row[1]);
     std::array<float, 3> sum{mean, mean, mean};
-    for (std::size_t k = 0; k < components_->size(); ++k) {
+    for (Eigen::Index k = 0; k < components_->size(); ++k) {
       const auto value = static_cast<float>(row[2 + k]);
-      for (std::size_t c = 0; c < 3; ++c) sum[c] += weights_[3 * k + c] * value;
+      for (Eigen::Index c = 0; c < 3; ++c) sum[c] += weights_[3 * k + c] * value;
     }
     return {sum[0], sum[1], sum[2], static_cast<Real>(static_cast<float>(row[0]))};
   }

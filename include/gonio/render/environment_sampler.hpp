@@ -36,7 +36,7 @@ class environment_sampler {
   [[nodiscard]] sampled_light sample(double u1, double u2) const noexcept {
     const double place = u1 * reached_.back();
     const auto above = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, place);
-    const auto pixel_number = static_cast<std::size_t>(above - reached_.begin()) - 1;
+    const std::size_t pixel_number = (above - reached_.begin()) - 1;
     const std::size_t row = pixel_number / map_.columns(), column = pixel_number % map_.columns();
     // Where in its pixel the first number fell is as good as a third one.
     const double share = std::clamp((place - reached_[pixel_number]) / (*above - reached_[pixel_number]), 0.0, 1.0);

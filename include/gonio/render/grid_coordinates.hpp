@@ -52,7 +52,7 @@ template <std::floating_point Real>
 [[nodiscard]] inline Real arc_tangent_over_tangent(Real squared) noexcept {
   constexpr auto c = arc_tangent_coefficients<Real>();
   Real sum = c.back();
-  for (std::size_t i = c.size() - 1; i-- > 0;) sum = sum * squared + c[i];
+  for (Eigen::Index i = c.size() - 1; i-- > 0;) sum = sum * squared + c[i];
   return sum;
 }
 
@@ -139,7 +139,7 @@ template <class Real>
 struct component_arrays {
   std::span<Real> x, y, z;
 
-  [[nodiscard]] std::size_t size() const noexcept { return x.size(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return x.size(); }
 };
 
 /// The coordinates of several pairs, computed side by side: each step of `to_grid_coordinates` is a loop that compilers
@@ -147,24 +147,24 @@ struct component_arrays {
 template <std::floating_point Real>
 class grid_coordinates_block {
  public:
-  static constexpr std::size_t size = 32;
+  static constexpr Eigen::Index size = 32;
 
   /// Of pairs `first` to `first + count` of the arrays; at most `size`. Coordinates are from 0 to 1 also of pairs that
   /// are not above the horizon.
-  void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo, std::size_t first,
-               std::size_t count) noexcept {
+  void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo, Eigen::Index first,
+               Eigen::Index count) noexcept {
     if (count == size) return compute(wi, wo, first);
     // The last few are filled up with the normal.
     std::array<lanes, 6> copies;
     const std::array sources{wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
-    for (std::size_t k = 0; k < copies.size(); ++k) {
+    for (Eigen::Index k = 0; k < std::ssize(copies); ++k) {
       copies[k].fill(k % 3 == 2 ? Real(1) : Real(0));
-      std::copy_n(sources[k].begin() + static_cast<std::ptrdiff_t>(first), count, copies[k].begin());
+      std::copy_n(sources[k].begin() + first, count, copies[k].begin());
     }
     compute({copies[0], copies[1], copies[2]}, {copies[3], copies[4], copies[5]}, 0);
   }
 
-  [[nodiscard]] grid_coordinates<Real> operator[](std::size_t i) const noexcept {
+  [[nodiscard]] grid_coordinates<Real> operator[](Eigen::Index i) const noexcept {
     return {theta_h_[i], theta_d_[i], phi_d_[i]};
   }
 
@@ -172,11 +172,11 @@ class grid_coordinates_block {
   using lanes = std::array<Real, size>;
 
   void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
-               std::size_t first) noexcept {
+               Eigen::Index first) noexcept {
     const Real *ix = wi.x.data() + first, *iy = wi.y.data() + first, *iz = wi.z.data() + first;
     const Real *ox = wo.x.data() + first, *oy = wo.y.data() + first, *oz = wo.z.data() + first;
     alignas(64) lanes squared_h, squared_d, squared_phi, steep_h, steep_d, steep_phi, along, beside, length, left;
-    for (std::size_t i = 0; i < size; ++i) {
+    for (Eigen::Index i = 0; i < size; ++i) {
       const detail::pair_terms<Real> pair(ix[i], iy[i], iz[i], ox[i], oy[i], oz[i]);
       theta_h_[i] = squared_h[i] = pair.squared_h;
       theta_d_[i] = squared_d[i] = pair.squared_d;
@@ -189,7 +189,7 @@ class grid_coordinates_block {
     take_roots(theta_h_);
     take_roots(theta_d_);
     take_roots(length);
-    for (std::size_t i = 0; i < size; ++i) {
+    for (Eigen::Index i = 0; i < size; ++i) {
       const detail::azimuth_terms<Real> phi(along[i], beside[i] * length[i]);
       phi_d_[i] = phi.tangent;
       squared_phi[i] = phi.tangent * phi.tangent;
@@ -200,13 +200,13 @@ class grid_coordinates_block {
     take_roots(theta_h_);
     to_quarter_turns(theta_d_, squared_d, steep_d);
     to_quarter_turns(phi_d_, squared_phi, steep_phi);
-    for (std::size_t i = 0; i < size; ++i) phi_d_[i] = within(detail::half_turns(phi_d_[i], left[i]));
-    for (std::size_t i = 0; i < size; ++i) theta_h_[i] = within(theta_h_[i]);
-    for (std::size_t i = 0; i < size; ++i) theta_d_[i] = within(theta_d_[i]);
+    for (Eigen::Index i = 0; i < size; ++i) phi_d_[i] = within(detail::half_turns(phi_d_[i], left[i]));
+    for (Eigen::Index i = 0; i < size; ++i) theta_h_[i] = within(theta_h_[i]);
+    for (Eigen::Index i = 0; i < size; ++i) theta_d_[i] = within(theta_d_[i]);
   }
 
   static void to_quarter_turns(lanes& tangents, const lanes& squares, const lanes& steep) noexcept {
-    for (std::size_t i = 0; i < size; ++i) tangents[i] = detail::quarter_turns(tangents[i], squares[i], steep[i]);
+    for (Eigen::Index i = 0; i < size; ++i) tangents[i] = detail::quarter_turns(tangents[i], squares[i], steep[i]);
   }
 
   /// By Eigen: a compiler's own loop would set errno for negative numbers, one by one.

@@ -10,6 +10,8 @@
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/render/grid_coordinates.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,12 +30,12 @@ namespace detail {
 template <std::floating_point Real>
 class half_vector_bins {
  public:
-  static constexpr std::size_t rings = 60, sectors = 8, count = rings * sectors;
+  static constexpr Eigen::Index rings = 60, sectors = 8, count = rings * sectors;
   /// How much of a distribution is before each bin, and 1.
   using cumulative = std::array<float, count + 1>;
 
   half_vector_bins() {
-    for (std::size_t ring = 0; ring <= rings; ++ring) {
+    for (Eigen::Index ring = 0; ring <= rings; ++ring) {
       const double share = static_cast<double>(ring) / static_cast<double>(rings);
       const double s = std::sin(share * share * (std::numbers::pi / 4.0));
       heights_[ring] =
@@ -42,14 +44,14 @@ class half_vector_bins {
   }
 
   /// The solid angle of a bin on both sides.
-  [[nodiscard]] Real solid_angle(std::size_t bin) const noexcept {
-    const std::size_t ring = bin / sectors;
+  [[nodiscard]] Real solid_angle(Eigen::Index bin) const noexcept {
+    const Eigen::Index ring = bin / sectors;
     return (heights_[ring + 1] - heights_[ring]) * (2 * std::numbers::pi_v<Real> / static_cast<Real>(sectors));
   }
 
   /// A half vector within a bin, on its left, for a viewer in the xz plane; both numbers from 0 to 1.
-  [[nodiscard]] Eigen::Matrix<Real, 3, 1> within(std::size_t bin, Real along, Real around) const noexcept {
-    const std::size_t ring = bin / sectors;
+  [[nodiscard]] Eigen::Matrix<Real, 3, 1> within(Eigen::Index bin, Real along, Real around) const noexcept {
+    const Eigen::Index ring = bin / sectors;
     const Real height = heights_[ring] + along * (heights_[ring + 1] - heights_[ring]);
     const Real azimuth =
         (static_cast<Real>(bin % sectors) + around) * (std::numbers::pi_v<Real> / static_cast<Real>(sectors));
@@ -58,7 +60,7 @@ class half_vector_bins {
   }
 
   /// The bin of a half vector h above the horizon, of any length, for a viewer in the xz plane.
-  [[nodiscard]] std::size_t bin_of(const Eigen::Matrix<Real, 3, 1>& h) const noexcept {
+  [[nodiscard]] Eigen::Index bin_of(const Eigen::Matrix<Real, 3, 1>& h) const noexcept {
     const Real across = h.x() * h.x() + h.y() * h.y(), up = h.z() * h.z();
     const Real squared = std::min(across, up) / std::max(across, up);
     const Real share = std::sqrt(quarter_turns(std::sqrt(squared), squared, across > up ? Real(1) : Real(0)));
@@ -68,8 +70,8 @@ class half_vector_bins {
   }
 
  private:
-  [[nodiscard]] static std::size_t place(Real share, std::size_t parts) noexcept {
-    return std::min(static_cast<std::size_t>(share * static_cast<Real>(parts)), parts - 1);
+  [[nodiscard]] static Eigen::Index place(Real share, Eigen::Index parts) noexcept {
+    return std::min<std::size_t>(static_cast<std::size_t>(share * static_cast<Real>(parts)), parts - 1);
   }
 
   std::array<Real, rings + 1> heights_{};
@@ -96,7 +98,7 @@ class half_vector_sampler {
 
   /// Measures where the BRDF is bright: some 150,000 evaluations.
   explicit half_vector_sampler(Brdf f) : f_(std::move(f)), distributions_(viewers), ratios_(viewers) {
-    for (std::size_t viewer = 0; viewer < viewers; ++viewer) {
+    for (Eigen::Index viewer = 0; viewer < viewers; ++viewer) {
       distributions_[viewer] = distribution_for(viewer);
       ratios_[viewer] = best_ratio(viewer);
     }
@@ -107,7 +109,7 @@ class half_vector_sampler {
   /// Draws a direction by two numbers from 0 up to 1. Zero weight and density if wo is not above the horizon.
   [[nodiscard]] basic_sampled_direction<Real> sample(const vector& wo, Real u1, Real u2) const noexcept {
     if (!(wo.z() > 0)) return {};
-    const std::size_t viewer = viewer_of(wo);
+    const Eigen::Index viewer = viewer_of(wo);
     const Real ratio = ratios_[viewer];
     basic_sampled_direction<Real> drawn;
     drawn.wi = u1 < ratio ? mirrored(wo, viewer_turn(wo).from_plane(half_vector(viewer, u1 / ratio, u2)))
@@ -121,7 +123,7 @@ class half_vector_sampler {
   /// The density in sr^-1 with which `sample` draws wi, anywhere on the sphere.
   [[nodiscard]] Real pdf(const vector& wi, const vector& wo) const noexcept {
     if (!(wo.z() > 0)) return 0;
-    const std::size_t viewer = viewer_of(wo);
+    const Eigen::Index viewer = viewer_of(wo);
     const Real ratio = ratios_[viewer];
     return ratio * half_vector_pdf(viewer, wi, wo) + (1 - ratio) * cosine_weighted_pdf(wi);
   }
@@ -130,16 +132,16 @@ class half_vector_sampler {
   [[nodiscard]] Real ratio_of(const vector& wo) const noexcept { return ratios_[viewer_of(wo)]; }
 
  private:
-  static constexpr std::size_t viewers = 16;
+  static constexpr Eigen::Index viewers = 16;
   using bins = detail::half_vector_bins<Real>;
 
   /// Viewers are told apart by sqrt(1 - cos theta_o), nearly in even steps of the angle.
-  [[nodiscard]] static std::size_t viewer_of(const vector& wo) noexcept {
+  [[nodiscard]] static Eigen::Index viewer_of(const vector& wo) noexcept {
     const Real place = std::sqrt(std::max(1 - wo.z(), Real(0))) * static_cast<Real>(viewers);
-    return std::min(static_cast<std::size_t>(place), viewers - 1);
+    return std::min<std::size_t>(static_cast<std::size_t>(place), viewers - 1);
   }
   /// A viewer in the xz plane, `share` of the way through those of its number.
-  [[nodiscard]] static vector a_viewer(std::size_t viewer, double share) {
+  [[nodiscard]] static vector a_viewer(Eigen::Index viewer, double share) {
     const double place = (static_cast<double>(viewer) + share) / static_cast<double>(viewers);
     const double z = 1.0 - place * place;
     return {static_cast<Real>(std::sqrt(1.0 - z * z)), 0, static_cast<Real>(z)};
@@ -167,10 +169,10 @@ class half_vector_sampler {
   };
 
   /// A half vector of a viewer in the xz plane. One half of the second number's range is the right side.
-  [[nodiscard]] vector half_vector(std::size_t viewer, Real u1, Real u2) const noexcept {
+  [[nodiscard]] vector half_vector(Eigen::Index viewer, Real u1, Real u2) const noexcept {
     const auto& before = distributions_[viewer];
     const auto above = std::upper_bound(before.begin() + 1, before.end() - 1, static_cast<float>(u1));
-    const auto bin = static_cast<std::size_t>(above - before.begin()) - 1;
+    const Eigen::Index bin = (above - before.begin()) - 1;
     const Real first = before[bin], last = before[bin + 1];
     const Real along = std::clamp((u1 - first) / (last - first), Real(0), Real(1));
     const bool is_right = u2 >= Real(0.5);
@@ -179,12 +181,12 @@ class half_vector_sampler {
     return h;
   }
 
-  [[nodiscard]] Real half_vector_pdf(std::size_t viewer, const vector& wi, const vector& wo) const noexcept {
+  [[nodiscard]] Real half_vector_pdf(Eigen::Index viewer, const vector& wi, const vector& wo) const noexcept {
     vector h = wi + wo;
     if (h.z() < 0) h = -h;  // the same direction is reflected by both
     const Real length = h.norm();
     if (!(length > 0)) return 0;
-    const std::size_t bin = bins_.bin_of(viewer_turn(wo).to_plane(h));
+    const Eigen::Index bin = bins_.bin_of(viewer_turn(wo).to_plane(h));
     const auto& before = distributions_[viewer];
     const Real density = static_cast<Real>(before[bin + 1] - before[bin]) / bins_.solid_angle(bin);
     return density * length / (4 * std::abs(wo.dot(h)));
@@ -192,16 +194,16 @@ class half_vector_sampler {
 
   /// The density of half vectors with which an estimate of the light from everywhere varies least: in each bin the root
   /// of the mean square of f cos(theta_i) per solid angle of half vectors. And a little everywhere.
-  [[nodiscard]] typename bins::cumulative distribution_for(std::size_t viewer) const {
+  [[nodiscard]] typename bins::cumulative distribution_for(Eigen::Index viewer) const {
     std::array<double, bins::count> share{};
     double sum = 0.0;
-    for (std::size_t bin = 0; bin < bins::count; ++bin) {
+    for (Eigen::Index bin = 0; bin < bins::count; ++bin) {
       share[bin] = brightness(viewer, bin) * static_cast<double>(bins_.solid_angle(bin));
       sum += share[bin];
     }
     typename bins::cumulative before{};
     double reached = 0.0;
-    for (std::size_t bin = 0; bin < bins::count; ++bin) {
+    for (Eigen::Index bin = 0; bin < bins::count; ++bin) {
       before[bin] = static_cast<float>(reached);
       const double of_all = static_cast<double>(bins_.solid_angle(bin)) / (2.0 * std::numbers::pi);
       reached += sum > 0.0 ? (1.0 - everywhere) * share[bin] / sum + everywhere * of_all : of_all;
@@ -210,7 +212,7 @@ class half_vector_sampler {
     return before;
   }
 
-  [[nodiscard]] double brightness(std::size_t viewer, std::size_t bin) const {
+  [[nodiscard]] double brightness(Eigen::Index viewer, Eigen::Index bin) const {
     constexpr int side = 3, seen = 2;
     double squares = 0.0;
     for (int view = 0; view < seen; ++view) {
@@ -234,7 +236,7 @@ class half_vector_sampler {
   }
 
   /// The share of half vectors that makes the weights of a viewer vary least.
-  [[nodiscard]] Real best_ratio(std::size_t viewer) const {
+  [[nodiscard]] Real best_ratio(Eigen::Index viewer) const {
     const vector wo = a_viewer(viewer, 0.5);
     constexpr std::array ratios{0.0, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9};
     std::array<double, ratios.size()> second_moment{};
@@ -248,11 +250,10 @@ class half_vector_sampler {
           if (!(wi.z() > 0)) continue;
           const double by_half = half_vector_pdf(viewer, wi, wo), by_cosine = cosine_weighted_pdf(wi);
           const double value = mean_of(wi, wo), drawn = 0.5 * (by_half + by_cosine);
-          for (std::size_t r = 0; r < ratios.size(); ++r)
+          for (Eigen::Index r = 0; r < std::ssize(ratios); ++r)
             second_moment[r] += value * value / (ratios[r] * by_half + (1.0 - ratios[r]) * by_cosine) / drawn;
         }
-    return static_cast<Real>(
-        ratios[static_cast<std::size_t>(std::ranges::min_element(second_moment) - second_moment.begin())]);
+    return static_cast<Real>(ratios[std::ranges::min_element(second_moment) - second_moment.begin()]);
   }
 
   static constexpr double everywhere = 0.02;

@@ -5,10 +5,11 @@
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/table/grid.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ namespace gonio::render {
 /// The eight cells around a place, by their numbers, and weights that sum to 1.
 template <std::floating_point Real>
 struct trilinear_corners {
-  std::array<std::size_t, 8> number{};
+  std::array<Eigen::Index, 8> number{};
   std::array<Real, 8> weight{};
 };
 
@@ -27,7 +28,7 @@ namespace detail {
 /// The two nodes of an axis around a place, and how far it is from the lower to the upper.
 template <std::floating_point Real>
 struct node_interval {
-  std::size_t lower, upper;
+  Eigen::Index lower, upper;
   Real share;
 };
 
@@ -36,8 +37,7 @@ template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> clamped_nodes(Real place, int extent) noexcept {
   const Real inside = std::clamp(place, Real(0), static_cast<Real>(extent - 1));
   const auto lower = static_cast<int>(inside);
-  return {static_cast<std::size_t>(lower), static_cast<std::size_t>(std::min(lower + 1, extent - 1)),
-          inside - static_cast<Real>(lower)};
+  return {lower, std::min(lower + 1, extent - 1), inside - static_cast<Real>(lower)};
 }
 
 /// On an axis that wraps; places are from -1/2 to its extent.
@@ -45,9 +45,9 @@ template <std::floating_point Real>
 [[nodiscard]] inline node_interval<Real> periodic_nodes(Real place, int extent) noexcept {
   const auto upper = static_cast<int>(place + 1);
   const Real share = place + 1 - static_cast<Real>(upper);
-  if (upper == 0) return {static_cast<std::size_t>(extent - 1), 0, share};
-  const auto lower = static_cast<std::size_t>(upper > extent ? 0 : upper - 1);
-  return {lower, lower + 1 < static_cast<std::size_t>(extent) ? lower + 1 : 0, share};
+  if (upper == 0) return {extent - 1, 0, share};
+  const Eigen::Index lower = upper > extent ? 0 : upper - 1;
+  return {lower, lower + 1 < extent ? lower + 1 : 0, share};
 }
 
 }  // namespace detail
@@ -64,26 +64,26 @@ class horizon_index {
   explicit horizon_index(const gonio::grid& cells = gonio::grid());
 
   /// The number of cells above the horizon.
-  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return size_; }
   [[nodiscard]] const gonio::grid& grid() const noexcept { return grid_; }
 
   /// The number of a cell or, if it is below the horizon, of the one above that has the same theta_d and phi_d and the
   /// largest theta_h: that continues a table, so that no look-up near the horizon finds a hole.
-  [[nodiscard]] std::size_t operator()(std::size_t theta_h, std::size_t theta_d, std::size_t phi_d) const noexcept {
-    const std::size_t layer = std::min<std::size_t>(theta_h, last_[theta_d * columns_ + phi_d]);
+  [[nodiscard]] Eigen::Index operator()(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
+    const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
     return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
   }
 
   /// The number of the cell whose node is nearest to a place.
   template <std::floating_point Real>
-  [[nodiscard]] std::size_t nearest(const grid_coordinates<Real>& place) const noexcept {
+  [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& place) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
     const auto whole = [this](Real coordinate, int extent) {
       return static_cast<int>(coordinate * static_cast<Real>(extent) + (Real(0.5) - offset<Real>()));
     };
     const int phi = whole(place.phi_d, columns);
-    return (*this)(unsigned_of(std::min(whole(place.theta_h, heights), heights - 1)),
-                   unsigned_of(std::min(whole(place.theta_d, rows), rows - 1)), unsigned_of(phi < columns ? phi : 0));
+    return (*this)(std::min(whole(place.theta_h, heights), heights - 1), std::min(whole(place.theta_d, rows), rows - 1),
+                   phi < columns ? phi : 0);
   }
 
   /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
@@ -97,7 +97,7 @@ class horizon_index {
                d = detail::clamped_nodes(nodes(place.theta_d, rows), rows),
                p = detail::periodic_nodes(nodes(place.phi_d, columns), columns);
     trilinear_corners<Real> corners;
-    for (std::size_t k = 0; k < 8; ++k) {
+    for (Eigen::Index k = 0; k < 8; ++k) {
       const bool is_upper_h = (k & 4) != 0, is_upper_d = (k & 2) != 0, is_upper_p = (k & 1) != 0;
       corners.number[k] =
           (*this)(is_upper_h ? h.upper : h.lower, is_upper_d ? d.upper : d.lower, is_upper_p ? p.upper : p.lower);
@@ -108,28 +108,27 @@ class horizon_index {
   }
 
   /// In bytes.
-  [[nodiscard]] std::size_t memory() const noexcept {
+  [[nodiscard]] Eigen::Index memory() const noexcept {
     return begin_.size() * sizeof(std::uint32_t) + last_.size() * sizeof(std::uint16_t);
   }
 
  private:
   static constexpr std::uint16_t none = UINT16_MAX;
 
-  [[nodiscard]] static std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
   /// Of the first node from the axis' beginning, in cells.
   template <std::floating_point Real>
   [[nodiscard]] Real offset() const noexcept {
     return grid_.anchor() == cell_anchor::centre ? Real(0.5) : Real(0);
   }
 
-  [[nodiscard]] std::string sentence(std::size_t column) const;
+  [[nodiscard]] std::string sentence(Eigen::Index column) const;
 
   gonio::grid grid_;
-  std::size_t rows_, columns_;
+  Eigen::Index rows_, columns_;
   std::vector<std::uint32_t> begin_;  ///< by theta_h and theta_d: the number of the first cell less its phi_d
   std::vector<std::uint16_t> last_;   ///< by theta_d and phi_d: the largest theta_h above the horizon
   std::uint32_t size_ = 0;
-  std::size_t row_of_last_ = SIZE_MAX;
+  Eigen::Index row_of_last_ = -1;
 };
 
 }  // namespace gonio::render

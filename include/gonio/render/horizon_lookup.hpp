@@ -10,6 +10,8 @@
 #include <gonio/core/brdf.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 
 namespace gonio::render {
@@ -23,7 +25,7 @@ class horizon_lookup {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     location at = locate(table_->cells(), to_half_difference(wi, wo));
     double sum = 0.0;
-    for (std::size_t corner = 0; corner < static_cast<std::size_t>(at.count); ++corner) {
+    for (Eigen::Index corner = 0; corner < at.count; ++corner) {
       const cosine_pair cosine = cosines(table_->cells().angles(at.cell[corner]));
       at.weight[corner] *= std::max(cosine.i * cosine.o, smallest_weight);
       sum += at.weight[corner];

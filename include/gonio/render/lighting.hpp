@@ -179,7 +179,7 @@ class environment_lighting {
       : radiance_(std::move(radiance)) {
     GONIO_ASSERT(theta_h_bins >= 1 && phi_h_bins >= 1);
     const grid nodes({theta_h_bins, 1, 1}, cell_anchor::centre);
-    bins_.reserve(static_cast<std::size_t>(theta_h_bins) * static_cast<std::size_t>(phi_h_bins));
+    bins_.reserve(theta_h_bins * phi_h_bins);
     const double phi_step = 2.0 * std::numbers::pi / phi_h_bins;
     for (int i = 0; i < theta_h_bins; ++i) {
       const double ring = std::cos(nodes.theta_h(i - 0.5)) - std::cos(nodes.theta_h(i + 0.5));

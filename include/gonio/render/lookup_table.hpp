@@ -9,11 +9,12 @@
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -25,9 +26,9 @@ enum class interpolation { nearest, trilinear };
 
 /// What a table can be made of: values of the cells of a grid, such as a `brdf_table` has.
 template <class Table>
-concept table_over_cells = requires(const Table& table, std::size_t linear) {
+concept table_over_cells = requires(const Table& table, Eigen::Index linear) {
   { table.cells().grid() } -> std::convertible_to<grid>;
-  { table.cells().representative(linear) } -> std::convertible_to<std::size_t>;
+  { table.cells().representative(linear) } -> std::convertible_to<Eigen::Index>;
   { table.values()[linear] } -> std::convertible_to<double>;
 };
 
@@ -54,7 +55,7 @@ class lookup_table {
   [[nodiscard]] static lookup_table of(const Table& table) {
     const auto& values = table.values();
     return lookup_table(table.cells().grid(), [&](const cell_index& cell) {
-      const std::size_t at = 3 * table.cells().representative(table.cells().grid().linear(cell));
+      const Eigen::Index at = 3 * table.cells().representative(table.cells().grid().linear(cell));
       return std::array<double, 3>{values[at], values[at + 1], values[at + 2]};
     });
   }
@@ -64,12 +65,12 @@ class lookup_table {
   /// not finite.
   [[nodiscard]] static lookup_table from_merl(std::span<const double> planes,
                                               const gonio::grid& cells = gonio::grid()) {
-    const std::size_t plane = cells.size();
-    if (planes.size() != 3 * plane)
+    const Eigen::Index plane = cells.size();
+    if (std::ssize(planes) != 3 * plane)
       refuse("three planes of " + std::to_string(plane) + " values were expected of a MERL table, not " +
              std::to_string(planes.size()) + " values");
     return lookup_table(cells, [&](const cell_index& cell) {
-      const std::size_t at = cells.linear(cell);
+      const Eigen::Index at = cells.linear(cell);
       return std::array<double, 3>{planes[at] * merl_scale[0], planes[plane + at] * merl_scale[1],
                                    planes[2 * plane + at] * merl_scale[2]};
     });
@@ -109,13 +110,13 @@ class lookup_table {
     using block_type = grid_coordinates_block<Real>;
     block_type block;
     std::array<place_of<Real>, block_type::size> places;
-    for (std::size_t first = 0; first < out.size(); first += block_type::size) {
-      const std::size_t count = std::min(block_type::size, out.size() - first);
+    for (Eigen::Index first = 0; first < out.size(); first += block_type::size) {
+      const Eigen::Index count = std::min(block_type::size, out.size() - first);
       block.compute(wi, wo, first, count);
       // First where to read, then the reading, so that the processor can wait for several values at once.
-      for (std::size_t i = 0; i < count; ++i) places[i] = place(block[i]);
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t n = first + i;
+      for (Eigen::Index i = 0; i < count; ++i) places[i] = place(block[i]);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const Eigen::Index n = first + i;
         const bool is_lit = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]);
         const Eigen::Array<Real, 3, 1> colour = value_at<Real>(places[i]) * (is_lit ? Real(1) : Real(0));
         out.x[n] = colour.x();
@@ -128,7 +129,7 @@ class lookup_table {
   [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
 
   /// In bytes, of the values and the index.
-  [[nodiscard]] std::size_t memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
+  [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
 
  private:
   /// `value_of(cell_index)` is red, green and blue.
@@ -140,12 +141,11 @@ class lookup_table {
     for (int h = 0; h < heights; ++h)
       for (int d = 0; d < rows; ++d)
         for (int p = 0; p < columns; ++p) {
-          const std::size_t number =
-              index_(static_cast<std::size_t>(h), static_cast<std::size_t>(d), static_cast<std::size_t>(p));
+          const Eigen::Index number = index_(h, d, p);
           if (is_known[number]) continue;  // a cell below the horizon
           is_known[number] = true;
           const std::array<double, 3> value = value_of(cell_index{h, d, p});
-          for (std::size_t channel = 0; channel < 3; ++channel) {
+          for (Eigen::Index channel = 0; channel < 3; ++channel) {
             if (!std::isfinite(static_cast<float>(value[channel])))
               refuse("a table for rendering is not finite at theta_h " + std::to_string(h) + ", theta_d " +
                      std::to_string(d) + ", phi_d " + std::to_string(p));
@@ -159,7 +159,7 @@ class lookup_table {
 
   /// What is read for a pair: a cell, or eight with weights.
   template <std::floating_point Real>
-  using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::size_t, trilinear_corners<Real>>;
+  using place_of = std::conditional_t<Interpolation == interpolation::nearest, Eigen::Index, trilinear_corners<Real>>;
 
   template <std::floating_point Real>
   [[nodiscard]] place_of<Real> place(const grid_coordinates<Real>& coordinates) const noexcept {
@@ -175,13 +175,13 @@ class lookup_table {
       return value<Real>(where);
     } else {
       Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-      for (std::size_t k = 0; k < 8; ++k) sum += where.weight[k] * value<Real>(where.number[k]);
+      for (Eigen::Index k = 0; k < 8; ++k) sum += where.weight[k] * value<Real>(where.number[k]);
       return sum;
     }
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> value(std::size_t number) const noexcept {
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value(Eigen::Index number) const noexcept {
     const Stored* stored = values_.data() + 3 * number;
     const auto scale = static_cast<Real>(scale_);
     return {static_cast<Real>(stored[0]) * scale, static_cast<Real>(stored[1]) * scale,

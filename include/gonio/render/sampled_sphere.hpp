@@ -11,9 +11,10 @@
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
 
+#include <Eigen/Core>
+
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <numbers>
@@ -39,13 +40,13 @@ namespace detail {
 /// Quasirandom Sequences", 2018), and which pairs of two kinds belong together is drawn at random.
 class even_pairs {
  public:
-  static constexpr std::size_t kinds = 4;
+  static constexpr Eigen::Index kinds = 4;
   struct pair {
     double u = 0.0, v = 0.0;
   };
   using pairs = std::array<pair, kinds>;
 
-  even_pairs(std::size_t count, std::uint64_t seed, std::uint64_t stream);
+  even_pairs(Eigen::Index count, std::uint64_t seed, std::uint64_t stream);
 
   [[nodiscard]] auto begin() const noexcept { return all_.begin(); }
   [[nodiscard]] auto end() const noexcept { return all_.end(); }
@@ -78,8 +79,8 @@ template <direction_sampler Sampler>
 /// What the samples of a pixel, or a row of them, have seen.
 struct seen_light {
   rgb sum = rgb::Zero();
-  double white = 0.0;       ///< what a white Lambertian sphere would have reflected, in luminance
-  std::size_t covered = 0;  ///< samples that saw the sphere
+  double white = 0.0;        ///< what a white Lambertian sphere would have reflected, in luminance
+  Eigen::Index covered = 0;  ///< samples that saw the sphere
 };
 
 /// One sample of a pixel's square: x to the right and y upwards, from -1 to 1.
@@ -110,18 +111,18 @@ template <direction_sampler Sampler>
                                   const progress& listener = {}) {
   GONIO_ASSERT(view.size >= 1 && view.samples >= 1);
   // Allocate the image, and a sum of light for each row.
-  const auto side = static_cast<std::size_t>(view.size);
+  const Eigen::Index side = view.size;
   image picture = uniform_image(side, side, rgb::Zero());
   std::vector<detail::seen_light> rows(side);
   std::mutex reporting;
-  std::size_t done = 0;
+  Eigen::Index done = 0;
   // Average the samples of a pixel; each starts at a place within the pixel.
-  const auto place = [side](std::size_t pixel, double within) {
+  const auto place = [side](Eigen::Index pixel, double within) {
     return (static_cast<double>(pixel) + within) / static_cast<double>(side) * 2.0 - 1.0;
   };
-  const auto draw_pixel = [&](std::size_t row, std::size_t column) {
+  const auto draw_pixel = [&](Eigen::Index row, Eigen::Index column) {
     rows[row].sum.setZero();
-    for (const auto& u : detail::even_pairs(static_cast<std::size_t>(view.samples), view.seed, row * side + column))
+    for (const auto& u : detail::even_pairs(view.samples, view.seed, row * side + column))
       detail::add_sample(rows[row], material, light, place(column, u[0].u), -place(row, u[0].v), u,
                          view.shows_environment);
     set_pixel(picture, row, column, rows[row].sum / view.samples);
@@ -130,7 +131,7 @@ template <direction_sampler Sampler>
   for_each_block(
       side, 1,
       [&](block range) {
-        for (std::size_t column = 0; column < side; ++column) draw_pixel(range.begin, column);
+        for (Eigen::Index column = 0; column < side; ++column) draw_pixel(range.begin, column);
         const std::scoped_lock lock(reporting);
         report(listener, "rendering", static_cast<double>(++done) / static_cast<double>(side));
       },

@@ -40,7 +40,7 @@ template <brdf Brdf>
     if (view.axis == slice_axis::square_root) return nodes.theta_h(column);
     return (column + 0.5) / view.columns * (std::numbers::pi / 2.0);
   };
-  const auto rows = static_cast<std::size_t>(view.rows), columns = static_cast<std::size_t>(view.columns);
+  const std::size_t rows = view.rows, columns = view.columns;
   image picture({rows, columns, std::size_t{3}});
   for_each_block(
       rows, 1,
@@ -49,7 +49,7 @@ template <brdf Brdf>
         const double theta_d = nodes.theta_d(view.rows - 1 - static_cast<int>(row));
         for (int column = 0; column < view.columns; ++column) {
           const auto [wi, wo] = to_directions({theta_h(column), theta_d, std::numbers::pi / 2.0});
-          set_pixel(picture, row, static_cast<std::size_t>(column), std::numbers::pi * rgb(f(wi, wo)));
+          set_pixel(picture, row, column, std::numbers::pi * rgb(f(wi, wo)));
         }
       },
       threads);

@@ -12,6 +12,8 @@
 #include <gonio/render/lighting.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#include <Eigen/Core>
+
 #include <cstdint>
 #include <numbers>
 #include <numeric>
@@ -44,7 +46,7 @@ struct sphere_point {
 namespace detail {
 
 /// Samples on which one thread works at a time.
-inline constexpr std::size_t sphere_block = 32;
+inline constexpr Eigen::Index sphere_block = 32;
 
 /// The factor that brings the mean of a white sphere's luminances to 1; 1 if no light reaches it.
 [[nodiscard]] inline double exposure_from(const std::vector<double>& white_luminances) noexcept {
@@ -64,7 +66,7 @@ template <brdf Brdf, sphere_lighting Lighting>
   std::vector<double> white(points.size());
   for_each_index(
       points.size(), detail::sphere_block,
-      [&](std::size_t point) {
+      [&](Eigen::Index point) {
         lighting.for_each_incident(points[point].normal,
                                    [&](const direction& wi, const direction& wo, const rgb& weight) {
                                      radiance[point] += rgb(f(wi, wo)) * weight;
@@ -74,16 +76,16 @@ template <brdf Brdf, sphere_lighting Lighting>
       threads);
 
   // Replace each sample's share of the background by what it sees of the sphere.
-  const auto side = static_cast<std::size_t>(view.size);
+  const std::size_t side = view.size;
   const auto samples = static_cast<std::uint32_t>(view.supersampling);
   const double exposure = detail::exposure_from(white);
   std::vector<rgb> pixels(side * side, view.background);
-  for (std::size_t point = 0; point < points.size(); ++point) {
-    const std::size_t row = points[point].row / samples, column = points[point].column / samples;
+  for (Eigen::Index point = 0; point < std::ssize(points); ++point) {
+    const Eigen::Index row = points[point].row / samples, column = points[point].column / samples;
     pixels[row * side + column] += (exposure * radiance[point] - view.background) / (samples * samples);
   }
   image picture({side, side, std::size_t{3}});
-  for (std::size_t i = 0; i < pixels.size(); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
+  for (Eigen::Index i = 0; i < std::ssize(pixels); ++i) set_pixel(picture, i / side, i % side, pixels[i]);
   return picture;
 }
 
@@ -107,7 +109,7 @@ class sphere_operator {
         points_.size(), detail::sphere_block,
         [&](block range) {
           std::vector<entry> row;
-          for (std::size_t point = range.begin; point < range.end; ++point) {
+          for (Eigen::Index point = range.begin; point < range.end; ++point) {
             row.clear();
             lighting.for_each_incident(points_[point].normal,
                                        [&](const direction& wi, const direction& wo, const rgb& weight) {
@@ -130,18 +132,18 @@ class sphere_operator {
   [[nodiscard]] const std::vector<sphere_point>& points() const noexcept { return points_; }
 
   /// Number of entries that are not zero, for each of the three channels.
-  [[nodiscard]] std::size_t entries() const noexcept {
-    return std::accumulate(rows_.begin(), rows_.end(), std::size_t{0},
-                           [](std::size_t sum, const std::vector<entry>& row) { return sum + row.size(); });
+  [[nodiscard]] Eigen::Index entries() const noexcept {
+    return std::accumulate(rows_.begin(), rows_.end(), Eigen::Index{0},
+                           [](Eigen::Index sum, const std::vector<entry>& row) { return sum + row.size(); });
   }
 
   /// Calls `visit(cell, weight)` for each cell that light reaches a point by: the point's colour is the sum of
   /// reflectance times weight.
   template <class Visit>
-  void for_each_entry(std::size_t point, Visit&& visit) const {
-    GONIO_ASSERT(point < rows_.size());
+  void for_each_entry(Eigen::Index point, Visit&& visit) const {
+    GONIO_ASSERT(point < std::ssize(rows_));
     for (const auto& [cell, weight] : rows_[point])
-      visit(std::size_t{cell}, rgb(exposure_ * rgb(weight[0], weight[1], weight[2])));
+      visit(Eigen::Index{cell}, rgb(exposure_ * rgb(weight[0], weight[1], weight[2])));
   }
 
   /// The colours of a sphere made of this table. Same bytes for any number of threads. Throws gonio::error if
@@ -158,7 +160,7 @@ class sphere_operator {
   };
 
   [[nodiscard]] entry entry_of(const direction& wi, const direction& wo, const rgb& weight) const noexcept {
-    const std::size_t linear = cells_.grid().linear(cells_.grid().nearest(to_half_difference(wi, wo)));
+    const Eigen::Index linear = cells_.grid().linear(cells_.grid().nearest(to_half_difference(wi, wo)));
     return {static_cast<std::uint32_t>(linear),
             {static_cast<float>(weight.x()), static_cast<float>(weight.y()), static_cast<float>(weight.z())}};
   }
@@ -166,7 +168,7 @@ class sphere_operator {
   [[nodiscard]] rgb radiance(const std::vector<entry>& row, std::span<const float> values) const noexcept {
     rgb sum = rgb::Zero();
     for (const auto& [cell, weight] : row) {
-      const float* value = values.data() + 3 * std::size_t{cell};
+      const float* value = values.data() + 3 * Eigen::Index{cell};
       sum += rgb(value[0], value[1], value[2]) * rgb(weight[0], weight[1], weight[2]);
     }
     return exposure_ * sum;

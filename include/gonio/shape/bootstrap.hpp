@@ -6,7 +6,8 @@
 #include <gonio/shape/registration.hpp>
 #include <gonio/shape/shape_context_alignment.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <optional>
 #include <span>
 #include <string>
@@ -44,7 +45,7 @@ struct bootstrap_result {
   shape_model model;
   std::vector<bootstrap_outcome> outcomes;
 
-  [[nodiscard]] std::size_t accepted() const;
+  [[nodiscard]] Eigen::Index accepted() const;
 };
 
 /// Grows a model from corresponded shapes by scans of any triangulation. Scans that are refused are tried again by the

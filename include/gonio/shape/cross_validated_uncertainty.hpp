@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -15,8 +14,8 @@ namespace gonio::shape {
 
 /// How an uncertainty is measured.
 struct cross_validation_options {
-  std::size_t trials = 40;    ///< shapes that are left out and recovered
-  std::size_t parts = 5;      ///< of the shapes; one of them is left out at a time
+  Eigen::Index trials = 40;   ///< shapes that are left out and recovered
+  Eigen::Index parts = 5;     ///< of the shapes; one of them is left out at a time
   recovery_options recovery;  ///< by which the scan was recovered
   std::uint64_t seed = 1;     ///< of the noise
 };
@@ -37,12 +36,10 @@ class cross_validated_uncertainty {
                               const cross_validation_options& options = {}, thread_count threads = {});
 
   /// How many shapes were recovered.
-  [[nodiscard]] std::size_t trials() const noexcept { return trials_; }
+  [[nodiscard]] Eigen::Index trials() const noexcept { return trials_; }
 
   /// 3 x 3, of the position of one vertex about where it was recovered.
-  [[nodiscard]] const Eigen::Matrix3d& covariance(Eigen::Index vertex) const {
-    return covariances_[static_cast<std::size_t>(vertex)];
-  }
+  [[nodiscard]] const Eigen::Matrix3d& covariance(Eigen::Index vertex) const { return covariances_[vertex]; }
 
   /// A vertex is within the ellipsoid d' covariance^-1 d <= squared_radius(share) with this probability. So many of the
   /// vertices that were left out are, by the covariance of the other trials, and some more: the vertices of one shape
@@ -55,7 +52,7 @@ class cross_validated_uncertainty {
  private:
   void add_vertex(const std::vector<point_columns>& errors, Eigen::Index vertex);
 
-  std::size_t trials_ = 0;
+  Eigen::Index trials_ = 0;
   std::vector<Eigen::Matrix3d> covariances_;
   std::vector<double> squared_distances_;  // ascending
 };

@@ -10,7 +10,8 @@
 
 #include <gonio/shape/mesh_topology.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
+
 #include <functional>
 #include <vector>
 
@@ -28,7 +29,7 @@ namespace gonio::shape {
 [[nodiscard]] std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh& mesh, const mesh_topology& topology,
                                                               Eigen::Index source,
                                                               const std::function<bool(Eigen::Index)>& is_candidate,
-                                                              std::size_t count);
+                                                              Eigen::Index count);
 
 }  // namespace gonio::shape
 

@@ -3,8 +3,9 @@
 
 #include <gonio/shape/triangle_mesh.hpp>
 
+#include <Eigen/Core>
+
 #include <compare>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -23,13 +24,13 @@ class mesh_topology {
   /// Of triangles alone, among so many vertices.
   mesh_topology(const triangle_columns& triangles, Eigen::Index vertices);
 
-  [[nodiscard]] Eigen::Index vertices() const noexcept { return static_cast<Eigen::Index>(border_.size()); }
+  [[nodiscard]] Eigen::Index vertices() const noexcept { return std::ssize(border_); }
 
   /// The vertices that an edge joins to this one, ascending.
   [[nodiscard]] std::span<const int> neighbours(Eigen::Index vertex) const noexcept;
 
   /// Is the vertex on an edge of a single triangle, or on none?
-  [[nodiscard]] bool on_border(Eigen::Index vertex) const noexcept { return border_[static_cast<std::size_t>(vertex)]; }
+  [[nodiscard]] bool on_border(Eigen::Index vertex) const noexcept { return border_[vertex]; }
 
  private:
   /// From a vertex to a vertex, along a triangle.
@@ -54,7 +55,7 @@ class mesh_topology {
 
   [[nodiscard]] static bool is_one_chain(const std::vector<half_edge>& edges);
 
-  std::vector<std::size_t> first_;  // of each vertex in `neighbours_`
+  std::vector<Eigen::Index> first_;  // of each vertex in `neighbours_`
   std::vector<int> neighbours_;
   std::vector<bool> border_;
 };

@@ -5,7 +5,7 @@
 
 #include <gonio/shape/fit_to_scan.hpp>
 
-#include <cstddef>
+#include <Eigen/Core>
 
 namespace gonio::shape {
 
@@ -41,10 +41,10 @@ struct algorithm_1_options {
   correspondence_options correspondence{.reach = 3.0, .normal_agreement = 0.5, .tangential = 1.0};
   double first_explained_variance = 0.30;
   double last_explained_variance = 0.999;
-  int rounds = 10;              ///< of all vertices at once, while the explained variance rises
-  int local_rounds = 3;         ///< vertex by vertex, which smooths locally; 0 to go without
-  std::size_t neighbours = 10;  ///< known vertices that predict one in a local round
-  double confidence = 0.999;    ///< that a shape of the family is not refused
+  int rounds = 10;               ///< of all vertices at once, while the explained variance rises
+  int local_rounds = 3;          ///< vertex by vertex, which smooths locally; 0 to go without
+  Eigen::Index neighbours = 10;  ///< known vertices that predict one in a local round
+  double confidence = 0.999;     ///< that a shape of the family is not refused
 };
 
 namespace detail {

@@ -11,7 +11,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,15 +18,15 @@ namespace gonio::shape {
 
 /// The coordinates x, y, z of the first vertex, then of the next: the domain of shapes.
 struct vertex_coordinates {
-  std::size_t vertices = 0;
+  Eigen::Index vertices = 0;
 
   /// A shape has one value at each.
   static constexpr int channels = 1;
-  [[nodiscard]] std::size_t size() const noexcept { return 3 * vertices; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return 3 * vertices; }
   [[nodiscard]] friend bool operator==(const vertex_coordinates&, const vertex_coordinates&) = default;
 };
 
-[[nodiscard]] inline location locate_cell(const vertex_coordinates& /*coordinates*/, std::size_t coordinate) noexcept {
+[[nodiscard]] inline location locate_cell(const vertex_coordinates& /*coordinates*/, Eigen::Index coordinate) noexcept {
   return location_of(coordinate);
 }
 

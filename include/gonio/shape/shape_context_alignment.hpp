@@ -7,7 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -26,7 +25,7 @@ struct pre_alignment {
   similarity_transform transform;  ///< from the scan's to the model's coordinates; its scale is 1
   double mean_distance = 0.0;  ///< of the model's vertices to the closest scanned ones; the paper rejects above 5 mm
   double mean_scan_distance = 0.0;  ///< of the scanned vertices to the model's closest: holes do not add to this one
-  std::size_t matches = 0;          ///< that determined the pose
+  Eigen::Index matches = 0;         ///< that determined the pose
 };
 
 namespace detail {
@@ -42,8 +41,8 @@ struct matched_points {
 /// square of the distance and ends at a limit, which narrows from three times the root mean square until the tolerance,
 /// and then stays until the pose does. Narrowing ends early where less than a tenth of the matches would be left. It is
 /// an M-estimate with Epanechnikov's weights, approached from far as by Blake and Zisserman's graduated non-convexity.
-[[nodiscard]] std::pair<similarity_transform, std::size_t> robust_pose(const matched_points& points, Eigen::Index first,
-                                                                       double tolerance);
+[[nodiscard]] std::pair<similarity_transform, Eigen::Index> robust_pose(const matched_points& points,
+                                                                        Eigen::Index first, double tolerance);
 
 }  // namespace detail
 

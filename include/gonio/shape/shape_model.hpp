@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -29,7 +28,7 @@ class shape_model {
   [[nodiscard]] const mesh_topology& topology() const noexcept { return template_->topology; }
   [[nodiscard]] Eigen::Index vertices() const noexcept { return vertices_of(basis_); }
   /// How many shapes it was learned from.
-  [[nodiscard]] std::size_t shapes() const noexcept { return basis_.names().size(); }
+  [[nodiscard]] Eigen::Index shapes() const noexcept { return basis_.names().size(); }
 
   /// Vertices with the triangles of the model.
   [[nodiscard]] triangle_mesh mesh(point_columns vertices) const { return {std::move(vertices), triangles()}; }
@@ -49,9 +48,7 @@ class shape_model {
     mesh_topology topology;
   };
 
-  [[nodiscard]] static Eigen::Index vertices_of(const shape_basis& basis) {
-    return static_cast<Eigen::Index>(basis.cells().vertices);
-  }
+  [[nodiscard]] static Eigen::Index vertices_of(const shape_basis& basis) { return basis.cells().vertices; }
 
   shape_basis basis_;
   std::shared_ptr<const surface_template> template_;

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <span>
 
 namespace gonio::shape {
@@ -28,12 +27,12 @@ class shape_with_motion {
   /// of another number of vertices.
   shape_with_motion(shape_basis shape, const point_columns& moved, double freedom = 1e3);
 
-  [[nodiscard]] std::size_t size() const noexcept { return shape_.size() + std::size_t{motions}; }
+  [[nodiscard]] Eigen::Index size() const noexcept { return shape_.size() + Eigen::Index{motions}; }
   [[nodiscard]] const vertex_coordinates& cells() const noexcept { return shape_.cells(); }
-  [[nodiscard]] std::span<const float> row(std::size_t coordinate) const {
-    return {&functions_(static_cast<Eigen::Index>(coordinate), 0), size()};
+  [[nodiscard]] std::span<const float> row(Eigen::Index coordinate) const {
+    return std::span(&functions_(coordinate, 0), size());
   }
-  [[nodiscard]] double offset(std::size_t coordinate) const { return shape_.offset(coordinate); }
+  [[nodiscard]] double offset(Eigen::Index coordinate) const { return shape_.offset(coordinate); }
   [[nodiscard]] const lin& metric() const noexcept { return shape_.metric(); }
 
   /// The basis of shapes alone.

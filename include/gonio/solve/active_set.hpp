@@ -43,7 +43,7 @@ class active_set {
         x_(Eigen::VectorXd::Zero(normal.unknowns())),
         descent_(rhs_),
         norms_(gram_.diagonal().cwiseSqrt()),
-        barred_(static_cast<std::size_t>(normal.unknowns()), false) {
+        barred_(normal.unknowns(), false) {
     for (Eigen::Index j = 0; j < norms_.size(); ++j)
       if (norms_[j] > 0.0) rhs_scale_ = std::max(rhs_scale_, std::abs(rhs_[j]) / norms_[j]);
     choose_entering();
@@ -75,7 +75,7 @@ class active_set {
       update_descent();
     } else {
       sign_[entering] = 0.0;
-      barred_[static_cast<std::size_t>(entering)] = true;
+      barred_[entering] = true;
     }
     look_for_entering();
   }
@@ -98,7 +98,7 @@ class active_set {
 
   [[nodiscard]] bool append(Eigen::Index column) {
     Eigen::VectorXd cross(std::ssize(passive_));
-    for (Eigen::Index i = 0; i < cross.size(); ++i) cross[i] = gram_(passive_[static_cast<std::size_t>(i)], column);
+    for (Eigen::Index i = 0; i < cross.size(); ++i) cross[i] = gram_(passive_[i], column);
     if (!factor_.append(cross, gram_(column, column))) return false;
     passive_.push_back(column);
     return true;
@@ -109,13 +109,12 @@ class active_set {
   [[nodiscard]] bool exchange(Eigen::Index column) {
     if (lambda_ == 0.0) return false;
     Eigen::VectorXd combination(std::ssize(passive_));
-    for (Eigen::Index i = 0; i < combination.size(); ++i)
-      combination[i] = gram_(passive_[static_cast<std::size_t>(i)], column);
+    for (Eigen::Index i = 0; i < combination.size(); ++i) combination[i] = gram_(passive_[i], column);
     factor_.solve(combination);
     double length = std::numeric_limits<double>::infinity();
     Eigen::Index first = -1;
     for (Eigen::Index i = 0; i < combination.size(); ++i) {
-      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      const Eigen::Index j = passive_[i];
       const double shrinking = combination[i] * sign_[column] * sign_[j];
       if (shrinking > 0.0 && std::abs(x_[j]) / shrinking < length) {
         length = std::abs(x_[j]) / shrinking;
@@ -123,8 +122,7 @@ class active_set {
       }
     }
     if (first < 0) return false;
-    for (Eigen::Index i = 0; i < combination.size(); ++i)
-      x_[passive_[static_cast<std::size_t>(i)]] -= length * sign_[column] * combination[i];
+    for (Eigen::Index i = 0; i < combination.size(); ++i) x_[passive_[i]] -= length * sign_[column] * combination[i];
     drop(first);
     if (!append(column)) return false;
     x_[column] = length * sign_[column];
@@ -143,7 +141,7 @@ class active_set {
   [[nodiscard]] Eigen::VectorXd optimum_of_passive() const {
     Eigen::VectorXd z(std::ssize(passive_));
     for (Eigen::Index i = 0; i < z.size(); ++i) {
-      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      const Eigen::Index j = passive_[i];
       z[i] = rhs_[j] - lambda_ * sign_[j];
     }
     factor_.solve(z);
@@ -160,22 +158,22 @@ class active_set {
       double length = 1.0;
       bool inside = true;
       for (Eigen::Index i = 0; i < z.size(); ++i) {
-        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        const Eigen::Index j = passive_[i];
         if (z[i] * sign_[j] > 0.0) continue;
         inside = false;
         const double distance = std::abs(x_[j]) + std::abs(z[i]);
         length = std::min(length, distance > 0.0 ? std::abs(x_[j]) / distance : 0.0);
       }
       for (Eigen::Index i = 0; i < z.size(); ++i) {
-        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        const Eigen::Index j = passive_[i];
         x_[j] = inside ? z[i] : x_[j] + length * (z[i] - x_[j]);
       }
       if (inside) return;
       for (Eigen::Index i = z.size() - 1; i >= 0; --i) {
-        const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+        const Eigen::Index j = passive_[i];
         const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(z[i]);
         if (z[i] * sign_[j] > 0.0 || x_[j] * sign_[j] > rounding) continue;
-        barred_[static_cast<std::size_t>(j)] = refined;
+        barred_[j] = refined;
         drop(i);
       }
     }
@@ -187,11 +185,10 @@ class active_set {
     Eigen::VectorXd correction(z.size());
     for (int round = 0; round < 3; ++round) {
       for (Eigen::Index i = 0; i < z.size(); ++i) {
-        const Eigen::Index row = passive_[static_cast<std::size_t>(i)];
+        const Eigen::Index row = passive_[i];
         compensated_sum misfit(rhs_[row]);
         misfit.add(-lambda_ * sign_[row]);
-        for (Eigen::Index j = 0; j < z.size(); ++j)
-          misfit.add_product(-gram_(passive_[static_cast<std::size_t>(j)], row), z[j]);
+        for (Eigen::Index j = 0; j < z.size(); ++j) misfit.add_product(-gram_(passive_[j], row), z[j]);
         correction[i] = misfit.value();
       }
       factor_.solve(correction);
@@ -227,7 +224,7 @@ class active_set {
     double worst = 0.0, least = std::numeric_limits<double>::infinity();
     std::ptrdiff_t weakest = -1;
     for (std::ptrdiff_t i = 0; i < std::ssize(passive_); ++i) {
-      const Eigen::Index j = passive_[static_cast<std::size_t>(i)];
+      const Eigen::Index j = passive_[i];
       worst = std::max(worst, std::abs(descent_[j] - lambda_ * sign_[j]) / norms_[j]);
       const double share = factor_.pivot(i) / gram_(j, j);
       if (share >= least) continue;
@@ -235,7 +232,7 @@ class active_set {
       weakest = i;
     }
     if (weakest < 0 || worst <= 1e-11 * terms()) return false;
-    barred_[static_cast<std::size_t>(passive_[static_cast<std::size_t>(weakest)])] = true;
+    barred_[passive_[weakest]] = true;
     drop(weakest);
     return true;
   }
@@ -252,7 +249,7 @@ class active_set {
     double best = 1e-15 * terms();
     entering_ = -1;
     for (Eigen::Index j = 0; j < descent_.size(); ++j) {
-      if (sign_[j] != 0.0 || norms_[j] == 0.0 || barred_[static_cast<std::size_t>(j)]) continue;
+      if (sign_[j] != 0.0 || norms_[j] == 0.0 || barred_[j]) continue;
       const double slope = Signs == sign_rule::any ? std::abs(descent_[j]) : descent_[j];
       if (slope - lambda_ <= best * norms_[j]) continue;
       best = (slope - lambda_) / norms_[j];

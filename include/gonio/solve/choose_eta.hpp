@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
@@ -63,7 +62,7 @@ struct summed_scores {
   }
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& etas) const {
     Eigen::VectorXd sum = parts.front()(etas);
-    for (std::size_t i = 1; i < parts.size(); ++i) sum += parts[i](etas);
+    for (Eigen::Index i = 1; i < std::ssize(parts); ++i) sum += parts[i](etas);
     return sum;
   }
 };

@@ -82,10 +82,10 @@ class product_sum {
     const Scalar* row = buffer_.data();
     for (Eigen::Index r = 0; r < count; ++r, row += stride) {
       const piece left = Eigen::Map<const piece>(row + i);
-      for (std::size_t c = 0; c < tile_columns; ++c) products[c] += left * row[j + static_cast<Eigen::Index>(c)];
+      for (Eigen::Index c = 0; c < tile_columns; ++c) products[c] += left * row[j + c];
     }
-    for (std::size_t c = 0; c < tile_columns; ++c)
-      sum_.col(j + static_cast<Eigen::Index>(c)).segment(i, tile_rows).array() += products[c].template cast<double>();
+    for (Eigen::Index c = 0; c < tile_columns; ++c)
+      sum_.col(j + c).segment(i, tile_rows).array() += products[c].template cast<double>();
   }
 
   Eigen::Index columns_;
@@ -108,10 +108,9 @@ requires(std::same_as<typename Derived::Scalar, float>&& bool(Derived::IsRowMajo
   using sum_type = detail::product_sum<Products>;
   const sum_type zero(rows.cols());
   return sum_over_blocks(
-             static_cast<std::size_t>(rows.rows()), sum_type::block_rows, zero,
+             rows.rows(), sum_type::block_rows, zero,
              [&](sum_type& sum, block range) {
-               const auto begin = static_cast<Eigen::Index>(range.begin),
-                          count = static_cast<Eigen::Index>(range.size());
+               const Eigen::Index begin = range.begin, count = range.size();
                sum.rows(count) = rows.middleRows(begin, count).template cast<Products>();
                sum.add(count);
              },

@@ -4,6 +4,8 @@
 
 #include <gonio/solve/coordinate_descent.hpp>
 
+#include <Eigen/Core>
+
 #include <cmath>
 #include <string>
 #include <vector>
@@ -56,7 +58,7 @@ struct lasso_path {
 };
 
 /// `count` penalties in geometric progression from `largest_lambda` down to `smallest_share` of it.
-[[nodiscard]] std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count = 50,
+[[nodiscard]] std::vector<double> lambda_sequence(const normal_equations& normal, Eigen::Index count = 50,
                                                   double smallest_share = 1e-3, sign_rule signs = sign_rule::any);
 
 /// Solves for each penalty, starting from the solution of the one before. Best given falling. `problem` is a

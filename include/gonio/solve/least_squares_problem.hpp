@@ -49,7 +49,7 @@ class least_squares_problem {
 
   [[nodiscard]] Eigen::Index equations() const noexcept { return equations_->rows.rows; }
   [[nodiscard]] Eigen::Index unknowns() const noexcept {
-    return columns_ ? static_cast<Eigen::Index>(columns_->size()) : equations_->rows.columns;
+    return columns_ ? std::ssize(*columns_) : equations_->rows.columns;
   }
 
   /// A, gathered: n x k, in double precision. For small problems.
@@ -80,15 +80,15 @@ class least_squares_problem {
   /// Calls `use(range, rows)` for blocks of A in double precision, in order, one after the other.
   template <class Use>
   void for_each_row_block(Use&& use) const {
-    const auto n = static_cast<std::size_t>(equations());
-    for (std::size_t begin = 0; begin < n; begin += block_rows) {
+    const Eigen::Index n = equations();
+    for (Eigen::Index begin = 0; begin < n; begin += block_rows) {
       const block range{begin, std::min(n, begin + block_rows)};
       use(range, read(range));
     }
   }
 
  private:
-  static constexpr std::size_t block_rows = 1024;
+  static constexpr Eigen::Index block_rows = 1024;
 
   struct stored {
     row_source rows;
@@ -106,7 +106,7 @@ class least_squares_problem {
   /// The one place where rows come in.
   [[nodiscard]] row_matrix read(block range) const;
 
-  static void require_finite(const row_matrix& part, std::size_t first_row);
+  static void require_finite(const row_matrix& part, Eigen::Index first_row);
 
   void read_all() const {
     for_each_row_block([](block, const row_matrix&) {});

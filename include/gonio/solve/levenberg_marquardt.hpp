@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -29,7 +28,7 @@ struct unknown_bounds {
 };
 
 struct levenberg_marquardt_options {
-  std::size_t iteration_limit = 200;
+  Eigen::Index iteration_limit = 200;
   /// Ends where no unknown moves by more than this share of itself, or of 1 if it is smaller.
   double smallest_step = 1e-12;
   /// Ends where the parabola promises less than this share of the value.
@@ -42,7 +41,7 @@ struct levenberg_marquardt_options {
 struct local_minimum {
   Eigen::VectorXd unknowns;
   double value = 0.0;
-  std::size_t evaluations = 0;
+  Eigen::Index evaluations = 0;
   bool converged = false;  ///< false: the limit of iterations came first
   /// The KKT residual: by how much the parabola still falls within the bounds, as a share of the value at the start.
   double promised_gain = 0.0;

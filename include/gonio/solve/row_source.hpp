@@ -25,7 +25,7 @@ using row_block = Eigen::Ref<row_matrix, 0, Eigen::OuterStride<>>;
 /// ```cpp
 /// // The powers of 1,000,000 numbers, never stored.
 /// gonio::row_source powers{1'000'000, 4, [](gonio::block range, gonio::row_block out) {
-///   for (std::size_t i = range.begin; i < range.end; ++i)
+///   for (Eigen::Index i = range.begin; i < range.end; ++i)
 ///     for (int power = 0; power < 4; ++power) out(i - range.begin, power) = std::pow(1e-6 * i, power);
 /// }};
 /// ```

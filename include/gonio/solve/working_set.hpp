@@ -30,7 +30,7 @@ class working_set {
   [[nodiscard]] const std::vector<Eigen::Index>& free() const noexcept { return free_; }
   /// In the order of r.
   [[nodiscard]] const std::vector<Eigen::Index>& rows() const noexcept { return rows_; }
-  [[nodiscard]] bool is_free(Eigen::Index j) const { return is_free_[static_cast<std::size_t>(j)]; }
+  [[nodiscard]] bool is_free(Eigen::Index j) const { return is_free_[j]; }
   [[nodiscard]] bool has_row(Eigen::Index i) const { return std::ranges::find(rows_, i) != rows_.end(); }
 
   /// Returns false and leaves the weight where it is if its column depends on the free ones. O(p^2).

@@ -5,6 +5,8 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/location.hpp>
 
+#include <Eigen/Core>
+
 #include <span>
 #include <utility>
 #include <vector>
@@ -25,14 +27,14 @@ class brdf_table {
   [[nodiscard]] std::span<const float> values() const noexcept { return values_; }
   [[nodiscard]] std::span<float> values() noexcept { return values_; }
 
-  [[nodiscard]] rgb at(std::size_t cell) const noexcept {
+  [[nodiscard]] rgb at(Eigen::Index cell) const noexcept {
     const float* value = values_.data() + 3 * cell;
     return {value[0], value[1], value[2]};
   }
 
-  void set(std::size_t cell, const rgb& value) noexcept {
-    for (std::size_t channel = 0; channel < 3; ++channel)
-      values_[3 * cell + channel] = static_cast<float>(value[static_cast<Eigen::Index>(channel)]);
+  void set(Eigen::Index cell, const rgb& value) noexcept {
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      values_[3 * cell + channel] = static_cast<float>(value[channel]);
   }
 
   /// Trilinear interpolation of the stored values; zero below the horizon.
@@ -45,9 +47,8 @@ class brdf_table {
   [[nodiscard]] rgb at(const location& at) const noexcept {
     rgb sum(0.0, 0.0, 0.0);
     for (int corner = 0; corner < at.count; ++corner) {
-      const auto slot = static_cast<std::size_t>(corner);
-      const float* value = values_.data() + 3 * std::size_t{at.cell[slot]};
-      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[slot] * double{value[channel]};
+      const float* value = values_.data() + 3 * Eigen::Index{at.cell[corner]};
+      for (Eigen::Index channel = 0; channel < 3; ++channel) sum[channel] += at.weight[corner] * double{value[channel]};
     }
     return sum;
   }
@@ -68,7 +69,7 @@ class nearest_lookup {
   [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
     if (!(wi.z() > 0.0 && wo.z() > 0.0)) return {0.0, 0.0, 0.0};
     const valid_cells& cells = table_->cells();
-    const std::size_t linear = cells.grid().linear(cells.grid().nearest(to_half_difference(wi, wo)));
+    const Eigen::Index linear = cells.grid().linear(cells.grid().nearest(to_half_difference(wi, wo)));
     return cells.contains(linear) ? table_->at(cells.representative(linear)) : rgb(0.0, 0.0, 0.0);
   }
 
@@ -84,7 +85,7 @@ template <brdf Brdf>
   brdf_table table(cells);
   for_each_index(
       cells.size(), 4096,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         const auto [wi, wo] = to_directions(cells.angles(cell));
         table.set(cell, f(wi, wo));
       },

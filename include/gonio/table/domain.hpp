@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include <concepts>
-#include <cstddef>
 
 namespace gonio {
 
@@ -21,16 +20,16 @@ namespace gonio {
 /// struct wavelengths {
 ///   std::vector<double> nanometres;
 ///   static constexpr int channels = 1;
-///   std::size_t size() const { return nanometres.size(); }
+///   Eigen::Index size() const { return nanometres.size(); }
 ///   bool operator==(const wavelengths&) const = default;
 /// };
-/// gonio::location locate_cell(const wavelengths&, std::size_t i) { return gonio::location_of(i); }
+/// gonio::location locate_cell(const wavelengths&, Eigen::Index i) { return gonio::location_of(i); }
 /// static_assert(gonio::domain<wavelengths>);
 /// ```
 template <class Places>
 concept domain = std::copyable<Places> && std::equality_comparable<Places> &&
-    requires(const Places& locations, std::size_t place) {
-  { locations.size() } -> std::convertible_to<std::size_t>;
+    requires(const Places& locations, Eigen::Index place) {
+  { locations.size() } -> std::convertible_to<Eigen::Index>;
   { locate_cell(locations, place) } -> std::same_as<location>;
 };
 

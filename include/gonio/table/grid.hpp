@@ -6,11 +6,12 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <compare>
-#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -62,18 +63,16 @@ class grid {
   [[nodiscard]] cell_anchor anchor() const noexcept { return anchor_; }
 
   /// Number of cells, valid or not.
-  [[nodiscard]] std::size_t size() const noexcept {
-    return unsigned_of(extents_.theta_h) * unsigned_of(extents_.theta_d) * unsigned_of(extents_.phi_d);
+  [[nodiscard]] Eigen::Index size() const noexcept {
+    return Eigen::Index{extents_.theta_h} * extents_.theta_d * extents_.phi_d;
   }
 
-  [[nodiscard]] std::size_t linear(const cell_index& cell) const noexcept {
-    return (unsigned_of(cell.theta_h) * unsigned_of(extents_.theta_d) + unsigned_of(cell.theta_d)) *
-               unsigned_of(extents_.phi_d) +
-           unsigned_of(cell.phi_d);
+  [[nodiscard]] Eigen::Index linear(const cell_index& cell) const noexcept {
+    return (Eigen::Index{cell.theta_h} * extents_.theta_d + cell.theta_d) * extents_.phi_d + cell.phi_d;
   }
 
-  [[nodiscard]] cell_index cell(std::size_t linear) const noexcept {
-    const std::size_t phi = unsigned_of(extents_.phi_d), theta = unsigned_of(extents_.theta_d);
+  [[nodiscard]] cell_index cell(Eigen::Index linear) const noexcept {
+    const Eigen::Index phi = extents_.phi_d, theta = extents_.theta_d;
     return {static_cast<int>(linear / (phi * theta)), static_cast<int>(linear / phi % theta),
             static_cast<int>(linear % phi)};
   }
@@ -119,7 +118,6 @@ class grid {
 
   [[noreturn]] static void refuse_extents(const grid_extents& extents);
 
-  [[nodiscard]] static constexpr std::size_t unsigned_of(int value) noexcept { return static_cast<std::size_t>(value); }
   [[nodiscard]] double offset() const noexcept { return anchor_ == cell_anchor::centre ? 0.5 : 0.0; }
   [[nodiscard]] static int nearest_node(double coordinate, int extent) noexcept {
     return static_cast<int>(std::clamp(std::floor(coordinate + 0.5), 0.0, static_cast<double>(extent - 1)));
@@ -142,7 +140,7 @@ void for_each_smaller_cosine(const grid& cells, Visit&& visit) {
   const auto [heights, rows, columns] = cells.extents();
   std::vector<double> cos_phi;
   for (int k = 0; k < columns; ++k) cos_phi.push_back(std::abs(std::cos(cells.phi_d(k))));
-  std::size_t linear = 0;
+  Eigen::Index linear = 0;
   for (int i = 0; i < heights; ++i) {
     const double cos_h = std::cos(cells.theta_h(i)), sin_h = std::sin(cells.theta_h(i));
     for (int j = 0; j < rows; ++j) {

@@ -4,6 +4,8 @@
 
 #include <gonio/table/valid_cells.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,7 +28,7 @@ struct location {
 };
 
 /// The location that reads one location alone. Without angles: the location may not have any.
-[[nodiscard]] inline location location_of(std::size_t place) noexcept {
+[[nodiscard]] inline location location_of(Eigen::Index place) noexcept {
   location at;
   at.cell[0] = static_cast<std::uint32_t>(place);
   at.weight[0] = 1.0;
@@ -35,7 +37,7 @@ struct location {
 }
 
 /// The location of a cell's own node.
-[[nodiscard]] inline location locate_cell(const valid_cells& cells, std::size_t cell) noexcept {
+[[nodiscard]] inline location locate_cell(const valid_cells& cells, Eigen::Index cell) noexcept {
   location at = location_of(cell);
   at.angles = cells.angles(cell);
   at.cosine = cosines(at.angles);
@@ -87,12 +89,12 @@ struct axis_interval {
   location at;
   at.angles = angles;
   at.cosine = cosines(angles);
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    const std::size_t a = corner >> 2, b = corner >> 1 & 1, c = corner & 1;
+  for (Eigen::Index corner = 0; corner < 8; ++corner) {
+    const Eigen::Index a = corner >> 2, b = corner >> 1 & 1, c = corner & 1;
     const double weight = h.weight[a] * d.weight[b] * p.weight[c];
     if (weight == 0.0) continue;
-    const std::size_t linear = over.linear({h.node[a], d.node[b], p.node[c]});
-    const auto slot = static_cast<std::size_t>(at.count++);
+    const Eigen::Index linear = over.linear({h.node[a], d.node[b], p.node[c]});
+    const Eigen::Index slot = at.count++;
     at.cell[slot] = static_cast<std::uint32_t>(cells.representative(linear));
     at.weight[slot] = weight;
   }
@@ -103,8 +105,7 @@ struct axis_interval {
 template <class Value, class Zero>
 [[nodiscard]] Zero interpolate(const location& at, Value&& value, Zero zero) {
   for (int corner = 0; corner < at.count; ++corner) {
-    const auto slot = static_cast<std::size_t>(corner);
-    zero += at.weight[slot] * value(std::size_t{at.cell[slot]});
+    zero += at.weight[corner] * value(Eigen::Index{at.cell[corner]});
   }
   return zero;
 }

@@ -26,13 +26,13 @@ struct material_set {
   cell_matrix values;
 
   /// Position of a material. Throws gonio::error if there is none of that name.
-  [[nodiscard]] std::size_t find(const std::string& name) const;
+  [[nodiscard]] Eigen::Index find(const std::string& name) const;
 
   /// A copy of one material's table.
-  [[nodiscard]] brdf_table table(std::size_t material) const;
+  [[nodiscard]] brdf_table table(Eigen::Index material) const;
 
   /// A copy of some of the materials, by their positions. Throws gonio::error for a position that there is not.
-  [[nodiscard]] material_set subset(const std::vector<std::size_t>& positions) const;
+  [[nodiscard]] material_set subset(const std::vector<Eigen::Index>& positions) const;
 };
 
 /// What a basis is learned from: named things over a common domain, `cells`, with a row of `values` for each location
@@ -53,9 +53,9 @@ using domain_of_set = std::remove_cvref_t<decltype(std::declval<Set&>().cells)>;
 /// Throws gonio::error unless there is a thing, with all of its columns and a row for each location.
 template <observation_set Set>
 void require_complete(const Set& things) {
-  constexpr std::size_t channels = channels_over<domain_of_set<Set>>;
-  if (things.names.empty() || things.values.cols() != static_cast<Eigen::Index>(channels * things.names.size()) ||
-      things.values.rows() != static_cast<Eigen::Index>(things.cells.size()))
+  constexpr Eigen::Index channels = channels_over<domain_of_set<Set>>;
+  if (things.names.empty() || things.values.cols() != channels * std::ssize(things.names) ||
+      things.values.rows() != things.cells.size())
     refuse(
         {"a basis needs at least one material, of ", channels, " columns each over ", things.cells.size(), " cells"});
 }
@@ -63,21 +63,21 @@ void require_complete(const Set& things) {
 /// Throws gonio::error naming the first material that is not finite at a cell. (Who observes other things
 /// checks them first, in their own words.)
 template <observation_set Set>
-void require_finite(const Set& things, std::size_t cell) {
-  const auto row = things.values.row(static_cast<Eigen::Index>(cell));
+void require_finite(const Set& things, Eigen::Index cell) {
+  const auto row = things.values.row(cell);
   if (row.allFinite()) return;
   Eigen::Index column = 0;
   while (std::isfinite(row[column])) ++column;
-  const auto thing = static_cast<std::size_t>(column / channels_over<domain_of_set<Set>>);
+  const Eigen::Index thing = column / channels_over<domain_of_set<Set>>;
   refuse({"material '", things.names[thing], "' is not finite at cell ", cell});
 }
 
 /// Replaces each value at a cell by `map` of it. Throws gonio::error naming the first thing that is not finite
 /// there, before or after: a map may hide an infinity, or overflow.
 template <observation_set Set, class Map>
-void map_cell(Set& things, std::size_t cell, Map&& map) {
+void map_cell(Set& things, Eigen::Index cell, Map&& map) {
   require_finite(things, cell);
-  auto row = things.values.row(static_cast<Eigen::Index>(cell));
+  auto row = things.values.row(cell);
   row = row.unaryExpr([&](float value) { return static_cast<float>(map(value)); });
   require_finite(things, cell);
 }

@@ -4,8 +4,9 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/rgb.hpp>
 
+#include <Eigen/Core>
+
 #include <concepts>
-#include <cstddef>
 #include <ranges>
 #include <type_traits>
 #include <vector>
@@ -114,7 +115,7 @@ static_assert(sample_range<sample_set>);
 namespace detail {
 
 /// `number` counts from 1, for the message.
-void require_usable_sample(const sample& s, std::size_t number);
+void require_usable_sample(const sample& s, Eigen::Index number);
 [[noreturn]] void refuse_no_samples();
 
 }  // namespace detail
@@ -123,7 +124,7 @@ void require_usable_sample(const sample& s, std::size_t number);
 /// a negative weight, or has a direction at or below the horizon, or saying that there is none at all.
 template <sample_range Samples>
 void require_usable(const Samples& samples) {
-  std::size_t number = 0;
+  Eigen::Index number = 0;
   for (const sample& s : samples) detail::require_usable_sample(s, ++number);
   if (number == 0) detail::refuse_no_samples();
 }

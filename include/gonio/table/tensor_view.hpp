@@ -13,12 +13,12 @@ namespace gonio {
 
 /// A view of shape (cells, 3) on a table's values; the table must outlive it.
 [[nodiscard]] inline auto tensor_view(brdf_table& table) {
-  const std::array<std::size_t, 2> shape{table.cells().size(), 3};
+  const std::array<std::size_t, 2> shape{table.values().size() / 3, 3};
   return xt::adapt(table.values().data(), table.values().size(), xt::no_ownership(), shape);
 }
 
 [[nodiscard]] inline auto tensor_view(const brdf_table& table) {
-  const std::array<std::size_t, 2> shape{table.cells().size(), 3};
+  const std::array<std::size_t, 2> shape{table.values().size() / 3, 3};
   return xt::adapt(table.values().data(), table.values().size(), xt::no_ownership(), shape);
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <vector>
 
 namespace gonio {
@@ -21,8 +20,8 @@ using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
 
 /// The valid cells of a grid with one theta_h and theta_d: consecutive numbers, increasing phi_d.
 struct cell_row {
-  std::size_t first = 0;       ///< number of the first cell
-  std::size_t count = 0;       ///< number of cells, at least 1
+  Eigen::Index first = 0;      ///< number of the first cell
+  Eigen::Index count = 0;      ///< number of cells, at least 1
   double theta_h = 0.0;        ///< radians
   double theta_d = 0.0;        ///< radians
   const int* phi_d = nullptr;  ///< index along phi_d of each cell
@@ -31,7 +30,7 @@ struct cell_row {
   const double* cos_phi_d = nullptr;  ///< by index along phi_d
 
   /// The cosines of the i-th cell of the row.
-  [[nodiscard]] cosine_pair cosine(std::size_t i) const noexcept {
+  [[nodiscard]] cosine_pair cosine(Eigen::Index i) const noexcept {
     const double part = difference * cos_phi_d[phi_d[i]];
     return {sum - part, sum + part};
   }
@@ -117,7 +116,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
           // Hand the row to the caller.
           auto row_values = values.leftCols(count);
           const cell_row row{first,
-                             static_cast<std::size_t>(count),
+                             count,
                              theta_h,
                              theta_d,
                              phi_d.data(),

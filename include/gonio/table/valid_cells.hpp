@@ -5,9 +5,10 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/table/grid.hpp>
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -33,31 +34,33 @@ class valid_cells {
   [[nodiscard]] double minimum_cosine() const noexcept { return index_->minimum_cosine; }
 
   /// Number of valid cells.
-  [[nodiscard]] std::size_t size() const noexcept { return index_->linear.size(); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return index_->linear.size(); }
 
   /// Linear index in the grid of valid cell number `cell`.
-  [[nodiscard]] std::size_t linear(std::size_t cell) const noexcept {
+  [[nodiscard]] Eigen::Index linear(Eigen::Index cell) const noexcept {
     GONIO_ASSERT(cell < size());
     return index_->linear[cell];
   }
 
-  [[nodiscard]] half_difference angles(std::size_t cell) const noexcept {
+  [[nodiscard]] half_difference angles(Eigen::Index cell) const noexcept {
     return grid().angles(grid().cell(linear(cell)));
   }
 
   /// Is the grid cell with this linear index valid?
-  [[nodiscard]] bool contains(std::size_t linear) const noexcept {
+  [[nodiscard]] bool contains(Eigen::Index linear) const noexcept {
     return index_->linear[index_->representative[linear]] == linear;
   }
 
   /// Number of the valid cell that stands for a cell of the grid: the cell itself where it is valid,
   /// otherwise the valid one with the same theta_d and phi_d and the largest smaller theta_h. This
   /// continues a field beyond the horizon, so that interpolation near it reads valid cells only.
-  [[nodiscard]] std::size_t representative(std::size_t linear) const noexcept { return index_->representative[linear]; }
+  [[nodiscard]] Eigen::Index representative(Eigen::Index linear) const noexcept {
+    return index_->representative[linear];
+  }
 
   /// Number of the first valid cell at or after grid row `row` (theta_h and theta_d fixed, phi_d running; rows
   /// are numbered in linear order). The cells of a row are those from its own first to the next row's.
-  [[nodiscard]] std::size_t row_begin(std::size_t row) const noexcept { return index_->row_begin[row]; }
+  [[nodiscard]] Eigen::Index row_begin(Eigen::Index row) const noexcept { return index_->row_begin[row]; }
 
   /// Do both describe the same cells of the same grid?
   friend bool operator==(const valid_cells& a, const valid_cells& b) noexcept {

@@ -68,7 +68,7 @@ std::vector<std::byte> fan_file(const fan_header& header, const gonio::shape::tr
   payload.put(header.explained_variance);
   payload.put_text("");
   for (const std::string& name : synthetic_names(fan_shapes)) payload.put_text(name);
-  payload.put_all(std::span<const int>(triangles.data(), static_cast<std::size_t>(triangles.size())));
+  payload.put_all(std::span<const int>(triangles.data(), triangles.size()));
   for (int k = 0; k < 2; ++k) payload.put(1.0);
   const int floats = fan_shapes * 2 + 3 * fan_vertices + 3 * fan_vertices * 2;
   for (int i = 0; i < floats; ++i) payload.put(i + 1 == floats ? number : 1.0f);

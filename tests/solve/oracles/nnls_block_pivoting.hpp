@@ -70,7 +70,7 @@ inline block_pivoting::block_pivoting(const normal_equations& normal, Eigen::Ind
       right_hand_side_(right_hand_side),
       rhs_(normal.rhs().col(right_hand_side)),
       x_(Eigen::VectorXd::Zero(normal.unknowns())),
-      free_(static_cast<std::size_t>(normal.unknowns()), false),
+      free_(normal.unknowns(), false),
       fewest_wrong_(normal.unknowns() + 1) {
   find_wrong(Eigen::VectorXd(-rhs_));
 }
@@ -83,7 +83,7 @@ inline void block_pivoting::find_wrong(const Eigen::VectorXd& gradient) {
   terms += x_.cwiseAbs().dot(norms);
   wrong_.clear();
   for (Eigen::Index j = 0; j < x_.size(); ++j) {
-    const bool is_free = free_[static_cast<std::size_t>(j)];
+    const bool is_free = free_[j];
     if (is_free ? x_[j] <= 0.0 : gradient[j] < -1e-13 * terms * norms[j]) wrong_.push_back(j);
   }
 }
@@ -107,7 +107,7 @@ inline void block_pivoting::exchange() {
   }
   const std::size_t first = chances_ > 0 ? 0 : wrong_.size() - 1;
   for (std::size_t i = first; i < wrong_.size(); ++i) {
-    const auto j = static_cast<std::size_t>(wrong_[i]);
+    const std::size_t j = wrong_[i];
     free_[j] = !free_[j];
   }
   solve_free();
@@ -123,22 +123,22 @@ inline void block_pivoting::solve_free() {
   std::vector<Eigen::Index> passive;
   Eigen::VectorXd cross(normal_.unknowns());
   for (Eigen::Index j = 0; j < x_.size(); ++j) {
-    if (!free_[static_cast<std::size_t>(j)]) continue;
+    if (!free_[j]) continue;
     const auto count = std::ssize(passive);
-    for (Eigen::Index i = 0; i < count; ++i) cross[i] = normal_.gram()(passive[static_cast<std::size_t>(i)], j);
+    for (Eigen::Index i = 0; i < count; ++i) cross[i] = normal_.gram()(passive[i], j);
     // A column that depends on the free ones adds nothing: it stays at zero.
     if (factor.append(cross.head(count), normal_.gram()(j, j)))
       passive.push_back(j);
     else
-      free_[static_cast<std::size_t>(j)] = false;
+      free_[j] = false;
   }
   Eigen::VectorXd z(std::ssize(passive));
-  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = rhs_[passive[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = rhs_[passive[i]];
   factor.solve(z);
   x_.setZero();
   Eigen::VectorXd gradient = -rhs_;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
-    const Eigen::Index j = passive[static_cast<std::size_t>(i)];
+    const Eigen::Index j = passive[i];
     x_[j] = z[i];
     gradient += z[i] * normal_.gram().col(j);
   }

@@ -34,7 +34,7 @@ class online_quadratic_program {
     const linear_constraints constraints = detail::constraints_for(constraints_, normal.unknowns());
     forget_unless_sized(normal, constraints);
     return detail::solve_program(problem, constraints, [&](const auto& solver, Eigen::Index column) {
-      auto& last = active_[static_cast<std::size_t>(column)];
+      auto& last = active_[column];
       const program_optimum found = solver.solve(column, last ? &*last : nullptr);
       last = found.active;
       return found;
@@ -42,12 +42,11 @@ class online_quadratic_program {
   }
 
   void forget_unless_sized(const normal_equations& normal, const linear_constraints& constraints) {
-    const auto bounds = static_cast<std::size_t>(normal.unknowns()),
-               rows = static_cast<std::size_t>(constraints.d.size());
+    const std::size_t bounds = normal.unknowns(), rows = constraints.d.size();
     if (!active_.empty() && active_.front() &&
         (active_.front()->bounds.size() != bounds || active_.front()->rows.size() != rows))
       active_.clear();
-    active_.resize(static_cast<std::size_t>(normal.right_hand_sides()));
+    active_.resize(normal.right_hand_sides());
   }
 
   Constraints constraints_;

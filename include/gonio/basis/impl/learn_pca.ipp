@@ -36,22 +36,22 @@ struct spectrum {
   return result;
 }
 
-GONIO_INLINE component_set principal_components(const cell_matrix& centred, std::size_t count, thread_count threads,
+GONIO_INLINE component_set principal_components(const cell_matrix& centred, Eigen::Index count, thread_count threads,
                                                 const progress& listener) {
   report(listener, "gram", 0.0);
   const Eigen::MatrixXd products = gram(centred, threads);
   report(listener, "components", 0.0);
   // Rounding of the mean may pretend that centring costs none.
-  const auto most = std::min(static_cast<Eigen::Index>(count), products.cols() - 1);
+  const auto most = std::min(count, products.cols() - 1);
   const auto [eigenvalues, vectors] = largest_eigenpairs(products, most);
   if (eigenvalues.size() == 0) refuse("the materials do not differ: there is nothing to learn");
 
   component_set found{eigenvalues.cwiseSqrt(), cell_matrix(centred.rows(), vectors.cols()), vectors.cast<float>(),
                       eigenvalues.sum() / products.trace()};
   for_each_block(
-      static_cast<std::size_t>(centred.rows()), 2048,
+      centred.rows(), 2048,
       [&](block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), rows = static_cast<Eigen::Index>(range.size());
+        const Eigen::Index begin = range.begin, rows = range.size();
         found.scaled.middleRows(begin, rows) =
             product(centred.middleRows(begin, rows).cast<double>(), vectors).cast<float>();
       },

@@ -24,26 +24,26 @@
 
 namespace gonio {
 
-GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, std::size_t count,
+GONIO_INLINE std::vector<half_difference> farthest_point_centres(const valid_cells& cells, Eigen::Index count,
                                                                  std::uint64_t seed) {
-  constexpr std::size_t most_candidates = 60'000;
-  const std::vector<std::size_t> candidates = random_choice(cells.size(), most_candidates, seed);
+  constexpr Eigen::Index most_candidates = 60'000;
+  const std::vector<Eigen::Index> candidates = random_choice(cells.size(), most_candidates, seed);
   std::mt19937_64 generator(seed);
-  Eigen::Array3Xd places(3, static_cast<Eigen::Index>(candidates.size()));
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    places.col(static_cast<Eigen::Index>(i)) = radial_coordinates(cells.angles(candidates[i])).array();
+  Eigen::Array3Xd places(3, std::ssize(candidates));
+  for (Eigen::Index i = 0; i < std::ssize(candidates); ++i)
+    places.col(i) = radial_coordinates(cells.angles(candidates[i])).array();
 
   std::vector<half_difference> centres;
   Eigen::Index farthest = std::uniform_int_distribution<Eigen::Index>(0, places.cols() - 1)(generator);
   Eigen::ArrayXd nearest =  // squared distance to the nearest centre
       Eigen::ArrayXd::Constant(places.cols(), std::numeric_limits<double>::infinity());
-  while (centres.size() < count && nearest[farthest] > 0.0) {
-    centres.push_back(cells.angles(candidates[static_cast<std::size_t>(farthest)]));
+  while (std::ssize(centres) < count && nearest[farthest] > 0.0) {
+    centres.push_back(cells.angles(candidates[farthest]));
     const Eigen::Array3d centre = places.col(farthest);
     nearest = nearest.min((places.colwise() - centre).square().colwise().sum().transpose());
     nearest.maxCoeff(&farthest);
   }
-  if (centres.size() < count)
+  if (std::ssize(centres) < count)
     refuse({"cannot choose ", count, " different centres of radial basis functions among ", centres.size(), " places"});
   return centres;
 }

@@ -31,10 +31,10 @@ GONIO_INLINE exposure_counts mean_counts(std::span<const reading> readings, std:
                                          Eigen::Index channel, std::uint16_t largest_count) {
   exposure_counts counts(std::ssize(readings), std::ssize(times));
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
-    const reading& each = readings[static_cast<std::size_t>(i)];
+    const reading& each = readings[i];
     for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-      const auto at = std::ranges::find(each.times, times[static_cast<std::size_t>(j)]) - each.times.begin();
-      const auto pixels = each.frames[static_cast<std::size_t>(at)].col(channel);
+      const auto at = std::ranges::find(each.times, times[j]) - each.times.begin();
+      const auto pixels = each.frames[at].col(channel);
       counts(i, j) = pixels.maxCoeff() >= largest_count ? largest_count : pixels.cast<double>().mean();
     }
   }
@@ -80,7 +80,7 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
   measured_reflectance result{at};
   bool is_dark = true;
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
-    const camera_response& response = known.responses[static_cast<std::size_t>(channel)];
+    const camera_response& response = known.responses[channel];
     const auto radiance = [&](const reading& taken) {
       return merge_exposures(taken, channel, response, known.noise, known.saturation);
     };
@@ -100,7 +100,7 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
 
 GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance) {
   constexpr double margin = 1.05;
-  std::size_t darker = 0, matte = 0, darker_matte = 0;
+  Eigen::Index darker = 0, matte = 0, darker_matte = 0;
   for (const measured_reflectance& each : usable) {
     const bool is_darker = each.value.mean() > margin * reflectance * std::numbers::inv_pi;
     const bool is_matte = to_half_difference(each.at.wi, each.at.wo).theta_h > radians(10.0);
@@ -108,7 +108,7 @@ GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance>
     matte += is_matte ? 1 : 0;
     darker_matte += is_darker && is_matte ? 1 : 0;
   }
-  if (2 * darker > usable.size())
+  if (2 * darker > std::ssize(usable))
     refuse({"the reference is darker than the material in ", darker, " of ", usable.size(),
             " samples: are the two exchanged?"});
   if (2 * darker_matte > matte)

@@ -127,14 +127,14 @@ GONIO_INLINE void response_equations::add(const exposure_counts& counts, Eigen::
   double weights = 0.0, time_sum = 0.0, darkest = smallest_count_;
   int rows = 0;
   for (Eigen::Index j = 0; j < counts.cols(); ++j) {
-    const double count = counts(pixel, j), log_time = log_times[static_cast<std::size_t>(j)];
+    const double count = counts(pixel, j), log_time = log_times[j];
     const double weight = std::pow(hat(count, saturation_), 2);
     if (!(weight > 0.0)) continue;
     const auto [left, share] = camera_response::place_of(count, spacing_, rhs_.size());
     const std::array<double, 2> row{1.0 - share, share};
     for (Eigen::Index a = 0; a < 2; ++a) {
-      const double weighted = weight * row[static_cast<std::size_t>(a)];
-      for (Eigen::Index b = 0; b < 2; ++b) gram_(left + a, left + b) += weighted * row[static_cast<std::size_t>(b)];
+      const double weighted = weight * row[a];
+      for (Eigen::Index b = 0; b < 2; ++b) gram_(left + a, left + b) += weighted * row[b];
       rhs_[left + a] += weighted * log_time;
       row_sum[left + a] += weighted;
     }

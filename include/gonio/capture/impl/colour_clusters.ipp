@@ -18,10 +18,10 @@
 
 namespace gonio::capture {
 
-GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluster) const {
-  std::vector<std::size_t> found;
+GONIO_INLINE std::vector<Eigen::Index> colour_clusters::pixels(Eigen::Index cluster) const {
+  std::vector<Eigen::Index> found;
   for (Eigen::Index i = 0; i < labels.size(); ++i)
-    if (static_cast<std::size_t>(labels[i]) == cluster) found.push_back(static_cast<std::size_t>(i));
+    if (labels[i] == cluster) found.push_back(i);
   return found;
 }
 
@@ -30,11 +30,11 @@ GONIO_INLINE std::vector<std::size_t> colour_clusters::pixels(std::size_t cluste
 namespace gonio::capture::detail {
 
 /// Pixels that the number of clusters and their first centres are found from.
-inline constexpr std::size_t clustered_sample = 2000;
+inline constexpr Eigen::Index clustered_sample = 2000;
 
 /// The positions of `clustered_sample` of n points at random, or of all if there are not as many, in their order.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> some_points(Eigen::Index n, std::uint64_t seed) {
-  const std::vector<std::size_t> chosen = random_choice(static_cast<std::size_t>(n), clustered_sample, seed);
+  const std::vector<Eigen::Index> chosen = random_choice(n, clustered_sample, seed);
   return {chosen.begin(), chosen.end()};
 }
 
@@ -62,8 +62,8 @@ namespace gonio::capture {
 
 GONIO_INLINE point_matrix clustering_coordinates(const point_matrix_view& colours) {
   detail::require_colours(colours);
-  std::vector<double> largest(static_cast<std::size_t>(colours.rows()));
-  for (Eigen::Index i = 0; i < colours.rows(); ++i) largest[static_cast<std::size_t>(i)] = colours.row(i).maxCoeff();
+  std::vector<double> largest(colours.rows());
+  for (Eigen::Index i = 0; i < colours.rows(); ++i) largest[i] = colours.row(i).maxCoeff();
   const double white = quantile(largest, 0.99);
   if (!(white > 0.0)) refuse("99 of 100 pixels are black: there is no colour to cluster by");
   point_matrix coordinates(colours.rows(), 3);

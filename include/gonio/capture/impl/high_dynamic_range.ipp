@@ -86,7 +86,7 @@ GONIO_INLINE measured_radiance merge_exposures(std::span<const std::uint16_t> co
   noise.require_usable();
   const std::uint16_t limit = saturation > 0 ? saturation : response.largest_count();
   std::vector<detail::exposed> usable;
-  for (std::size_t j = 0; j < counts.size(); ++j)
+  for (Eigen::Index j = 0; j < std::ssize(counts); ++j)
     if (counts[j] > 0 && counts[j] < limit)
       usable.push_back({times[j], response.exposure(counts[j]), static_cast<double>(counts[j])});
   const measured_radiance merged = detail::mean_radiance(std::move(usable), response, noise, limit, 1.0);

@@ -66,9 +66,9 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
                                        Eigen::VectorXi& labels, Eigen::VectorXd& squares, thread_count threads) {
   const Eigen::VectorXi before = labels;
   for_each_block(
-      static_cast<std::size_t>(points.rows()), 4096,
+      points.rows(), 4096,
       [&](block range) {
-        for (auto i = static_cast<Eigen::Index>(range.begin); i < static_cast<Eigen::Index>(range.end); ++i) {
+        for (Eigen::Index i = range.begin; i < range.end; ++i) {
           squares[i] = std::numeric_limits<double>::infinity();
           for (Eigen::Index c = 0; c < centres.rows(); ++c) {
             const double square = (points.row(i) - centres.row(c)).squaredNorm();
@@ -83,22 +83,21 @@ GONIO_INLINE Eigen::Index different_points(const point_matrix_view& points, Eige
 }
 
 /// How many points each cluster has.
-[[nodiscard]] GONIO_INLINE std::vector<std::size_t> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
-  std::vector<std::size_t> sizes(static_cast<std::size_t>(k));
-  for (const int label : labels) ++sizes[static_cast<std::size_t>(label)];
+[[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> cluster_sizes(const Eigen::VectorXi& labels, Eigen::Index k) {
+  std::vector<Eigen::Index> sizes(k);
+  for (const int label : labels) ++sizes[label];
   return sizes;
 }
 
 /// A cluster without points takes the point that is farthest from its centre, of a cluster that keeps another.
 GONIO_INLINE void refill_empty_clusters(Eigen::VectorXi& labels, Eigen::VectorXd& squares, Eigen::Index k) {
-  std::vector<std::size_t> sizes = cluster_sizes(labels, k);
-  for (std::size_t c = 0; c < sizes.size(); ++c) {
+  std::vector<Eigen::Index> sizes = cluster_sizes(labels, k);
+  for (Eigen::Index c = 0; c < std::ssize(sizes); ++c) {
     if (sizes[c] > 0) continue;
     Eigen::Index farthest = -1;
     for (Eigen::Index i = 0; i < labels.size(); ++i)
-      if (sizes[static_cast<std::size_t>(labels[i])] > 1 && (farthest < 0 || squares[i] > squares[farthest]))
-        farthest = i;
-    --sizes[static_cast<std::size_t>(labels[farthest])];
+      if (sizes[labels[i]] > 1 && (farthest < 0 || squares[i] > squares[farthest])) farthest = i;
+    --sizes[labels[farthest]];
     ++sizes[c];
     labels[farthest] = static_cast<int>(c);
     squares[farthest] = 0.0;
@@ -109,9 +108,9 @@ GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const E
                                         thread_count threads) {
   const point_matrix zero = point_matrix::Zero(k, points.cols() + 1);  // sums, and how many
   const point_matrix sums = sum_over_blocks(
-      static_cast<std::size_t>(points.rows()), 4096, zero,
+      points.rows(), 4096, zero,
       [&](point_matrix& sum, block range) {
-        for (auto i = static_cast<Eigen::Index>(range.begin); i < static_cast<Eigen::Index>(range.end); ++i) {
+        for (Eigen::Index i = range.begin; i < range.end; ++i) {
           sum.row(labels[i]).head(points.cols()) += points.row(i);
           sum(labels[i], points.cols()) += 1.0;
         }
@@ -123,21 +122,21 @@ GONIO_INLINE point_matrix cluster_means(const point_matrix_view& points, const E
 /// Numbers the clusters by their size.
 [[nodiscard]] GONIO_INLINE point_clusters ordered_by_size(const Eigen::VectorXi& labels, const point_matrix& centres,
                                                           double inertia) {
-  const std::vector<std::size_t> sizes = cluster_sizes(labels, centres.rows());
-  std::vector<std::size_t> order(sizes.size()), rank(sizes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto centre = [&](std::size_t c) { return centres.row(static_cast<Eigen::Index>(c)); };
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
+  const std::vector<Eigen::Index> sizes = cluster_sizes(labels, centres.rows());
+  std::vector<Eigen::Index> order(sizes.size()), rank(sizes.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  const auto centre = [&](Eigen::Index c) { return centres.row(c); };
+  std::ranges::sort(order, [&](Eigen::Index a, Eigen::Index b) {
     if (sizes[a] != sizes[b]) return sizes[a] > sizes[b];
     return std::ranges::lexicographical_compare(centre(a), centre(b));
   });
   point_clusters ordered{labels, point_matrix(centres.rows(), centres.cols()), {}, inertia};
-  for (std::size_t r = 0; r < order.size(); ++r) {
+  for (Eigen::Index r = 0; r < std::ssize(order); ++r) {
     rank[order[r]] = r;
-    ordered.centres.row(static_cast<Eigen::Index>(r)) = centre(order[r]);
+    ordered.centres.row(r) = centre(order[r]);
     ordered.sizes.push_back(sizes[order[r]]);
   }
-  for (int& label : ordered.labels) label = static_cast<int>(rank[static_cast<std::size_t>(label)]);
+  for (int& label : ordered.labels) label = static_cast<int>(rank[label]);
   return ordered;
 }
 
@@ -187,26 +186,25 @@ GONIO_INLINE double mean_silhouette(const point_matrix_view& points, const Eigen
                                     thread_count threads) {
   if (labels.size() != points.rows() || points.rows() == 0 || labels.minCoeff() < 0)
     refuse("a silhouette needs a point at least, and a label from 0 on for each");
-  const std::vector<std::size_t> sizes = detail::cluster_sizes(labels, labels.maxCoeff() + 1);
-  const auto own_size = [&](Eigen::Index i) { return sizes[static_cast<std::size_t>(labels[i])]; };
+  const std::vector<Eigen::Index> sizes = detail::cluster_sizes(labels, labels.maxCoeff() + 1);
+  const auto own_size = [&](Eigen::Index i) { return sizes[labels[i]]; };
   const auto width_of = [&](Eigen::Index i) {
     if (own_size(i) < 2) return 0.0;
     std::vector<double> distances(sizes.size());
-    for (Eigen::Index j = 0; j < points.rows(); ++j)
-      distances[static_cast<std::size_t>(labels[j])] += (points.row(i) - points.row(j)).norm();
-    const auto own = static_cast<std::size_t>(labels[i]);
+    for (Eigen::Index j = 0; j < points.rows(); ++j) distances[labels[j]] += (points.row(i) - points.row(j)).norm();
+    const Eigen::Index own = labels[i];
     const double a = distances[own] / static_cast<double>(sizes[own] - 1);
     double b = std::numeric_limits<double>::infinity();
-    for (std::size_t c = 0; c < sizes.size(); ++c)
+    for (Eigen::Index c = 0; c < std::ssize(sizes); ++c)
       if (c != own && sizes[c] > 0) b = std::min(b, distances[c] / static_cast<double>(sizes[c]));
     const double larger = std::max(a, b);
     return std::isfinite(b) && larger > 0.0 ? (b - a) / larger : 0.0;
   };
-  const auto n = static_cast<std::size_t>(points.rows());
+  const Eigen::Index n = points.rows();
   const double sum = sum_over_blocks(
       n, 64, 0.0,
       [&](double& total, block range) {
-        for (std::size_t i = range.begin; i < range.end; ++i) total += width_of(static_cast<Eigen::Index>(i));
+        for (Eigen::Index i = range.begin; i < range.end; ++i) total += width_of(i);
       },
       threads);
   return sum / static_cast<double>(n);

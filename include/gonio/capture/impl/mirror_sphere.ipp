@@ -129,7 +129,7 @@ GONIO_INLINE image unwrap(const image& probe, const mirror_sphere& sphere, const
   for_each_block(
       options.rows, 4,
       [&](block rows) {
-        for (std::size_t row = rows.begin; row < rows.end; ++row)
+        for (Eigen::Index row = rows.begin; row < rows.end; ++row)
           for (std::size_t column = 0; column < 2 * options.rows; ++column) {
             rgb sum = rgb::Zero();
             for (int i = 0; i < samples; ++i)

@@ -100,11 +100,11 @@ GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& in
 
 namespace gonio::capture {
 
-GONIO_INLINE std::vector<std::size_t> pixels_of_region(const near_field_setup& setup) {
+GONIO_INLINE std::vector<Eigen::Index> pixels_of_region(const near_field_setup& setup) {
   require_usable(setup);
   const camera_intrinsics& whole = setup.camera.intrinsics();
   const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
-  std::vector<std::size_t> seen;
+  std::vector<Eigen::Index> seen;
   for (std::size_t row = window.row; row < window.row + window.rows; ++row)
     for (std::size_t column = window.column; column < window.column + window.columns; ++column)
       if (detail::view_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);

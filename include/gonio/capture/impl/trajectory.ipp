@@ -69,19 +69,19 @@ GONIO_INLINE direction_pair above_arc(const direction_pair& pair) {
   return turned;
 }
 
-GONIO_INLINE std::vector<std::size_t> short_way(const std::vector<direction>& directions) {
+GONIO_INLINE std::vector<Eigen::Index> short_way(const std::vector<direction>& directions) {
   return short_way(directions.size(),
-                   [&](std::size_t i, std::size_t j) { return angle_between(directions[i], directions[j]); });
+                   [&](Eigen::Index i, Eigen::Index j) { return angle_between(directions[i], directions[j]); });
 }
 
-GONIO_INLINE double length_of_way(const std::vector<direction>& directions, const std::vector<std::size_t>& order) {
+GONIO_INLINE double length_of_way(const std::vector<direction>& directions, const std::vector<Eigen::Index>& order) {
   double length = 0.0;
-  for (std::size_t i = 1; i < order.size(); ++i)
+  for (Eigen::Index i = 1; i < std::ssize(order); ++i)
     length += angle_between(directions[order[i - 1]], directions[order[i]]);
   return length;
 }
 
-GONIO_INLINE double duration_of_scan(double length_of_way, std::size_t stops, std::size_t lamps,
+GONIO_INLINE double duration_of_scan(double length_of_way, Eigen::Index stops, Eigen::Index lamps,
                                      const scan_pace& pace) {
   if (!(pace.radians_per_second > 0.0)) refuse("a robot's speed must be positive");
   const double each = pace.settling + static_cast<double>(lamps) * (pace.exposure + pace.switching);

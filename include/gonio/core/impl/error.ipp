@@ -21,7 +21,7 @@ GONIO_INLINE void message_part::append_to(std::string& sentence) const {
   if (count < 0)
     sentence.append(text_, size_);
   else
-    sentence.append(digits.data(), static_cast<std::size_t>(count));
+    sentence.append(digits.data(), count);
 }
 
 GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {

@@ -33,24 +33,25 @@ struct thread_team {
 
 }  // namespace detail
 
-GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, block_body body, thread_count threads) {
+GONIO_INLINE void detail::run_blocks(Eigen::Index count, Eigen::Index block_size, block_body body,
+                                     thread_count threads) {
   GONIO_ASSERT(block_size > 0);
   // Run the blocks in order if one thread is enough.
-  const std::size_t blocks = (count + block_size - 1) / block_size;
-  const auto block_at = [&](std::size_t b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
-  const std::size_t workers = std::min<std::size_t>(threads.resolve(), blocks);
+  const Eigen::Index blocks = (count + block_size - 1) / block_size;
+  const auto block_at = [&](Eigen::Index b) { return block{b * block_size, std::min(count, (b + 1) * block_size)}; };
+  const Eigen::Index workers = std::min<Eigen::Index>(threads.resolve(), blocks);
   if (workers <= 1) {
-    for (std::size_t b = 0; b < blocks; ++b) body(block_at(b));
+    for (Eigen::Index b = 0; b < blocks; ++b) body(block_at(b));
     return;
   }
 
   // Let each worker take the next block until none is left; keep the exception of the first block that throws.
-  std::atomic<std::size_t> next{0};
+  std::atomic<Eigen::Index> next{0};
   std::mutex failure_mutex;
   std::exception_ptr failure;
-  std::size_t failed_block = blocks;
+  Eigen::Index failed_block = blocks;
   const auto work = [&] {
-    for (std::size_t b = next++; b < blocks; b = next++) {
+    for (Eigen::Index b = next++; b < blocks; b = next++) {
       try {
         body(block_at(b));
       } catch (...) {
@@ -66,7 +67,7 @@ GONIO_INLINE void detail::run_blocks(std::size_t count, std::size_t block_size, 
   // Start the other workers, work along, and wait for them.
   {
     detail::thread_team team;
-    for (std::size_t w = 1; w < workers; ++w) team.members.emplace_back(work);
+    for (Eigen::Index w = 1; w < workers; ++w) team.members.emplace_back(work);
     work();
   }
   // Report a failure to the caller.

@@ -5,7 +5,6 @@
 #include <gonio/core/random.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <random>
@@ -14,14 +13,14 @@
 
 namespace gonio {
 
-GONIO_INLINE std::vector<std::size_t> random_choice(std::size_t all, std::size_t count, std::uint64_t seed) {
+GONIO_INLINE std::vector<Eigen::Index> random_choice(Eigen::Index all, Eigen::Index count, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
-  std::vector<std::size_t> chosen(all);
-  std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+  std::vector<Eigen::Index> chosen(all);
+  std::iota(chosen.begin(), chosen.end(), Eigen::Index{0});
   count = std::min(count, all);
   // The first steps of a Fisher-Yates shuffle.
-  for (std::size_t i = 0; i < count; ++i) {
-    std::uniform_int_distribution<std::size_t> rest(i, all - 1);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    std::uniform_int_distribution<Eigen::Index> rest(i, all - 1);
     std::swap(chosen[i], chosen[rest(generator)]);
   }
   chosen.resize(count);

@@ -8,33 +8,32 @@
 
 #include <array>
 #include <concepts>
-#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace gonio::design {
 
-GONIO_INLINE direction_pair point_geometry::centre(std::size_t cell) const {
+GONIO_INLINE direction_pair point_geometry::centre(Eigen::Index cell) const {
   const half_difference angles = cells_.angles(cell);
   return constraint_.pose_of(angles).value_or(to_directions(angles));
 }
 
-GONIO_INLINE std::size_t point_geometry::nearest(const direction_pair& pair) const {
+GONIO_INLINE Eigen::Index point_geometry::nearest(const direction_pair& pair) const {
   const grid& grid = cells_.grid();
   return cells_.representative(grid.linear(grid.nearest(to_half_difference(pair.wi, pair.wo))));
 }
 
-GONIO_INLINE std::optional<std::size_t> point_geometry::stepped(std::size_t from, const grid_step& step) const {
+GONIO_INLINE std::optional<Eigen::Index> point_geometry::stepped(Eigen::Index from, const grid_step& step) const {
   const grid& grid = cells_.grid();
   const grid_extents& extents = grid.extents();
   const cell_index at = grid.cell(cells_.linear(from));
   const int theta_h = at.theta_h + step[0], theta_d = at.theta_d + step[1];
   if (theta_h < 0 || theta_h >= extents.theta_h || theta_d < 0 || theta_d >= extents.theta_d) return {};
   const int phi_d = ((at.phi_d + step[2]) % extents.phi_d + extents.phi_d) % extents.phi_d;
-  const std::size_t linear = grid.linear({theta_h, theta_d, phi_d});
+  const Eigen::Index linear = grid.linear({theta_h, theta_d, phi_d});
   if (!cells_.contains(linear)) return {};
-  const std::size_t cell = cells_.representative(linear);
+  const Eigen::Index cell = cells_.representative(linear);
   if (!allows(cell)) return {};
   return cell;
 }

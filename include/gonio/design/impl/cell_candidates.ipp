@@ -23,19 +23,19 @@ GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const ce
                                               thread_count threads, std::span<const double> sample_noise_penalties)
     : geometry_(cells, std::move(constraint)),
       criterion_(std::move(criterion)),
-      materials_(static_cast<Eigen::Index>(cells.size()), criterion_.coefficients().rows()),
+      materials_(cells.size(), criterion_.coefficients().rows()),
       weighted_(materials_.rows(), materials_.cols()),
       sample_noise_penalties_(Eigen::ArrayXf::Constant(materials_.rows(), static_cast<float>(criterion_.noise_eta()))),
       threads_(threads) {
   if (!sample_noise_penalties.empty()) sample_noise_penalties_ += checked(sample_noise_penalties, size());
   const Eigen::MatrixXf to_materials = criterion_.coefficients().cast<float>();
   const Eigen::MatrixXf to_weighted = criterion_.weighted_coefficients().cast<float>();
-  for (std::size_t cell = 0; cell < size(); ++cell)
+  for (Eigen::Index cell = 0; cell < size(); ++cell)
     if (!geometry_.allows(cell)) excluded_.push_back(cell);
   for_each_block(
       size(), 512,
       [&](block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const Eigen::Index begin = range.begin, count = range.size();
         const float_matrix_view rows = components.middleRows(begin, count).transpose();
         materials_.middleRows(begin, count).setZero();
         weighted_.middleRows(begin, count).setZero();
@@ -45,12 +45,12 @@ GONIO_INLINE cell_candidates::cell_candidates(const valid_cells& cells, const ce
       threads_);
 }
 
-GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const std::size_t> cells) const {
+GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const Eigen::Index> cells) const {
   const auto n = std::ssize(cells);
   expected_error::rows rows(n, materials_.cols());
   rows.noise.setOnes();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto cell = static_cast<Eigen::Index>(cells[static_cast<std::size_t>(i)]);
+    const Eigen::Index cell = cells[i];
     rows.materials().row(i) = materials_.row(cell).cast<double>();
     rows.weighted().row(i) = weighted_.row(cell).cast<double>();
     rows.sample_noise_penalty[i] = double{sample_noise_penalties_[cell]};
@@ -58,42 +58,42 @@ GONIO_INLINE expected_error::rows cell_candidates::rows_of(std::span<const std::
   return rows;
 }
 
-GONIO_INLINE double cell_candidates::operator()(std::span<const std::size_t> cells) const {
+GONIO_INLINE double cell_candidates::operator()(std::span<const Eigen::Index> cells) const {
   return criterion_(rows_of(cells));
 }
 
-GONIO_INLINE cell_candidates::with_one_more cell_candidates::beside(std::span<const std::size_t> cells) const {
+GONIO_INLINE cell_candidates::with_one_more cell_candidates::beside(std::span<const Eigen::Index> cells) const {
   return {*this, cells};
 }
 
 GONIO_INLINE cell_candidates::with_one_more::with_one_more(const cell_candidates& candidates,
-                                                           std::span<const std::size_t> cells)
+                                                           std::span<const Eigen::Index> cells)
     : candidates_(&candidates), with_(candidates.criterion_, candidates.rows_of(cells)) {}
 
-GONIO_INLINE double cell_candidates::with_one_more::operator()(std::size_t cell) const {
+GONIO_INLINE double cell_candidates::with_one_more::operator()(Eigen::Index cell) const {
   const expected_error::rows row = candidates_->rows_of({&cell, 1});
   return with_(row.materials(), row.weighted(), row.sample_noise_penalty.array())[0];
 }
 
-GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const std::size_t> cells) const {
+GONIO_INLINE std::vector<float> cell_candidates::errors_with_each(std::span<const Eigen::Index> cells) const {
   const extended_error<float> with(criterion_, rows_of(cells));
   std::vector<float> errors(size());
   for_each_block(
       size(), 128,
       [&](block range) {
-        const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+        const Eigen::Index begin = range.begin, count = range.size();
         Eigen::Map<Eigen::ArrayXf>(errors.data() + range.begin, count) =
             with(materials_.middleRows(begin, count), weighted_.middleRows(begin, count),
                  sample_noise_penalties_.segment(begin, count));
       },
       threads_);
-  for (const std::size_t cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
+  for (const Eigen::Index cell : excluded_) errors[cell] = std::numeric_limits<float>::infinity();
   return errors;
 }
 
 GONIO_INLINE Eigen::ArrayXf cell_candidates::checked(std::span<const double> sample_noise_penalties,
-                                                     std::size_t cells) {
-  if (sample_noise_penalties.size() != cells)
+                                                     Eigen::Index cells) {
+  if (std::ssize(sample_noise_penalties) != cells)
     refuse({"expected ", cells, " per-cell penalties, got ", sample_noise_penalties.size()});
   for (const double eta : sample_noise_penalties)
     if (!(eta >= 0.0 && std::isfinite(eta)))

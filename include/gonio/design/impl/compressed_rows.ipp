@@ -16,17 +16,17 @@
 
 namespace gonio::design::detail {
 
-GONIO_INLINE std::vector<std::pair<std::size_t, double>> cells_next_to(std::span<const half_difference> directions,
-                                                                       const valid_cells& cells) {
+GONIO_INLINE std::vector<std::pair<Eigen::Index, double>> cells_next_to(std::span<const half_difference> directions,
+                                                                        const valid_cells& cells) {
   const grid& grid = cells.grid();
-  std::vector<std::size_t> met;
+  std::vector<Eigen::Index> met;
   met.reserve(directions.size());
   for (const half_difference& angles : directions)
     met.push_back(cells.representative(grid.linear(grid.nearest(angles))));
   std::sort(met.begin(), met.end());
 
-  std::vector<std::pair<std::size_t, double>> counts;
-  for (const std::size_t cell : met) {
+  std::vector<std::pair<Eigen::Index, double>> counts;
+  for (const Eigen::Index cell : met) {
     if (counts.empty() || counts.back().first != cell) counts.emplace_back(cell, 0.0);
     counts.back().second += 1.0;
   }
@@ -48,7 +48,7 @@ GONIO_INLINE std::vector<std::pair<std::size_t, double>> cells_next_to(std::span
   for (Eigen::Index j = 0; j < k; ++j) noise[j] = rows.components.col(j).dot(rows.noise);
   component_rows few{Eigen::MatrixXd(kept, k), Eigen::VectorXd(kept)};
   for (Eigen::Index i = 0; i < kept; ++i) {
-    const double root = std::sqrt(values[static_cast<std::size_t>(i)]);
+    const double root = std::sqrt(values[i]);
     for (Eigen::Index j = 0; j < k; ++j) few.components(i, j) = root * vectors(j, i);
     few.noise[i] = vectors.col(i).dot(noise) / root;
   }
@@ -64,10 +64,9 @@ GONIO_INLINE component_rows compressed(const component_rows& rows, double neglig
   const bool tall = r.rows() > r.cols();
   const symmetric_eigen eigen = decompose_symmetric(
       tall ? product_with_transpose(r.transpose()) : product_with_transpose(r), "a Gram matrix of measurements");
-  const std::span<const double> values(eigen.values.data(), static_cast<std::size_t>(eigen.values.size()));
-  const auto kept =
-      static_cast<std::size_t>(std::ranges::count_if(values, [&](double value) { return value > negligible; }));
-  const Eigen::MatrixXd vectors = eigen.vectors.rightCols(static_cast<Eigen::Index>(kept));
+  const std::span<const double> values(eigen.values.data(), eigen.values.size());
+  const Eigen::Index kept = std::ranges::count_if(values, [&](double value) { return value > negligible; });
+  const Eigen::MatrixXd vectors = eigen.vectors.rightCols(kept);
   return tall ? detail::scaled(vectors, values.last(kept), rows) : detail::turned(vectors, rows);
 }
 

@@ -15,7 +15,7 @@
 
 namespace gonio::design {
 
-GONIO_INLINE pinhole_camera near_field_camera(const direction& wo, double field_of_view, std::size_t pixels) {
+GONIO_INLINE pinhole_camera near_field_camera(const direction& wo, double field_of_view, Eigen::Index pixels) {
   // The disc is inside a ball of its radius, which spans its arcsine to all sides at distance 1.
   const double half = std::asin(std::tan(field_of_view / 2.0));
   const direction up = std::abs(wo.z()) > 0.999 ? direction(1.0, 0.0, 0.0) : direction(0.0, 0.0, 1.0);
@@ -38,24 +38,24 @@ GONIO_INLINE near_field_geometry::near_field_geometry(const near_field_options& 
   extents_ = {options.fixed_light ? 1 : steps(options.largest_polar_angle),
               options.fixed_camera ? 1 : steps(options.largest_polar_angle), steps(std::numbers::pi)};
   bool any = false;
-  for (std::size_t candidate = 0; candidate < size() && !any; ++candidate) any = allows(candidate);
+  for (Eigen::Index candidate = 0; candidate < size() && !any; ++candidate) any = allows(candidate);
   if (!any) refuse("the constraint leaves no candidate");
 }
 
-GONIO_INLINE bool near_field_geometry::allows(std::size_t candidate) const {
+GONIO_INLINE bool near_field_geometry::allows(Eigen::Index candidate) const {
   const grid_step at = place(candidate);
   const direction_pair pose = centre(candidate);
   const bool at_zenith = polar(options_.fixed_light, at[0]) == 0.0 || polar(options_.fixed_camera, at[1]) == 0.0;
   return !(at_zenith && at[2] > 0) && options_.constraint(pose);
 }
 
-GONIO_INLINE direction_pair near_field_geometry::centre(std::size_t candidate) const {
+GONIO_INLINE direction_pair near_field_geometry::centre(Eigen::Index candidate) const {
   const grid_step at = place(candidate);
   return {spherical_direction(polar(options_.fixed_light, at[0]), options_.step * at[2]),
           spherical_direction(polar(options_.fixed_camera, at[1]), 0.0)};
 }
 
-GONIO_INLINE std::size_t near_field_geometry::nearest(const direction_pair& pair) const {
+GONIO_INLINE Eigen::Index near_field_geometry::nearest(const direction_pair& pair) const {
   const auto step_of = [&](double angle, int extent) {
     return std::clamp(static_cast<int>(std::lround(angle / options_.step)), 0, extent - 1);
   };
@@ -67,13 +67,13 @@ GONIO_INLINE std::size_t near_field_geometry::nearest(const direction_pair& pair
   return number(at);
 }
 
-GONIO_INLINE std::vector<half_difference> near_field_geometry::directions(std::size_t candidate) const {
+GONIO_INLINE std::vector<half_difference> near_field_geometry::directions(Eigen::Index candidate) const {
   const direction_pair pose = centre(candidate);
   const double radius = std::tan(options_.field_of_view / 2.0);
   const pinhole_camera camera = near_field_camera(pose.wo, options_.field_of_view, options_.pixels);
   std::vector<half_difference> seen;
-  for (std::size_t row = 0; row < options_.pixels; ++row)
-    for (std::size_t column = 0; column < options_.pixels; ++column) {
+  for (Eigen::Index row = 0; row < options_.pixels; ++row)
+    for (Eigen::Index column = 0; column < options_.pixels; ++column) {
       const ray line = camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
       const auto point = line.at_ground();
       if (point && point->norm() <= radius) seen.push_back(to_half_difference(pose.wi, -line.towards));
@@ -82,9 +82,9 @@ GONIO_INLINE std::vector<half_difference> near_field_geometry::directions(std::s
   return seen;
 }
 
-GONIO_INLINE std::optional<std::size_t> near_field_geometry::stepped(std::size_t from, const grid_step& step) const {
+GONIO_INLINE std::optional<Eigen::Index> near_field_geometry::stepped(Eigen::Index from, const grid_step& step) const {
   grid_step at = place(from);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
     at[axis] += step[axis];
     if (at[axis] < 0 || at[axis] >= extents_[axis]) return {};
   }

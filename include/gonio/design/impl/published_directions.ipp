@@ -38,9 +38,9 @@ GONIO_INLINE const std::vector<std::vector<printed_direction>>& nielsen_table_1(
 
 namespace gonio::design {
 
-GONIO_INLINE std::vector<half_difference> nielsen_directions(std::size_t n) {
+GONIO_INLINE std::vector<half_difference> nielsen_directions(Eigen::Index n) {
   for (const auto& set : detail::nielsen_table_1()) {
-    if (set.size() != n) continue;
+    if (std::ssize(set) != n) continue;
     std::vector<half_difference> directions;
     for (const auto& [theta_h, theta_d, phi_d] : set)
       directions.push_back({radians(theta_h), radians(theta_d), radians(phi_d)});

@@ -21,8 +21,8 @@
 
 namespace gonio::design::detail {
 
-GONIO_INLINE std::vector<std::size_t> all_but(std::vector<std::size_t> candidates, std::size_t position) {
-  candidates.erase(candidates.begin() + static_cast<std::ptrdiff_t>(position));
+GONIO_INLINE std::vector<Eigen::Index> all_but(std::vector<Eigen::Index> candidates, Eigen::Index position) {
+  candidates.erase(candidates.begin() + position);
   return candidates;
 }
 

@@ -7,7 +7,6 @@
 #include <gonio/estimate/angular_error.hpp>
 
 #include <array>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace gonio::detail {
 
 GONIO_INLINE std::array<direction_pair, 8> misplaced_pairs(const direction_pair& meant, double angle) {
   std::array<direction_pair, 8> pairs;
-  for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+  for (Eigen::Index quarter = 0; quarter < 4; ++quarter) {
     const double side = static_cast<double>(quarter) * std::numbers::pi / 2.0;
     pairs[2 * quarter] = {turned_above_horizon(meant.wi, angle, side), meant.wo};
     pairs[2 * quarter + 1] = {meant.wi, turned_above_horizon(meant.wo, angle, side)};

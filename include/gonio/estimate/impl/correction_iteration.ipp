@@ -26,22 +26,22 @@ GONIO_INLINE correction_round describe_round(const channel_values& inlier_weight
 GONIO_INLINE brdf_table total_correction(const correction& corrections, const std::vector<Eigen::MatrixXd>& weights,
                                          thread_count threads) {
   brdf_table total(corrections.cells());
-  const auto functions = static_cast<Eigen::Index>(corrections.size());
-  for (std::size_t c = 0; c < 3; ++c) {
+  const Eigen::Index functions = corrections.size();
+  for (Eigen::Index c = 0; c < 3; ++c) {
     Eigen::MatrixXf betas(std::ssize(weights), functions);
-    for (std::size_t round = 0; round < weights.size(); ++round)
-      betas.row(static_cast<Eigen::Index>(round)) = weights[round].col(static_cast<Eigen::Index>(c)).cast<float>();
+    for (Eigen::Index round = 0; round < std::ssize(weights); ++round)
+      betas.row(round) = weights[round].col(c).cast<float>();
     const auto channel = corrections.channel(c);
     for_each_block(
         corrections.cells().size(), 1024,
         [&](block range) {
-          const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+          const Eigen::Index begin = range.begin, count = range.size();
           const Eigen::MatrixXf sigmas = product(betas, channel.values().middleRows(begin, count).transpose());
           for (Eigen::Index i = 0; i < count; ++i) {
             float factor = 1.0f;
             for (Eigen::Index round = 0; round < sigmas.rows(); ++round)
               factor = std::min(factor * sigmas(round, i), correction_factor::largest_factor);
-            total.values()[3 * (range.begin + static_cast<std::size_t>(i)) + c] = factor;
+            total.values()[3 * (range.begin + i) + c] = factor;
           }
         },
         threads);

@@ -33,16 +33,15 @@ namespace gonio {
 GONIO_INLINE double highlight_contrast(const log_relative& reference, const brdf_table& table,
                                        const highlight_regions& regions, thread_count threads) {
   return detail::cell_contrasts(
-      reference, table.cells(), 1, [&](std::size_t cell, Eigen::Index) { return luminance(table.at(cell)); }, regions,
+      reference, table.cells(), 1, [&](Eigen::Index cell, Eigen::Index) { return luminance(table.at(cell)); }, regions,
       threads)[0];
 }
 
 GONIO_INLINE Eigen::ArrayXd highlight_contrasts(const log_relative& reference, const material_set& materials,
                                                 const highlight_regions& regions, thread_count threads) {
   require_complete(materials);
-  const auto luminance_of = [&](std::size_t cell, Eigen::Index material) {
-    const auto row = static_cast<Eigen::Index>(cell);
-    const Eigen::Array3f value = materials.values.row(row).segment<3>(3 * material).transpose();
+  const auto luminance_of = [&](Eigen::Index cell, Eigen::Index material) {
+    const Eigen::Array3f value = materials.values.row(cell).segment<3>(3 * material).transpose();
     return luminance(value.cast<double>());
   };
   return detail::cell_contrasts(reference, materials.cells, std::ssize(materials.names), luminance_of, regions,
@@ -53,15 +52,15 @@ GONIO_INLINE soft_and_specular split_by_contrast(const material_set& materials, 
                                                  std::optional<double> threshold, const highlight_regions& regions,
                                                  thread_count threads) {
   const Eigen::ArrayXd contrasts = highlight_contrasts(reference, materials, regions, threads);
-  std::vector<std::size_t> soft, specular;
-  for (std::size_t m = 0; m < materials.names.size(); ++m)
-    if (!std::isfinite(contrasts[static_cast<Eigen::Index>(m)]))
+  std::vector<Eigen::Index> soft, specular;
+  for (Eigen::Index m = 0; m < std::ssize(materials.names); ++m)
+    if (!std::isfinite(contrasts[m]))
       refuse({"material '", materials.names[m], "' has no contrast: its table is not finite"});
   if (!threshold) {
     threshold = median(std::vector<double>(contrasts.begin(), contrasts.end()));
   }
-  for (std::size_t m = 0; m < materials.names.size(); ++m)
-    (contrasts[static_cast<Eigen::Index>(m)] < *threshold ? soft : specular).push_back(m);
+  for (Eigen::Index m = 0; m < std::ssize(materials.names); ++m)
+    (contrasts[m] < *threshold ? soft : specular).push_back(m);
   if (soft.empty() || specular.empty())
     refuse({"all ", materials.names.size(), " materials are ", (soft.empty() ? "specular" : "soft"),
             " at a threshold of ", *threshold, ": a prior needs some on either side"});

@@ -56,7 +56,7 @@ namespace detail {
     const auto [row, column] = largest_beyond(rank, a);
     if (!(std::abs(a(row, column)) > least)) break;
     if (rank == 0) least = 3.0 * std::numeric_limits<double>::epsilon() * std::abs(a(row, column));
-    std::swap(unknown[static_cast<std::size_t>(rank)], unknown[static_cast<std::size_t>(column)]);
+    std::swap(unknown[rank], unknown[column]);
     for (Eigen::Index i = 0; i < 3; ++i) std::swap(a(i, rank), a(i, column));
     for (Eigen::Index j = 0; j < 3; ++j) std::swap(a(rank, j), a(row, j));
     for (Eigen::Index j = 0; j < 3; ++j) std::swap(b(rank, j), b(row, j));
@@ -70,8 +70,8 @@ namespace detail {
   for (Eigen::Index i = rank - 1; i >= 0; --i)
     for (Eigen::Index c = 0; c < 3; ++c) {
       double sum = b(i, c);
-      for (Eigen::Index j = i + 1; j < rank; ++j) sum -= a(i, j) * x(unknown[static_cast<std::size_t>(j)], c);
-      x(unknown[static_cast<std::size_t>(i)], c) = sum / a(i, i);
+      for (Eigen::Index j = i + 1; j < rank; ++j) sum -= a(i, j) * x(unknown[j], c);
+      x(unknown[i], c) = sum / a(i, i);
     }
   return x;
 }
@@ -87,9 +87,9 @@ GONIO_INLINE void add_combined(const Eigen::MatrixXd& a, const Eigen::Matrix3d& 
 GONIO_INLINE Eigen::VectorXd leave_one_material_out_error::operator()(const Eigen::VectorXd& etas) const {
   Eigen::VectorXd errors(etas.size());
   for_each_block(
-      static_cast<std::size_t>(etas.size()), 1,
+      etas.size(), 1,
       [&](block range) {
-        const auto e = static_cast<Eigen::Index>(range.begin);
+        const Eigen::Index e = range.begin;
         errors[e] = error_at(etas[e]);
       },
       threads_);
@@ -120,9 +120,9 @@ GONIO_INLINE void leave_one_material_out_error::sums::add(Eigen::MatrixXd column
   noise += product_with_transpose(columns);
 }
 
-GONIO_INLINE void leave_one_material_out_error::require_sensible(std::size_t locations, const Eigen::VectorXd& weights,
-                                                                 std::size_t materials) {
-  if (static_cast<std::size_t>(weights.size()) != locations || locations == 0)
+GONIO_INLINE void leave_one_material_out_error::require_sensible(Eigen::Index locations, const Eigen::VectorXd& weights,
+                                                                 Eigen::Index materials) {
+  if (weights.size() != locations || locations == 0)
     refuse(std::to_string(locations) + " locations need as many weights, not " + std::to_string(weights.size()) +
            ", and at least one");
   if (materials < 2) refuse("one material alone cannot be left out of what was learned from it: eta must be stated");

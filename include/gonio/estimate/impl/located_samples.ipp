@@ -17,24 +17,23 @@ namespace gonio::detail {
 
 GONIO_INLINE located_samples room_for_samples(Eigen::Index count, bool apart) {
   if (count == 0) refuse("all samples have weight zero: nothing is known");
-  return {std::vector<location>(static_cast<std::size_t>(count)), Eigen::MatrixXd(count, 3),
-          Eigen::MatrixXd(count, apart ? 3 : 1)};
+  return {std::vector<location>(count), Eigen::MatrixXd(count, 3), Eigen::MatrixXd(count, apart ? 3 : 1)};
 }
 
-GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, std::size_t number) {
+GONIO_INLINE void put_sample(located_samples& samples, Eigen::Index i, const sample& s, Eigen::Index number) {
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
     if (!std::isfinite(static_cast<float>(s.value[channel])))
       refuse({"sample ", number, ": a reflectance is beyond the range of float"});
     samples.values(i, channel) = s.value[channel];
   }
-  samples.locations[static_cast<std::size_t>(i)].angles = s.angles();
+  samples.locations[i].angles = s.angles();
   for (Eigen::Index channel = 0; channel < samples.weights.cols(); ++channel)
     samples.weights(i, channel) = s.weight[channel];
 }
 
 GONIO_INLINE void locate_angles(located_samples& samples, const valid_cells& cells, thread_count threads) {
   for_each_index(
-      samples.size(), 1024, [&](std::size_t i) { samples.locations[i] = locate(cells, samples.locations[i].angles); },
+      samples.size(), 1024, [&](Eigen::Index i) { samples.locations[i] = locate(cells, samples.locations[i].angles); },
       threads);
 }
 
@@ -58,12 +57,12 @@ GONIO_INLINE channel_values located_samples::channel_weights() const {
   return transposed;
 }
 
-GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size_t>& positions) const {
+GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::Index>& positions) const {
   const auto count = std::ssize(positions);
   located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3),
                        Eigen::MatrixXd(count, weights.cols())};
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const auto to = static_cast<Eigen::Index>(i), from = static_cast<Eigen::Index>(positions[i]);
+  for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
+    const Eigen::Index to = i, from = positions[i];
     some.locations[i] = locations[positions[i]];
     for (Eigen::Index channel = 0; channel < 3; ++channel) some.values(to, channel) = values(from, channel);
     for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
@@ -73,17 +72,16 @@ GONIO_INLINE located_samples located_samples::subset(const std::vector<std::size
 
 GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf_table& table, thread_count threads) {
   const bool own = table.cells() == cells;
-  const auto count = static_cast<Eigen::Index>(table.cells().size());
+  const Eigen::Index count = table.cells().size();
   located_samples found{std::vector<location>(table.cells().size()), Eigen::MatrixXd(count, 3),
                         Eigen::MatrixXd::Ones(count, 1)};
   for_each_index(
       found.size(), 4096,
-      [&](std::size_t cell) {
-        const auto row = static_cast<Eigen::Index>(cell);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+      [&](Eigen::Index cell) {
+        for (Eigen::Index channel = 0; channel < 3; ++channel) {
           const double value = double{table.values()[3 * cell + channel]};
           if (!std::isfinite(value)) refuse({"cell ", cell, " of a table is not finite"});
-          found.values(row, static_cast<Eigen::Index>(channel)) = value;
+          found.values(cell, channel) = value;
         }
         found.locations[cell] = own ? locate_cell(cells, cell) : locate(cells, table.cells().angles(cell));
       },

@@ -67,14 +67,14 @@ GONIO_INLINE channel_values automatic_weights::weigh(const channel_values& measu
   Eigen::ArrayXd weights(measured.cols());
   if (regions) {
     const double typical = half_of_the_good(found.distance, regions->all(), mixture.inlier_fraction);
-    for (std::size_t region = 0; region < regions->count(); ++region) {
-      const std::span<const std::size_t> here = (*regions)[region];
+    for (Eigen::Index region = 0; region < regions->count(); ++region) {
+      const std::span<const Eigen::Index> here = (*regions)[region];
       const double ratio = half_of_the_good(found.distance, here, mixture.inlier_fraction) / typical;
       weights(here) = weigh(rescaled(mixture, ratio), found, density, here);
     }
   } else {
-    std::vector<std::size_t> all(static_cast<std::size_t>(measured.cols()));
-    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::vector<Eigen::Index> all(measured.cols());
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
     weights = weigh(mixture, found, density, all);
   }
   return weights.cast<float>().transpose().replicate<3, 1>();
@@ -102,7 +102,7 @@ GONIO_INLINE automatic_weights::deviations automatic_weights::deviate(const chan
 
 GONIO_INLINE Eigen::ArrayXd automatic_weights::weigh(const outlier_mixture& mixture, const deviations& found,
                                                      const outlier_density& density,
-                                                     std::span<const std::size_t> samples) const {
+                                                     std::span<const Eigen::Index> samples) const {
   const Eigen::ArrayXd residuals = found.residual(samples).cast<double>(),
                        distances = found.distance(samples).cast<double>();
   const Eigen::ArrayXd outliers = found.logarithm(samples).unaryExpr([&](float value) { return density(value); });
@@ -125,9 +125,9 @@ GONIO_INLINE double automatic_weights::scale_of_distances(const deviations& foun
 }
 
 GONIO_INLINE double automatic_weights::half_of_the_good(const Eigen::ArrayXf& residuals,
-                                                        std::span<const std::size_t> samples, double inlier_fraction) {
+                                                        std::span<const Eigen::Index> samples, double inlier_fraction) {
   std::vector<float> sorted;
-  for (const std::size_t sample : samples) sorted.push_back(residuals[static_cast<Eigen::Index>(sample)]);
+  for (const Eigen::Index sample : samples) sorted.push_back(residuals[sample]);
   // Of n values, not of the n - 1 steps between them as `quantile` has it: a region may have but eight samples.
   const auto middle =
       sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * inlier_fraction * static_cast<double>(sorted.size()));

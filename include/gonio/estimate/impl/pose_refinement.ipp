@@ -52,11 +52,11 @@ GONIO_INLINE void pose_iteration::require_sensible() const {
   if (!(options_.deviation > 0.0 && options_.deviation < std::numbers::pi / 4.0))
     refuse("light and camera may be off by 0 to 45 degrees, not by " + std::to_string(degrees(options_.deviation)));
   if (materials_.empty() || materials_.front().empty()) refuse("there is no image");
-  const std::size_t count = materials_.front().size();
-  for (std::size_t m = 0; m < materials_.size(); ++m)
-    if (materials_[m].size() != count)
+  const Eigen::Index count = materials_.front().size();
+  for (Eigen::Index m = 0; m < std::ssize(materials_); ++m)
+    if (std::ssize(materials_[m]) != count)
       refuse({"material ", m + 1, " is in ", materials_[m].size(), " images, the first in ", count});
-  for (std::size_t p = 0; p < count; ++p) {
+  for (Eigen::Index p = 0; p < count; ++p) {
     sample_set all;
     for (const std::vector<sample_set>& images : materials_) all.insert(all.end(), images[p].begin(), images[p].end());
     require_usable(all);
@@ -67,16 +67,17 @@ GONIO_INLINE sample pose_iteration::turned(const sample& s, const pose_correctio
   return turned_sample(s, turns, options_.calibrated_by == light_calibration::irradiance);
 }
 
-GONIO_INLINE void pose_iteration::require_material(std::size_t material) const {
-  if (material >= materials_.size()) refuse({"there is no material ", material, " of ", materials_.size()});
+GONIO_INLINE void pose_iteration::require_material(Eigen::Index material) const {
+  if (material < 0 || material >= std::ssize(materials_))
+    refuse({"there is no material ", material, " of ", materials_.size()});
 }
 
-GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(std::size_t material) const {
+GONIO_INLINE const Eigen::MatrixXd& pose_iteration::weights(Eigen::Index material) const {
   require_material(material);
   return state_.fits[material].weights;
 }
 
-GONIO_INLINE sample_set pose_iteration::samples(std::size_t material) const {
+GONIO_INLINE sample_set pose_iteration::samples(Eigen::Index material) const {
   require_material(material);
   const std::vector<sample_set>& images = materials_[material];
   sample_set all;
@@ -159,8 +160,8 @@ GONIO_INLINE double pose_iteration::turn_penalty() const {
 
 GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::VectorXd& by) const {
   std::vector<pose_correction> turns = turns_;
-  for (std::size_t p = 0; p < turns.size(); ++p) {
-    const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+  for (Eigen::Index p = 0; p < std::ssize(turns); ++p) {
+    const Eigen::Index first = unknowns * p;
     turns[p].light += by.segment<3>(first);
     turns[p].camera += by.segment<3>(first + 3);
   }
@@ -197,7 +198,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, cons
     const auto count = std::ssize(images[p]);
     for (Eigen::Index u = 0; u < unknowns; ++u) {
       const Eigen::MatrixXd change = derivative(material, p, u, read);
-      auto column = all.col(unknowns * static_cast<Eigen::Index>(p) + u);
+      auto column = all.col(unknowns * p + u);
       for (Eigen::Index c = 0; c < 3; ++c) column.segment(c * n + begin, count) = change.col(c);
     }
     begin += count;
@@ -205,7 +206,7 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, cons
   return all;
 }
 
-GONIO_INLINE void pose_iteration::add_curvature(std::size_t material, const reader& read, Eigen::MatrixXd& hessian,
+GONIO_INLINE void pose_iteration::add_curvature(Eigen::Index material, const reader& read, Eigen::MatrixXd& hessian,
                                                 Eigen::MatrixXd& gradient) const {
   const fit& here = state_.fits[material];
   const Eigen::Index n = here.system.right.rows();
@@ -227,13 +228,13 @@ GONIO_INLINE Eigen::VectorXd pose_iteration::newton_step(const reader& read) con
   const Eigen::Index all = unknowns * std::ssize(turns_);
   Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(all, all), gradient(all, 1);
   for (Eigen::Index i = 0; i < all; ++i) hessian(i, i) = turn_penalty();
-  for (std::size_t p = 0; p < turns_.size(); ++p)
+  for (Eigen::Index p = 0; p < std::ssize(turns_); ++p)
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const Eigen::Index first = unknowns * static_cast<Eigen::Index>(p);
+      const Eigen::Index first = unknowns * p;
       gradient(first + i, 0) = turn_penalty() * turns_[p].light[i];
       gradient(first + 3 + i, 0) = turn_penalty() * turns_[p].camera[i];
     }
-  for (std::size_t m = 0; m < materials_.size(); ++m) add_curvature(m, read, hessian, gradient);
+  for (Eigen::Index m = 0; m < std::ssize(materials_); ++m) add_curvature(m, read, hessian, gradient);
   return -cholesky(hessian).solve(gradient);
 }
 

@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -79,12 +78,11 @@ GONIO_INLINE void push(const pyramid_level& coarse, pyramid_level& fine, thread_
         auto cell = fine.cells.col(fine.index(h, d, p));
         const double known = cell[3];
         if (known == 1.0) return;
-        const axis_interval &by_h = along_h[static_cast<std::size_t>(h)], &by_d = along_d[static_cast<std::size_t>(d)],
-                            &by_p = along_p[static_cast<std::size_t>(p)];
+        const axis_interval &by_h = along_h[h], &by_d = along_d[d], &by_p = along_p[p];
         Eigen::Array4d around = Eigen::Array4d::Zero();
-        for (std::size_t a = 0; a < 2; ++a)
-          for (std::size_t b = 0; b < 2; ++b)
-            for (std::size_t c = 0; c < 2; ++c)
+        for (Eigen::Index a = 0; a < 2; ++a)
+          for (Eigen::Index b = 0; b < 2; ++b)
+            for (Eigen::Index c = 0; c < 2; ++c)
               around += by_h.weight[a] * by_d.weight[b] * by_p.weight[c] *
                         coarse.cells.col(coarse.index(by_h.node[a], by_d.node[b], by_p.node[c])).cast<double>();
         cell = (known * cell.cast<double>() + (1.0 - known) * around).cast<float>();
@@ -99,13 +97,13 @@ namespace gonio {
 
 GONIO_INLINE completed_table pull_push::fit(const brdf_table& table) const {
   splats sums(cells_.grid());
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     sums.add({table.cells().angles(cell), table.at(cell), 1.0});
   return complete(sums);
 }
 
 GONIO_INLINE void pull_push::splats::add(const sample& s) {
-  auto sum = sums_.col(static_cast<Eigen::Index>(over_.linear(over_.nearest(s.angles()))));
+  auto sum = sums_.col(over_.linear(over_.nearest(s.angles())));
   // A cell is known in all channels or in none, so that a sample has one weight.
   sum.head<3>() += s.weight.mean() * s.value;
   sum[3] += s.weight.mean();
@@ -122,12 +120,12 @@ GONIO_INLINE completed_table pull_push::complete(const splats& sums) const {
   std::vector<detail::pyramid_level> pyramid{sums.finest()};
   while (pyramid.back().cells.cols() > 1) pyramid.push_back(detail::pull(pyramid.back(), threads_));
   if (!(pyramid.back().cells(3, 0) > 0.0f)) refuse("all samples have weight zero: nothing is known");
-  for (std::size_t level = pyramid.size() - 1; level > 0; --level)
+  for (Eigen::Index level = pyramid.size() - 1; level > 0; --level)
     detail::push(pyramid[level], pyramid[level - 1], threads_);
 
   brdf_table table(cells_);
-  for (std::size_t cell = 0; cell < cells_.size(); ++cell)
-    table.set(cell, pyramid.front().cells.col(static_cast<Eigen::Index>(cells_.linear(cell))).head<3>().cast<double>());
+  for (Eigen::Index cell = 0; cell < cells_.size(); ++cell)
+    table.set(cell, pyramid.front().cells.col(cells_.linear(cell)).head<3>().cast<double>());
   return completed_table(std::move(table));
 }
 

@@ -14,16 +14,16 @@ namespace gonio {
 
 GONIO_INLINE sample_regions::sample_regions(const std::vector<location>& locations)
     : order_(locations.size()), strips_(at_most(6, locations.size())), parts_(at_most(4, locations.size() / strips_)) {
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
-  const auto sort_by = [&](double half_difference::*angle, std::span<std::size_t> some) {
-    std::ranges::sort(some, [&](std::size_t one, std::size_t other) {
+  std::iota(order_.begin(), order_.end(), Eigen::Index{0});
+  const auto sort_by = [&](double half_difference::*angle, std::span<Eigen::Index> some) {
+    std::ranges::sort(some, [&](Eigen::Index one, Eigen::Index other) {
       const double first = locations[one].angles.*angle, second = locations[other].angles.*angle;
       return first != second ? first < second : one < other;
     });
   };
   sort_by(&half_difference::theta_h, order_);
-  for (std::size_t strip = 0; strip < strips_; ++strip)
-    sort_by(&half_difference::theta_d, part_of<std::size_t>(order_, strip, strips_));
+  for (Eigen::Index strip = 0; strip < strips_; ++strip)
+    sort_by(&half_difference::theta_d, part_of<Eigen::Index>(order_, strip, strips_));
 }
 
 }  // namespace gonio

@@ -14,8 +14,8 @@ GONIO_INLINE rgb highlight_peak(const brdf_table& table, double largest_theta_d)
   const valid_cells& cells = table.cells();
   // Cells are in the order of theta_h, so those of the highlight come first.
   const double limit = std::max(radians(5.0), std::nextafter(cells.angles(0).theta_h, 2.0));
-  std::vector<std::size_t> near;
-  for (std::size_t cell = 0; cell < cells.size() && cells.angles(cell).theta_h < limit; ++cell)
+  std::vector<Eigen::Index> near;
+  for (Eigen::Index cell = 0; cell < cells.size() && cells.angles(cell).theta_h < limit; ++cell)
     if (cells.angles(cell).theta_d <= largest_theta_d) near.push_back(cell);
   if (near.empty()) near.push_back(0);
 
@@ -24,12 +24,12 @@ GONIO_INLINE rgb highlight_peak(const brdf_table& table, double largest_theta_d)
   const double position = 0.999 * static_cast<double>(near.size() - 1);
   const double below = std::floor(position);
   const auto lower = values.begin() + static_cast<std::ptrdiff_t>(below);
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    for (std::size_t i = 0; i < near.size(); ++i) values[i] = table.values()[3 * near[i] + channel];
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    for (Eigen::Index i = 0; i < std::ssize(near); ++i) values[i] = table.values()[3 * near[i] + channel];
     std::ranges::nth_element(values, lower);
     const double next = lower + 1 < values.end() ? *std::min_element(lower + 1, values.end()) : *lower;
     const double percentile = *lower + (position - below) * (next - *lower);
-    peak[static_cast<Eigen::Index>(channel)] = std::max(percentile, 0.0);
+    peak[channel] = std::max(percentile, 0.0);
   }
   return peak;
 }

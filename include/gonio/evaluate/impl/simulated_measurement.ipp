@@ -28,16 +28,16 @@ GONIO_INLINE sample_set sample_table_misplaced(const brdf_table& table, std::spa
   return samples;
 }
 
-GONIO_INLINE std::vector<std::size_t> random_cells(const valid_cells& cells, std::size_t count, std::uint64_t seed) {
-  if (count == 0 || count > cells.size())
+GONIO_INLINE std::vector<Eigen::Index> random_cells(const valid_cells& cells, Eigen::Index count, std::uint64_t seed) {
+  if (count < 1 || count > cells.size())
     refuse("cannot choose " + std::to_string(count) + " different cells of " + std::to_string(cells.size()));
   return random_choice(cells.size(), count, seed);
 }
 
-GONIO_INLINE std::vector<std::size_t> cells_at(const valid_cells& cells, std::span<const half_difference> directions) {
-  std::vector<std::size_t> chosen;
+GONIO_INLINE std::vector<Eigen::Index> cells_at(const valid_cells& cells, std::span<const half_difference> directions) {
+  std::vector<Eigen::Index> chosen;
   for (const half_difference& angles : directions) {
-    const std::size_t linear = cells.grid().linear(cells.grid().nearest(angles));
+    const Eigen::Index linear = cells.grid().linear(cells.grid().nearest(angles));
     if (!cells.contains(linear))
       refuse("direction " + std::to_string(chosen.size() + 1) + " (theta_h " + std::to_string(degrees(angles.theta_h)) +
              ", theta_d " + std::to_string(degrees(angles.theta_d)) + ", phi_d " +
@@ -47,23 +47,23 @@ GONIO_INLINE std::vector<std::size_t> cells_at(const valid_cells& cells, std::sp
   return chosen;
 }
 
-GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const std::size_t> cells,
+GONIO_INLINE sample_set sample_table(const brdf_table& table, std::span<const Eigen::Index> cells,
                                      const measurement_defects& defects, std::uint64_t seed) {
   sample_set samples;
   samples.reserve(cells.size());
-  for (const std::size_t cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
-  std::uniform_int_distribution<std::size_t> any_cell(0, table.cells().size() - 1);
+  for (const Eigen::Index cell : cells) samples.push_back({table.cells().angles(cell), table.at(cell), 1.0});
+  std::uniform_int_distribution<Eigen::Index> any_cell(0, table.cells().size() - 1);
   return corrupt(std::move(samples), defects, seed,
                  [&](std::mt19937_64& generator) { return rgb(table.at(any_cell(generator))); });
 }
 
-GONIO_INLINE sample_split split_samples(const sample_set& samples, std::size_t count, std::uint64_t seed) {
-  if (count > samples.size())
+GONIO_INLINE sample_split split_samples(const sample_set& samples, Eigen::Index count, std::uint64_t seed) {
+  if (count < 0 || count > std::ssize(samples))
     refuse("cannot choose " + std::to_string(count) + " of " + std::to_string(samples.size()) + " samples");
   std::vector<bool> chosen(samples.size());
-  for (const std::size_t i : random_choice(samples.size(), count, seed)) chosen[i] = true;
+  for (const Eigen::Index i : random_choice(samples.size(), count, seed)) chosen[i] = true;
   sample_split parts;
-  for (std::size_t i = 0; i < samples.size(); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i) (chosen[i] ? parts.some : parts.others).push_back(samples[i]);
   return parts;
 }
 

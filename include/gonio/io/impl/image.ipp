@@ -275,7 +275,7 @@ GONIO_INLINE void write_hdr(const std::filesystem::path& path, const image& pict
   const auto [columns, rows] = detail::check_pixels(picture, brightest, path.string());
   std::vector<float> rounded(picture.size());
   for (std::size_t i = 0; i < rounded.size(); i += 3)
-    std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + static_cast<std::ptrdiff_t>(i));
+    std::ranges::copy(detail::round_to_rgbe(picture.data() + i), rounded.begin() + i);
   detail::byte_sink sink;
   if (stbi_write_hdr_to_func(detail::byte_sink::write, &sink, columns, rows, 3, rounded.data()) == 0 || sink.failed)
     gonio::refuse({path.string(), ": the image cannot be encoded"});

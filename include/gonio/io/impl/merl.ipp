@@ -84,7 +84,7 @@ GONIO_INLINE brdf_table parse_merl(std::span<const std::byte> bytes, const std::
                      options.shared->minimum_cosine() == convention.minimum_cosine;
   brdf_table table(share ? *options.shared : valid_cells(cells, convention.minimum_cosine));
   const std::span<float> values = table.values();
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
     const std::size_t linear = table.cells().linear(cell);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const double value = planes(channel, linear) * merl_scale[channel];
@@ -104,7 +104,7 @@ GONIO_INLINE void write_merl(const std::filesystem::path& path, const brdf_table
   file_writer file(path);
   file.write({reinterpret_cast<const std::byte*>(header.data()), detail::merl_header_size});
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    for (std::size_t cell = 0; cell < table.cells().size(); ++cell) {
+    for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
       const double value = double{table.values()[3 * cell + channel]};
       const std::size_t linear = table.cells().linear(cell);
       if (!std::isfinite(value)) detail::refuse_cell(path.string(), cells, linear, channel, value);

@@ -33,13 +33,12 @@ GONIO_INLINE material_set read_merl_directory(const std::filesystem::path& folde
         m == 0 ? read_merl_any(files[m].path) : read_merl_any(files[m].path, {{}, materials.cells});
     if (m == 0) {
       materials.cells = table.cells();
-      materials.values.resize(static_cast<Eigen::Index>(table.cells().size()),
-                              static_cast<Eigen::Index>(3 * files.size()));
+      materials.values.resize(table.cells().size(), (3 * files.size()));
     } else if (!(table.cells() == materials.cells)) {
       gonio::refuse({files[m].path.string(), ": its valid cells differ from those of ", files[0].path.string()});
     }
     materials.names.push_back(files[m].name);
-    materials.values.middleCols(static_cast<Eigen::Index>(3 * m), 3) =
+    materials.values.middleCols(3 * m, 3) =
         Eigen::Map<const cell_matrix>(table.values().data(), materials.values.rows(), 3);
   }
   return materials;

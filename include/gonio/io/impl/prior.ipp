@@ -52,11 +52,11 @@ GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   for (const std::string& name : prior.names()) out.put_text(name);
   out.put_bytes(prior.singular_values().data(), prior.size() * sizeof(double));
   const Eigen::MatrixXf& coefficients = prior.coefficients();
-  out.put_bytes(coefficients.data(), static_cast<std::size_t>(coefficients.size()) * sizeof(float));
+  out.put_bytes(coefficients.data(), coefficients.size() * sizeof(float));
   put_quantised(out, quantise<std::uint16_t>(log_of_reference(prior.metric())));
   put_quantised(out, quantise<std::uint16_t>(prior.mean()));
   std::vector<float> component(prior.cells().size());
-  for (std::size_t k = 0; k < prior.size(); ++k) {
+  for (Eigen::Index k = 0; k < prior.size(); ++k) {
     for (std::size_t cell = 0; cell < component.size(); ++cell) component[cell] = prior.row(cell)[k];
     put_quantised(out, quantise<std::uint8_t>(component));
   }
@@ -94,11 +94,11 @@ struct prior_domain {
   });
   // A valid cell takes 5 bytes at least: two codes of 16 bits, and one of 8 for each component. On a grid of any size
   // half of the cells are valid, unless they are few or the smallest cosine is large.
-  constexpr std::size_t small_grid = std::size_t{1} << 21;
-  const std::size_t most = in.left() / 5;
-  std::size_t valid = 0;
+  constexpr Eigen::Index small_grid = Eigen::Index{1} << 21;
+  const Eigen::Index most = in.left() / 5;
+  Eigen::Index valid = 0;
   if (grid.size() <= std::max(2 * most, small_grid))
-    for_each_smaller_cosine(grid, [&](std::size_t, double cosine) {
+    for_each_smaller_cosine(grid, [&](Eigen::Index, double cosine) {
       if (cosine > std::max(minimum_cosine, valid_cells::horizon)) ++valid;
     });
   if (valid > most || grid.size() > std::max(2 * most, small_grid))
@@ -134,7 +134,7 @@ struct prior_domain {
   std::string source = in.take_text();
   std::vector<std::string> names(materials);
   for (std::string& material : names) material = in.take_text();
-  const auto k = static_cast<Eigen::Index>(components);
+  const Eigen::Index k = components;
   const auto singular = in.take_all<double>(components);
   const auto observed = in.take_all<float>(std::size_t{3} * materials * components);
 
@@ -142,20 +142,19 @@ struct prior_domain {
   std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
   for (float& value : reference) value = std::exp(value);
   std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  cell_matrix functions(static_cast<Eigen::Index>(cells.size()), k);
+  cell_matrix functions(cells.size(), k);
   for (Eigen::Index c = 0; c < k; ++c) {
     const auto column = take_quantised<std::uint8_t>(in, cells.size());
-    for (std::size_t cell = 0; cell < cells.size(); ++cell)
-      functions(static_cast<Eigen::Index>(cell), c) = dequantise(column, cell);
+    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);
   }
   if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});
 
   // Refuse values that are not finite.
   Eigen::VectorXd singular_values(k);
   std::copy(singular.begin(), singular.end(), singular_values.data());
-  Eigen::MatrixXf coefficients(3 * static_cast<Eigen::Index>(materials), k);
+  Eigen::MatrixXf coefficients(3 * materials, k);
   std::copy(observed.begin(), observed.end(), coefficients.data());
-  const std::span<const float> values(functions.data(), static_cast<std::size_t>(functions.size()));
+  const std::span<const float> values(functions.data(), functions.size());
   const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
                       all_finite(values) && all_finite(mean);
   if (!finite) gonio::refuse({name, ": a value of the prior is not finite"});

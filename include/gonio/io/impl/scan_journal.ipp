@@ -100,7 +100,7 @@ GONIO_INLINE capture::reading parse_reading(number_reader& numbers, std::uint16_
     place.refuse("has " + std::to_string(numbers.left() - std::min<std::size_t>(numbers.left(), 1)) +
                  " counts, expected " + std::to_string(frames * pixels * 3));
   for (std::size_t i = 0; i < frames; ++i) {
-    capture::camera_frame each(static_cast<Eigen::Index>(pixels), 3);
+    capture::camera_frame each(pixels, 3);
     for (std::uint16_t& count : each.reshaped())
       count = static_cast<std::uint16_t>(numbers.next_whole(largest_count, "a count"));
     taken.frames.push_back(std::move(each));

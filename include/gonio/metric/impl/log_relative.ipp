@@ -18,7 +18,7 @@ namespace gonio {
 
 GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> reference, cosine_weighting weighting)
     : cells_(std::move(cells)), weighting_(weighting) {
-  if (reference.size() != cells_.size())
+  if (std::ssize(reference) != cells_.size())
     refuse({"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"});
   for (const float value : reference)
     if (!(value >= 0.0f && std::isfinite(value))) refuse("a reference BRDF must be finite and not negative");
@@ -32,8 +32,8 @@ GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, c
   for_each_block(
       reference.size(), 1024,
       [&](block range) {
-        std::vector<float> row(static_cast<std::size_t>(values.cols()));
-        for (std::size_t cell = range.begin; cell < range.end; ++cell) {
+        std::vector<float> row(values.cols());
+        for (Eigen::Index cell = range.begin; cell < range.end; ++cell) {
           std::copy_n(values.data() + cell * row.size(), row.size(), row.begin());
           reference[cell] = std::max(median(row), 0.0f);
         }
@@ -44,7 +44,7 @@ GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, c
 
 GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
   std::vector<float> moved(cells.size());
-  for (std::size_t cell = 0; cell < moved.size(); ++cell)
+  for (Eigen::Index cell = 0; cell < std::ssize(moved); ++cell)
     moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
   return {cells, std::move(moved), weighting_};
 }

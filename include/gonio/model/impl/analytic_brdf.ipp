@@ -50,7 +50,7 @@ GONIO_INLINE const lobe_kind& lobe_kind_named(std::string_view name) {
 GONIO_INLINE analytic_lobe::analytic_lobe(const lobe_kind& kind, const rgb& colour, const lobe_kind::values& parameters)
     : kind_(&kind), colour_(colour), parameters_(parameters) {
   require_usable_colour(kind.name(), colour_);
-  for (std::size_t i = 0; i < kind.parameters().size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(kind.parameters()); ++i)
     require_within_bounds(kind.name(), kind.parameters()[i], parameters_[i]);
 }
 

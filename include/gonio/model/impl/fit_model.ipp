@@ -19,11 +19,11 @@ namespace gonio::model::detail {
 
 GONIO_INLINE std::vector<lobe_kind::values> typical_shapes(const std::vector<const lobe_kind*>& kinds) {
   std::vector<lobe_kind::values> shapes;
-  for (std::size_t l = 0; l < kinds.size(); ++l) {
-    const auto before = std::count(kinds.begin(), kinds.begin() + static_cast<std::ptrdiff_t>(l), kinds[l]);
+  for (Eigen::Index l = 0; l < std::ssize(kinds); ++l) {
+    const auto before = std::count(kinds.begin(), kinds.begin() + l, kinds[l]);
     lobe_kind::values start = kinds[l]->typical();
     const auto about = kinds[l]->parameters();
-    for (std::size_t p = 0; p < about.size() && before > 0; ++p) {
+    for (Eigen::Index p = 0; p < std::ssize(about) && before > 0; ++p) {
       const double way = (before % 2 == 1 ? 1.0 : -1.0) * static_cast<double>((before + 1) / 2);
       const double moved = about[p].logarithmic ? start[p] * std::exp2(2.0 * way)
                                                 : start[p] + 0.2 * way * (about[p].highest - about[p].lowest);
@@ -73,9 +73,9 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
                                     std::span<const fit_observation> observations, chosen_metric metric,
                                     const model_fit_options& options) {
   if (kinds.empty()) refuse("a model needs at least one lobe");
-  std::size_t parameters = 0;
+  Eigen::Index parameters = 0;
   for (const lobe_kind* kind : kinds) parameters += 3 + kind->parameters().size();
-  if (3 * observations.size() < parameters)
+  if (3 * std::ssize(observations) < parameters)
     refuse(std::to_string(observations.size()) + " samples of three channels are too few for " +
            std::to_string(parameters) + " parameters");
   if (std::ranges::all_of(
@@ -84,11 +84,11 @@ GONIO_INLINE model_fit fit_model_by(const std::vector<const lobe_kind*>& kinds,
 
   const model_loss loss(kinds, observations, std::move(metric), options);
   auto [best, end] = fit_from(loss, loss.coded(typical_shapes(kinds)), options);
-  std::size_t evaluations = end.evaluations;
+  Eigen::Index evaluations = end.evaluations;
 
   std::mt19937_64 random(options.seed);
   const unknown_bounds box = loss.bounds();
-  for (std::size_t start = 0; start < options.random_starts; ++start) {
+  for (Eigen::Index start = 0; start < options.random_starts; ++start) {
     Eigen::VectorXd shapes(loss.shapes());
     for (Eigen::Index j = 0; j < shapes.size(); ++j)
       shapes[j] = std::uniform_real_distribution(box.lowest[j], box.highest[j])(random);

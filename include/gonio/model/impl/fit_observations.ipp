@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -32,7 +31,7 @@ GONIO_INLINE std::vector<fit_observation> fit_observations(const brdf_table& tab
                                                            cell_weighting weighting) {
   const direction normal(0.0, 0.0, 1.0);
   const grid& of = table.cells().grid();
-  const auto weight_of = [&](std::size_t cell, const lobe_geometry& at) {
+  const auto weight_of = [&](Eigen::Index cell, const lobe_geometry& at) {
     if (weighting == cell_weighting::equal) return 1.0;
     const double pairs = detail::solid_angle_of_pairs(of, of.cell(table.cells().linear(cell)));
     return weighting == cell_weighting::cosine ? pairs * at.cosine_i * at.cosine_o : pairs;
@@ -40,7 +39,7 @@ GONIO_INLINE std::vector<fit_observation> fit_observations(const brdf_table& tab
   std::vector<fit_observation> all(table.cells().size(), {lobe_geometry(normal, normal), rgb::Zero(), 1.0});
   for_each_index(
       all.size(), 4096,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         const auto [wi, wo] = to_directions(table.cells().angles(cell));
         const lobe_geometry at(wi, wo);
         all[cell] = {at, table.at(cell), weight_of(cell, at)};

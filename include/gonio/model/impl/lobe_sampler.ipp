@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <cstddef>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -22,16 +21,16 @@ namespace gonio::model::detail {
 GONIO_INLINE direction_mixture mixture_of(const std::vector<weighed_lobe>& lobes) {
   by_viewer sum{};
   for (const weighed_lobe& lobe : lobes)
-    for (std::size_t at = 0; at < sum.size(); ++at) sum[at] += lobe.albedo[at];
+    for (Eigen::Index at = 0; at < std::ssize(sum); ++at) sum[at] += lobe.albedo[at];
   constexpr double least_share = 0.01;
   direction_mixture mixture;
   by_viewer black{};  // what reflects nothing may be drawn anyhow
-  for (std::size_t at = 0; at < sum.size(); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
+  for (Eigen::Index at = 0; at < std::ssize(sum); ++at) black[at] = sum[at] > 0.0 ? 0.0 : 1.0;
   mixture.add(cosine_directions{}, black);
   for (const weighed_lobe& lobe : lobes)
     for (const sampling_technique& technique : lobe.techniques) {
       by_viewer shares{};
-      for (std::size_t at = 0; at < sum.size(); ++at)
+      for (Eigen::Index at = 0; at < std::ssize(sum); ++at)
         if (sum[at] > 0.0)
           shares[at] = technique.share * (lobe.albedo[at] / sum[at] + least_share) /
                        (1.0 + least_share * static_cast<double>(lobes.size()));

@@ -27,15 +27,14 @@ namespace gonio::model::detail {
 [[nodiscard]] GONIO_INLINE Eigen::MatrixXd entries(const Eigen::MatrixXd& of, const std::vector<Eigen::Index>& rows,
                                                    const std::vector<Eigen::Index>& columns) {
   Eigen::MatrixXd found(std::ssize(rows), std::ssize(columns));
-  for (std::size_t j = 0; j < columns.size(); ++j)
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      found(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = of(rows[i], columns[j]);
+  for (Eigen::Index j = 0; j < std::ssize(columns); ++j)
+    for (Eigen::Index i = 0; i < std::ssize(rows); ++i) found(i, j) = of(rows[i], columns[j]);
   return found;
 }
 
 /// `count` numbers from `first` on.
 [[nodiscard]] GONIO_INLINE std::vector<Eigen::Index> numbers_from(Eigen::Index first, Eigen::Index count) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(count));
+  std::vector<Eigen::Index> all(count);
   std::iota(all.begin(), all.end(), first);
   return all;
 }
@@ -99,8 +98,7 @@ GONIO_INLINE analytic_brdf model_loss::model(const Eigen::VectorXd& x) const {
   const auto parameters = decoded(x);
   std::vector<analytic_lobe> all;
   for (Eigen::Index l = 0; l < lobes(); ++l)
-    all.emplace_back(*kinds_[static_cast<std::size_t>(l)], rgb(colours(x).row(l).transpose()),
-                     parameters[static_cast<std::size_t>(l)]);
+    all.emplace_back(*kinds_[l], rgb(colours(x).row(l).transpose()), parameters[l]);
   return analytic_brdf(std::move(all));
 }
 
@@ -115,10 +113,10 @@ GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u, Eige
   return sum_over_blocks(
       observations_.size(), block_size, Eigen::MatrixXd::Zero(all, all).eval(),
       [&](Eigen::MatrixXd& sum, block range) {
-        Eigen::MatrixXd columns(all, static_cast<Eigen::Index>(range.size()));
-        for (std::size_t i = range.begin; i < range.end; ++i) {
+        Eigen::MatrixXd columns(all, range.size());
+        for (Eigen::Index i = range.begin; i < range.end; ++i) {
           const fit_observation& seen = observations_[i];
-          auto column = columns.col(static_cast<Eigen::Index>(i - range.begin));
+          auto column = columns.col(i - range.begin);
           evaluate(seen.at, parameters, column);
           column.tail(3) = seen.value.matrix();
           column *= std::sqrt(seen.weight[channel]) * cosine(seen);
@@ -131,7 +129,7 @@ GONIO_INLINE Eigen::MatrixXd model_loss::products(const Eigen::VectorXd& u, Eige
 GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const std::vector<Eigen::MatrixXd>& products) const {
   if (products.size() == 1) return solve_colours(products.front(), 0, 3);
   Eigen::MatrixXd found(lobes(), 3);
-  for (Eigen::Index c = 0; c < 3; ++c) found.col(c) = solve_colours(products[static_cast<std::size_t>(c)], c, 1);
+  for (Eigen::Index c = 0; c < 3; ++c) found.col(c) = solve_colours(products[c], c, 1);
   return found;
 }
 
@@ -153,8 +151,7 @@ GONIO_INLINE Eigen::MatrixXd model_loss::solve_colours(const Eigen::MatrixXd& pr
     for (Eigen::Index j = 0; j < scale.size(); ++j) gram(i, j) *= scale[i] * scale[j];
   }
   const Eigen::MatrixXd scaled = nnls().solve(normal_equations(std::move(gram), std::move(rhs))).weights;
-  for (Eigen::Index i = 0; i < scale.size(); ++i)
-    found.row(bright[static_cast<std::size_t>(i)]) = scale[i] * scaled.row(i);
+  for (Eigen::Index i = 0; i < scale.size(); ++i) found.row(bright[i]) = scale[i] * scaled.row(i);
   return found;
 }
 
@@ -165,7 +162,7 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
   const Eigen::Index count = lobes(), p = shapes();
   local_parabola result{0.0, Eigen::VectorXd::Zero(p), Eigen::MatrixXd::Zero(p, p)};
   for (Eigen::Index c = 0; c < 3; ++c) {
-    const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? static_cast<std::size_t>(c) : 0];
+    const Eigen::MatrixXd& all = of_channels[weighs_channels_apart_ ? c : 0];
     // Evaluate the loss: the residual is G x - y, its slopes D times the colours of their lobes.
     Eigen::VectorXd residual = Eigen::VectorXd::Zero(all.rows());
     residual.head(count) = found.col(c);
@@ -174,7 +171,7 @@ GONIO_INLINE local_parabola model_loss::projected(const Eigen::VectorXd& u) cons
     result.value += 0.5 * residual.dot(against);
     // Add the gradient and Gauss and Newton's Hessian by the shapes.
     Eigen::VectorXd colour(p);
-    for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(static_cast<Eigen::Index>(owner(j).lobe), c);
+    for (Eigen::Index j = 0; j < p; ++j) colour[j] = found(owner(j).lobe, c);
     result.gradient += colour.cwiseProduct(against.segment(count, p));
     for (Eigen::Index j = 0; j < p; ++j)
       for (Eigen::Index i = 0; i < p; ++i) result.hessian(i, j) += colour[i] * all(count + i, count + j) * colour[j];
@@ -207,11 +204,11 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
       observations_.size(), block_size, zero,
       [&](Eigen::MatrixXd& sum, block range) {
         std::array<Eigen::MatrixXd, 3> columns;
-        columns.fill(Eigen::MatrixXd(n + 1, static_cast<Eigen::Index>(range.size())));
+        columns.fill(Eigen::MatrixXd(n + 1, range.size()));
         // Evaluate each lobe and its slopes by the shapes at an observation.
         Eigen::VectorXd value(n + 3);
         std::array<double, 3> losses{};
-        for (std::size_t i = range.begin; i < range.end; ++i) {
+        for (Eigen::Index i = range.begin; i < range.end; ++i) {
           const fit_observation& seen = observations_[i];
           evaluate(seen.at, parameters, value);
           for (Eigen::Index c = 0; c < 3; ++c) {
@@ -219,24 +216,23 @@ GONIO_INLINE local_parabola model_loss::joint(const Eigen::VectorXd& x) const {
             const double modelled = value.head(count).dot(colour.col(c));
             const double residual = mapped(seen, modelled) - mapped(seen, seen.value[c]);
             const auto [loss, curvature] = norm_of(residual);
-            losses[static_cast<std::size_t>(c)] += seen.weight[c] * loss;
+            losses[c] += seen.weight[c] * loss;
             const double root = std::sqrt(seen.weight[c] * curvature);
             const double slope = root * cosine(seen) * metric_.slope(modelled * cosine(seen));
-            auto column = columns[static_cast<std::size_t>(c)].col(static_cast<Eigen::Index>(i - range.begin));
+            auto column = columns[c].col(i - range.begin);
             // Store the slopes by the shapes and by the own colours, and the residual, as a column.
-            for (Eigen::Index j = 0; j < p; ++j)
-              column[j] = slope * value[count + j] * colour(static_cast<Eigen::Index>(owner(j).lobe), c);
+            for (Eigen::Index j = 0; j < p; ++j) column[j] = slope * value[count + j] * colour(owner(j).lobe, c);
             column.segment(p, count) = slope * value.head(count);
             column[n] = root * residual;
           }
         }
         // Add the products of all columns; the last diagonal entry sums the losses instead of squares.
         for (Eigen::Index c = 0; c < 3; ++c) {
-          const auto& own = columns[static_cast<std::size_t>(c)];
+          const auto& own = columns[c];
           auto part = sum.middleRows(c * (n + 1), n + 1);
           const double before = part(n, n);
           part += product_with_transpose(own);
-          part(n, n) = before + losses[static_cast<std::size_t>(c)];
+          part(n, n) = before + losses[c];
         }
       },
       options_.threads);
@@ -267,12 +263,12 @@ GONIO_INLINE Eigen::VectorXd model_loss::with_colours(const Eigen::VectorXd& u) 
 GONIO_INLINE void model_loss::evaluate(const lobe_geometry& at, const std::vector<lobe_kind::values>& parameters,
                                        Eigen::Ref<Eigen::VectorXd> out) const {
   Eigen::Index j = lobes();
-  for (std::size_t l = 0; l < kinds_.size(); ++l) {
+  for (Eigen::Index l = 0; l < std::ssize(kinds_); ++l) {
     lobe_kind::values slopes{};
     const double value = kinds_[l]->value_and_slopes(at, parameters[l], slopes);
-    out[static_cast<Eigen::Index>(l)] = std::min(value, largest_reflectance);
+    out[l] = std::min(value, largest_reflectance);
     const auto about = kinds_[l]->parameters();
-    for (std::size_t p = 0; p < about.size(); ++p, ++j)
+    for (Eigen::Index p = 0; p < std::ssize(about); ++p, ++j)
       out[j] = about[p].logarithmic ? slopes[p] * parameters[l][p] : slopes[p];
   }
 }

@@ -49,7 +49,7 @@ namespace gonio::model {
 
 GONIO_INLINE void tabulate_networks(std::span<const network_brdf> networks, const valid_cells& cells, cell_matrix& out,
                                     thread_count threads, const progress& listener) {
-  out.resize(static_cast<Eigen::Index>(cells.size()), 3 * static_cast<Eigen::Index>(networks.size()));
+  out.resize(cells.size(), 3 * std::ssize(networks));
   const std::size_t columns = 3 * networks.size();
   std::mutex reporting;
   std::size_t done = 0;

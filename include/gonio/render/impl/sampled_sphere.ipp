@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <numbers>
@@ -22,16 +21,16 @@
 
 namespace gonio::render::detail {
 
-GONIO_INLINE even_pairs::even_pairs(std::size_t count, std::uint64_t seed, std::uint64_t stream)
+GONIO_INLINE even_pairs::even_pairs(Eigen::Index count, std::uint64_t seed, std::uint64_t stream)
     : generator_(seed * 0x9E3779B97F4A7C15u + stream), all_(count) {
-  for (std::size_t kind = 0; kind < kinds; ++kind) {
+  for (Eigen::Index kind = 0; kind < kinds; ++kind) {
     const double first_u = next(), first_v = next();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (Eigen::Index i = 0; i < count; ++i) {
       const double u = first_u + static_cast<double>(i) / root, v = first_v + static_cast<double>(i) / (root * root);
       all_[i][kind] = {u - std::floor(u), v - std::floor(v)};
     }
-    for (std::size_t i = count; i > 1; --i)
-      std::swap(all_[i - 1][kind], all_[static_cast<std::size_t>(next() * static_cast<double>(i))][kind]);
+    for (Eigen::Index i = count; i > 1; --i)
+      std::swap(all_[i - 1][kind], all_[static_cast<Eigen::Index>(next() * static_cast<double>(i))][kind]);
   }
 }
 

@@ -37,23 +37,19 @@ GONIO_INLINE sphere_colours sphere_operator::apply(const brdf_table& table, thre
   if (!(table.cells() == cells_))
     refuse("a sphere operator over " + std::to_string(cells_.size()) + " cells was given a table over other cells (" +
            std::to_string(table.cells().size()) + " of them)");
-  sphere_colours colours(static_cast<Eigen::Index>(rows_.size()), 3);
+  sphere_colours colours(std::ssize(rows_), 3);
   for_each_index(
       rows_.size(), detail::sphere_block,
-      [&](std::size_t point) {
-        colours.row(static_cast<Eigen::Index>(point)) = radiance(rows_[point], table.values()).transpose();
-      },
-      threads);
+      [&](Eigen::Index point) { colours.row(point) = radiance(rows_[point], table.values()).transpose(); }, threads);
   return colours;
 }
 
 GONIO_INLINE image sphere_operator::to_image(const sphere_colours& colours, const rgb& background) const {
-  GONIO_ASSERT(colours.rows() == static_cast<Eigen::Index>(points_.size()));
-  const auto side = static_cast<std::size_t>(size_);
+  GONIO_ASSERT(colours.rows() == std::ssize(points_));
+  const Eigen::Index side = size_;
   image picture = uniform_image(side, side, background);
-  for (std::size_t point = 0; point < points_.size(); ++point)
-    set_pixel(picture, points_[point].row, points_[point].column,
-              colours.row(static_cast<Eigen::Index>(point)).transpose());
+  for (Eigen::Index point = 0; point < std::ssize(points_); ++point)
+    set_pixel(picture, points_[point].row, points_[point].column, colours.row(point).transpose());
   return picture;
 }
 

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -135,14 +134,14 @@ GONIO_INLINE void require_corresponded(const std::vector<point_columns>& shapes,
   if (shapes.empty()) refuse("a Procrustes mean needs at least one shape");
   if (!(options.tolerance > 0.0) || options.most_iterations < 1)
     refuse("a Procrustes mean needs a positive tolerance and at least one iteration");
-  for (std::size_t i = 1; i < shapes.size(); ++i)
+  for (Eigen::Index i = 1; i < std::ssize(shapes); ++i)
     if (shapes[i].cols() != shapes[0].cols())
       refuse({"shape ", i, " has ", shapes[i].cols(), " points where the first has ", shapes[0].cols()});
 }
 
 [[nodiscard]] GONIO_INLINE point_columns mean_of_shapes(const std::vector<point_columns>& shapes) {
   point_columns sum = shapes.front();
-  for (std::size_t i = 1; i < shapes.size(); ++i) sum += shapes[i];
+  for (Eigen::Index i = 1; i < std::ssize(shapes); ++i) sum += shapes[i];
   return sum / static_cast<double>(shapes.size());
 }
 
@@ -170,7 +169,7 @@ GONIO_INLINE aligned_shapes procrustes_mean(const std::vector<point_columns>& sh
   settle(result.mean);
   while (result.iterations < options.most_iterations) {
     ++result.iterations;
-    for (std::size_t i = 0; i < shapes.size(); ++i)
+    for (Eigen::Index i = 0; i < std::ssize(shapes); ++i)
       result.shapes[i] = align(shapes[i], result.mean, options.kind)(shapes[i]);
     point_columns mean = detail::mean_of_shapes(result.shapes);
     settle(mean);

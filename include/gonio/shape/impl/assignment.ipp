@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -40,10 +39,10 @@ GONIO_INLINE std::vector<Eigen::Index> optimal_assignment(const Eigen::MatrixXd&
   for (Eigen::Index j = 0; j < costs.cols(); ++j)
     for (Eigen::Index i = 0; i < costs.rows(); ++i)
       if (!std::isfinite(costs(i, j))) refuse({"the cost of assigning row ", i, " to column ", j, " is not finite"});
-  std::vector<Eigen::Index> columns(static_cast<std::size_t>(costs.rows()), -1);
+  std::vector<Eigen::Index> columns(costs.rows(), -1);
   if (costs.size() == 0) return columns;
   const std::vector<long> found = dlib::max_cost_assignment(detail::integer_gains(costs));
-  for (std::size_t row = 0; row < columns.size(); ++row)
+  for (Eigen::Index row = 0; row < std::ssize(columns); ++row)
     if (found[row] < costs.cols()) columns[row] = found[row];
   return columns;
 }

@@ -9,7 +9,6 @@
 #include <gonio/shape/shape_context_alignment.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
@@ -17,8 +16,8 @@
 
 namespace gonio::shape {
 
-GONIO_INLINE std::size_t bootstrap_result::accepted() const {
-  return static_cast<std::size_t>(std::ranges::count_if(outcomes, &bootstrap_outcome::accepted));
+GONIO_INLINE Eigen::Index bootstrap_result::accepted() const {
+  return std::ranges::count_if(outcomes, &bootstrap_outcome::accepted);
 }
 
 }  // namespace gonio::shape
@@ -95,7 +94,7 @@ GONIO_INLINE bootstrap_result bootstrap_shape_model(std::vector<point_columns> s
   for (int pass = 0; pass < options.passes; ++pass) {
     const shape_context_matcher matcher(growing.model().mean(), options.alignment, threads);
     bool grew = false;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(scans); ++i) {
       report(listener, "pass " + std::to_string(pass + 1), static_cast<double>(i) / static_cast<double>(scans.size()));
       if (outcomes[i].accepted()) continue;
       outcomes[i] = detail::attempt(growing.model(), matcher, scans[i].mesh, options, threads);

@@ -10,7 +10,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -57,26 +56,24 @@ GONIO_INLINE vertex_observations shown_vertices(const point_columns& places, con
 GONIO_INLINE vertex_observations closest_places(const posed_scan& scan, const triangle_mesh& shape,
                                                 const correspondence_options& options, thread_count threads) {
   const point_columns normals = vertex_normals(shape);
-  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  const Eigen::Index count = shape.vertices.cols();
   point_columns places(3, shape.vertices.cols());
   Eigen::VectorXd weights(shape.vertices.cols());
   std::vector<char> shown(count, 0);  // not bool: threads write neighbours
   for_each_index(
       count, 128,
-      [&](std::size_t i) {
-        const auto vertex = static_cast<Eigen::Index>(i);
+      [&](Eigen::Index vertex) {
         const surface_point found = scan.closest(shape.vertices.col(vertex));
         places.col(vertex) = found.position;
         weights[vertex] = scan.weight_at(found);
         // What is missing in the scan is nearest to where it ends.
-        shown[i] = !found.on_border && found.distance <= options.reach &&
-                   scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
+        shown[vertex] = !found.on_border && found.distance <= options.reach &&
+                        scan.normal(found).dot(normals.col(vertex)) >= options.normal_agreement;
       },
       threads);
   vertex_observations known = shown_vertices(places, normals, shown, options.tangential);
   known.weights.resize(known.positions.cols());
-  for (std::size_t i = 0; i < known.vertices.size(); ++i)
-    known.weights[static_cast<Eigen::Index>(i)] = weights[known.vertices[i]];
+  for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) known.weights[i] = weights[known.vertices[i]];
   return known;
 }
 

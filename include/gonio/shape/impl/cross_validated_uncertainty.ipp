@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <random>
@@ -27,10 +26,10 @@
 
 namespace gonio::shape::detail {
 
-inline constexpr std::size_t least_trials = 10;
+inline constexpr Eigen::Index least_trials = 10;
 
 GONIO_INLINE void require_trials(const shape_model& model, const cross_validation_options& options) {
-  const std::size_t shapes = model.shapes();
+  const Eigen::Index shapes = model.shapes();
   if (options.trials < least_trials || options.trials > shapes)
     refuse({"from ", least_trials, " to ", shapes, " shapes can be left out, not ", options.trials});
   if (options.parts < 2 || shapes < options.parts || shapes - (shapes + options.parts - 1) / options.parts < 2)
@@ -41,18 +40,18 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
 /// The noise of a scan, mm: where it is as noisy as in most places.
 [[nodiscard]] GONIO_INLINE double noise_of(const surface_index& scan) {
   Eigen::RowVectorXd variances = noise_variances(scan.mesh(), scan.topology());
-  return std::sqrt(upper_median(std::span(variances.data(), static_cast<std::size_t>(variances.size()))));
+  return std::sqrt(upper_median(std::span(variances.data(), variances.size())));
 }
 
 /// The models of all shapes but those of one part.
 [[nodiscard]] GONIO_INLINE std::vector<shape_model> models_without_parts(const shape_model& model,
                                                                          const std::vector<point_columns>& shapes,
-                                                                         std::size_t parts, thread_count threads) {
+                                                                         Eigen::Index parts, thread_count threads) {
   std::vector<shape_model> models;
-  for (std::size_t part = 0; part < parts; ++part) {
+  for (Eigen::Index part = 0; part < parts; ++part) {
     std::vector<point_columns> others;
     std::vector<std::string> names;
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(shapes); ++i) {
       if (i % parts == part) continue;
       others.push_back(shapes[i]);
       names.push_back(model.basis().names()[i]);
@@ -92,14 +91,14 @@ GONIO_INLINE void require_trials(const shape_model& model, const cross_validatio
                                                                        const cross_validation_options& options,
                                                                        thread_count threads) {
   std::vector<point_columns> shapes;
-  for (std::size_t shape = 0; shape < model.shapes(); ++shape)
+  for (Eigen::Index shape = 0; shape < model.shapes(); ++shape)
     shapes.push_back(shape_of(model.basis(), model.basis().weights_of(shape)));
   const std::vector<shape_model> models = models_without_parts(model, shapes, options.parts, threads);
   std::vector<std::optional<point_columns>> found(options.trials);
   for_each_block(
       options.trials, 1,
       [&](block trial) {
-        const std::size_t left_out = trial.begin * shapes.size() / options.trials;
+        const Eigen::Index left_out = trial.begin * shapes.size() / options.trials;
         found[trial.begin] = error_of(models[left_out % options.parts], shapes[left_out], shown, noise,
                                       options.seed + left_out, options.recovery);
       },
@@ -126,7 +125,7 @@ GONIO_INLINE cross_validated_uncertainty::cross_validated_uncertainty(const shap
     refuse({"of ", options.trials, " shapes that were left out ", errors.size(), " were recovered, expected at least ",
             detail::least_trials, ": the scan shows too little"});
   trials_ = errors.size();
-  covariances_.reserve(static_cast<std::size_t>(model.vertices()));
+  covariances_.reserve(model.vertices());
   for (Eigen::Index vertex = 0; vertex < model.vertices(); ++vertex) add_vertex(errors, vertex);
   std::ranges::sort(squared_distances_);
 }
@@ -135,15 +134,14 @@ GONIO_INLINE double cross_validated_uncertainty::squared_radius(double share) co
   if (!(share > 0.0 && share < 1.0)) refuse({"a share of vertices must be above 0 and below 1, not ", share});
   const double of_measured = std::min(share * (1.0 + 1.0 / static_cast<double>(trials_)), 1.0);
   const double place = std::ceil(of_measured * static_cast<double>(squared_distances_.size()));
-  return squared_distances_[static_cast<std::size_t>(place) - 1];
+  return squared_distances_[static_cast<Eigen::Index>(place) - 1];
 }
 
 GONIO_INLINE void cross_validated_uncertainty::add_vertex(const std::vector<point_columns>& errors,
                                                           Eigen::Index vertex) {
   const auto n = static_cast<double>(errors.size());
-  Eigen::MatrixXd off(3, static_cast<Eigen::Index>(errors.size()));
-  for (Eigen::Index trial = 0; trial < off.cols(); ++trial)
-    off.col(trial) = errors[static_cast<std::size_t>(trial)].col(vertex);
+  Eigen::MatrixXd off(3, std::ssize(errors));
+  for (Eigen::Index trial = 0; trial < off.cols(); ++trial) off.col(trial) = errors[trial].col(vertex);
   const Eigen::MatrixXd sum = product_with_transpose(off), whitened = cholesky(sum).solve_lower(off);
   covariances_.emplace_back(sum / n);
   for (Eigen::Index trial = 0; trial < off.cols(); ++trial) {

@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -39,7 +38,7 @@ GONIO_INLINE shape_uncertainty fit_to_scan_result::uncertainty() const {
 }
 
 GONIO_INLINE void require_shown(const vertex_observations& places, const shape_model& model) {
-  constexpr std::size_t least = 10;
+  constexpr Eigen::Index least = 10;
   if (places.vertices.size() < least)
     refuse({"the scan shows ", places.vertices.size(), " of the model's ", model.vertices(),
             " vertices, expected at least ", least, ": is its pose right?"});
@@ -59,9 +58,9 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   }
   const double usual = 3.0 * std::max(position_error, upper_median(std::vector(distances)));
   Eigen::VectorXd weights(places.positions.cols());
-  for (std::size_t i = 0; i < distances.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(distances); ++i) {
     const double ratio = distances[i] / usual, root = 1.0 + ratio * ratio;
-    weights[static_cast<Eigen::Index>(i)] = 1.0 / (root * root);
+    weights[i] = 1.0 / (root * root);
   }
   return weights;
 }

@@ -7,7 +7,6 @@
 #include <gonio/shape/mesh_topology.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -62,16 +61,16 @@ GONIO_INLINE Eigen::VectorXd geodesic_distances(const triangle_mesh& mesh, const
 GONIO_INLINE std::vector<Eigen::Index> nearest_along_surface(const triangle_mesh& mesh, const mesh_topology& topology,
                                                              Eigen::Index source,
                                                              const std::function<bool(Eigen::Index)>& is_candidate,
-                                                             std::size_t count) {
+                                                             Eigen::Index count) {
   std::vector<std::pair<double, Eigen::Index>> found;
   detail::walk_edges(mesh, topology, source, [&](Eigen::Index vertex, double distance) {
     // All as far as the last one, which may have lower numbers.
-    if (found.size() >= count && (count == 0 || distance > found[count - 1].first)) return false;
+    if (std::ssize(found) >= count && (count == 0 || distance > found[count - 1].first)) return false;
     if (is_candidate(vertex)) found.emplace_back(distance, vertex);
     return true;
   });
   std::ranges::sort(found);
-  found.resize(std::min(found.size(), count));
+  found.resize(std::min(std::ssize(found), count));
   std::vector<Eigen::Index> nearest;
   nearest.reserve(found.size());
   for (const auto& [distance, vertex] : found) nearest.push_back(vertex);

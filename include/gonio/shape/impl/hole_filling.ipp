@@ -11,7 +11,6 @@
 #include <Eigen/SparseCore>
 
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <utility>
 #include <vector>
@@ -71,14 +70,14 @@ using energy_term = std::vector<vertex_share>;
 GONIO_INLINE void require_reached(const mesh_topology& topology, std::vector<bool> reached) {
   std::vector<Eigen::Index> pending;
   for (Eigen::Index v = 0; v < topology.vertices(); ++v)
-    if (reached[static_cast<std::size_t>(v)]) pending.push_back(v);
+    if (reached[v]) pending.push_back(v);
   if (pending.empty()) refuse("no vertex is known: there is nothing to fill holes from");
   while (!pending.empty()) {
     const Eigen::Index vertex = pending.back();
     pending.pop_back();
     for (const int neighbour : topology.neighbours(vertex)) {
-      if (reached[static_cast<std::size_t>(neighbour)]) continue;
-      reached[static_cast<std::size_t>(neighbour)] = true;
+      if (reached[neighbour]) continue;
+      reached[neighbour] = true;
       pending.push_back(neighbour);
     }
   }
@@ -96,17 +95,17 @@ struct filling_system {
 
 [[nodiscard]] GONIO_INLINE filling_system system_of(const std::vector<energy_term>& terms, const point_columns& points,
                                                     const std::vector<Eigen::Index>& missing) {
-  std::vector<int> number(static_cast<std::size_t>(points.cols()), -1);  // among the missing
-  for (std::size_t i = 0; i < missing.size(); ++i) number[static_cast<std::size_t>(missing[i])] = static_cast<int>(i);
-  const auto count = static_cast<Eigen::Index>(missing.size());
+  std::vector<int> number(points.cols(), -1);  // among the missing
+  for (Eigen::Index i = 0; i < std::ssize(missing); ++i) number[missing[i]] = static_cast<int>(i);
+  const Eigen::Index count = std::ssize(missing);
   filling_system system{Eigen::SparseMatrix<double>(count, count), Eigen::MatrixXd::Zero(count, 3)};
   std::vector<Eigen::Triplet<double>> entries;
   for (const energy_term& term : terms)
     for (const vertex_share& one : term) {
-      const int row = number[static_cast<std::size_t>(one.vertex)];
+      const int row = number[one.vertex];
       if (row < 0) continue;
       for (const vertex_share& other : term) {
-        const int column = number[static_cast<std::size_t>(other.vertex)];
+        const int column = number[other.vertex];
         const double product = one.share * other.share;
         if (column < 0)
           for (Eigen::Index axis = 0; axis < 3; ++axis) system.rhs(row, axis) -= product * points(axis, other.vertex);
@@ -125,13 +124,13 @@ namespace gonio::shape {
 GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_columns points,
                                          const std::vector<bool>& known, smoothness kind) {
   const Eigen::Index vertices = topology.vertices();
-  if (points.cols() != vertices || static_cast<Eigen::Index>(known.size()) != vertices)
+  if (points.cols() != vertices || std::ssize(known) != vertices)
     refuse({"a mesh of ", vertices, " vertices has ", points.cols(), " points and ", known.size(),
             " marks of known ones"});
   detail::require_reached(topology, known);
   std::vector<Eigen::Index> missing;
   for (Eigen::Index v = 0; v < vertices; ++v) {
-    const bool is_known = known[static_cast<std::size_t>(v)];
+    const bool is_known = known[v];
     if (is_known && !points.col(v).allFinite()) refuse({"the position of known vertex ", v, " is not finite"});
     if (!is_known) missing.push_back(v);
   }
@@ -145,8 +144,8 @@ GONIO_INLINE point_columns fill_smoothly(const mesh_topology& topology, point_co
       factors.info() == Eigen::Success && factors.vectorD().minCoeff() > 1e-12 * factors.vectorD().maxCoeff();
   if (!determined) refuse("the known vertices do not determine where the missing ones are");
   const Eigen::MatrixXd filled = factors.solve(rhs);
-  for (std::size_t i = 0; i < missing.size(); ++i)
-    for (Eigen::Index axis = 0; axis < 3; ++axis) points(axis, missing[i]) = filled(static_cast<Eigen::Index>(i), axis);
+  for (Eigen::Index i = 0; i < std::ssize(missing); ++i)
+    for (Eigen::Index axis = 0; axis < 3; ++axis) points(axis, missing[i]) = filled(i, axis);
   return points;
 }
 

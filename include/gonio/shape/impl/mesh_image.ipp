@@ -83,7 +83,7 @@ GONIO_INLINE void draw_triangle(depth_image& onto, const Eigen::Matrix3d& corner
 namespace gonio::shape {
 
 GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colours, const mesh_view& view) {
-  if (static_cast<Eigen::Index>(colours.size()) != mesh.vertices.cols())
+  if (std::ssize(colours) != mesh.vertices.cols())
     refuse({"an image of ", mesh.vertices.cols(), " vertices is given ", colours.size(), " colours"});
   const Eigen::Vector3d right = view.towards.cross(view.up);
   if (!(view.radius > 0.0 && view.pixels > 0 && right.norm() > 0.0))
@@ -99,7 +99,7 @@ GONIO_INLINE image image_of(const triangle_mesh& mesh, std::span<const rgb> colo
     seen(1, v) = scale * down.dot(from_centre) + 0.5 * pixels;
     seen(2, v) = scale * away.dot(from_centre);
     const double facing = -away.dot(normal), light = facing >= 0.0 ? 0.15 + 0.85 * facing : 0.1 - 0.2 * facing;
-    for (Eigen::Index c = 0; c < 3; ++c) lit(c, v) = light * colours[static_cast<std::size_t>(v)][c];
+    for (Eigen::Index c = 0; c < 3; ++c) lit(c, v) = light * colours[v][c];
   }
   detail::depth_image drawn{uniform_image(view.pixels, view.pixels, view.background),
                             std::vector<double>(view.pixels * view.pixels, std::numeric_limits<double>::infinity())};

@@ -7,7 +7,6 @@
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -20,22 +19,21 @@ class joined_corners {
  public:
   explicit joined_corners(const triangle_columns& triangles);
 
-  [[nodiscard]] std::size_t group_of(std::size_t corner) const;
+  [[nodiscard]] Eigen::Index group_of(Eigen::Index corner) const;
 
  private:
-  [[nodiscard]] static std::size_t next(std::size_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-  void join(std::size_t first, std::size_t second) { parent_[group_of(first)] = group_of(second); }
+  [[nodiscard]] static Eigen::Index next(Eigen::Index corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+  void join(Eigen::Index first, Eigen::Index second) { parent_[group_of(first)] = group_of(second); }
 
-  std::vector<std::size_t> parent_;
+  std::vector<Eigen::Index> parent_;
 };
 
-GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles)
-    : parent_(static_cast<std::size_t>(triangles.size())) {
-  std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  std::map<std::pair<int, int>, std::size_t> from;  // where an edge begins, by its vertices
+GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles) : parent_(triangles.size()) {
+  std::iota(parent_.begin(), parent_.end(), Eigen::Index{0});
+  std::map<std::pair<int, int>, Eigen::Index> from;  // where an edge begins, by its vertices
   for (Eigen::Index t = 0; t < triangles.cols(); ++t)
     for (Eigen::Index side = 0; side < 3; ++side)
-      from[{triangles(side, t), triangles((side + 1) % 3, t)}] = static_cast<std::size_t>(3 * t + side);
+      from[{triangles(side, t), triangles((side + 1) % 3, t)}] = 3 * t + side;
   for (const auto& [edge, corner] : from) {
     const auto across = from.find({edge.second, edge.first});
     if (across == from.end()) continue;
@@ -44,7 +42,7 @@ GONIO_INLINE joined_corners::joined_corners(const triangle_columns& triangles)
   }
 }
 
-GONIO_INLINE std::size_t joined_corners::group_of(std::size_t corner) const {
+GONIO_INLINE Eigen::Index joined_corners::group_of(Eigen::Index corner) const {
   while (parent_[corner] != corner) corner = parent_[corner];
   return corner;
 }
@@ -54,23 +52,20 @@ GONIO_INLINE std::size_t joined_corners::group_of(std::size_t corner) const {
 namespace gonio::shape {
 
 GONIO_INLINE triangle_mesh part_of(const triangle_mesh& mesh, const std::vector<bool>& marked) {
-  if (marked.size() != static_cast<std::size_t>(mesh.vertices.cols()))
+  if (std::ssize(marked) != mesh.vertices.cols())
     refuse({marked.size(), " marks for the ", mesh.vertices.cols(), " vertices of a mesh"});
   std::vector<Eigen::Index> kept;
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[static_cast<std::size_t>(v)]}; }))
-      kept.push_back(t);
+    if (std::ranges::all_of(mesh.triangles.col(t), [&](int v) { return bool{marked[v]}; })) kept.push_back(t);
   if (kept.empty()) refuse("no triangle has three marked corners: nothing of the surface is left");
-  triangle_columns triangles(3, static_cast<Eigen::Index>(kept.size()));
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    triangles.col(static_cast<Eigen::Index>(i)) = mesh.triangles.col(kept[i]);
+  triangle_columns triangles(3, std::ssize(kept));
+  for (Eigen::Index i = 0; i < std::ssize(kept); ++i) triangles.col(i) = mesh.triangles.col(kept[i]);
   const detail::joined_corners corners(triangles);
-  std::map<std::size_t, int> numbers;
+  std::map<Eigen::Index, int> numbers;
   std::vector<Eigen::Index> former;
   triangle_mesh part{{}, triangles};
   for (Eigen::Index corner = 0; corner < triangles.size(); ++corner) {
-    const auto [place, is_new] =
-        numbers.try_emplace(corners.group_of(static_cast<std::size_t>(corner)), static_cast<int>(former.size()));
+    const auto [place, is_new] = numbers.try_emplace(corners.group_of(corner), static_cast<int>(former.size()));
     if (is_new) former.push_back(triangles(corner % 3, corner / 3));
     part.triangles(corner % 3, corner / 3) = place->second;
   }

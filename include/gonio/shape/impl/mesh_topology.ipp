@@ -7,7 +7,6 @@
 #include <gonio/shape/triangle_mesh.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -22,9 +21,8 @@ GONIO_INLINE mesh_topology::mesh_topology(const triangle_columns& triangles, Eig
 }
 
 GONIO_INLINE std::span<const int> mesh_topology::neighbours(Eigen::Index vertex) const noexcept {
-  const std::size_t begin = first_[static_cast<std::size_t>(vertex)],
-                    end = first_[static_cast<std::size_t>(vertex) + 1];
-  return {neighbours_.data() + begin, end - begin};
+  const Eigen::Index begin = first_[vertex], end = first_[vertex + 1];
+  return std::span(neighbours_).subspan(begin, end - begin);
 }
 
 GONIO_INLINE void mesh_topology::require_finite(const triangle_mesh& mesh) {
@@ -46,7 +44,7 @@ GONIO_INLINE void mesh_topology::require_triangles(const triangle_columns& trian
 
 GONIO_INLINE std::vector<mesh_topology::half_edge> mesh_topology::half_edges_of(const triangle_columns& triangles) {
   std::vector<half_edge> edges;
-  edges.reserve(static_cast<std::size_t>(3 * triangles.cols()));
+  edges.reserve(3 * triangles.cols());
   for (const auto& corners : triangles.colwise())
     for (int side = 0; side < 3; ++side) edges.push_back({corners[side], corners[(side + 1) % 3]});
   std::ranges::sort(edges);
@@ -61,32 +59,32 @@ GONIO_INLINE void mesh_topology::require_two_sided(const std::vector<half_edge>&
 }
 
 GONIO_INLINE void mesh_topology::gather(const std::vector<half_edge>& edges, Eigen::Index vertices) {
-  border_.assign(static_cast<std::size_t>(vertices), true);
+  border_.assign(vertices, true);
   std::vector<half_edge> links = edges;
   std::vector<bool> open(border_.size(), false);
   for (const auto& [from, to] : edges) {
-    border_[static_cast<std::size_t>(from)] = false;  // is in a triangle
+    border_[from] = false;  // is in a triangle
     if (std::ranges::binary_search(edges, half_edge{to, from})) continue;
     links.push_back({to, from});
-    open[static_cast<std::size_t>(from)] = open[static_cast<std::size_t>(to)] = true;
+    open[from] = open[to] = true;
   }
-  for (std::size_t v = 0; v < border_.size(); ++v) border_[v] = border_[v] || open[v];
+  for (Eigen::Index v = 0; v < std::ssize(border_); ++v) border_[v] = border_[v] || open[v];
   std::ranges::sort(links);
   first_.assign(border_.size() + 1, 0);
   for (const auto& [from, to] : links) {
-    ++first_[static_cast<std::size_t>(from) + 1];
+    ++first_[from + 1];
     neighbours_.push_back(to);
   }
-  for (std::size_t v = 0; v < border_.size(); ++v) first_[v + 1] += first_[v];
+  for (Eigen::Index v = 0; v < std::ssize(border_); ++v) first_[v + 1] += first_[v];
 }
 
 GONIO_INLINE void mesh_topology::require_single_fans(const triangle_columns& triangles, Eigen::Index vertices) {
   // What is opposite to each vertex: an edge for each of its triangles.
-  std::vector<std::vector<half_edge>> opposite(static_cast<std::size_t>(vertices));
+  std::vector<std::vector<half_edge>> opposite(vertices);
   for (const auto& corners : triangles.colwise())
     for (int side = 0; side < 3; ++side)
-      opposite[static_cast<std::size_t>(corners[side])].push_back({corners[(side + 1) % 3], corners[(side + 2) % 3]});
-  for (std::size_t v = 0; v < opposite.size(); ++v)
+      opposite[corners[side]].push_back({corners[(side + 1) % 3], corners[(side + 2) % 3]});
+  for (Eigen::Index v = 0; v < std::ssize(opposite); ++v)
     if (!opposite[v].empty() && !is_one_chain(opposite[v]))
       refuse({"a mesh is not a surface: at vertex ", v, " parts of it touch in one point"});
 }
@@ -100,12 +98,12 @@ GONIO_INLINE bool mesh_topology::is_one_chain(const std::vector<half_edge>& edge
   const auto start = std::ranges::find_if(edges, begins);
   const auto first = start == edges.end() ? edges.begin() : start;
   auto edge = first;
-  std::size_t length = 0;
+  Eigen::Index length = 0;
   do {
     ++length;
     edge = leaving(edge->to);
   } while (edge != edges.end() && edge != first);
-  return length == edges.size();
+  return length == std::ssize(edges);
 }
 
 }  // namespace gonio::shape

@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -57,19 +56,16 @@ namespace gonio::shape::detail {
   const truncated_svd solver{options.last_explained_variance};
   const std::vector<bool> marks = marks_of(known, model.vertices());
   std::vector<Eigen::Index> place(marks.size(), 0);  // of a known vertex among the known
-  for (std::size_t i = 0; i < known.vertices.size(); ++i)
-    place[static_cast<std::size_t>(known.vertices[i])] = static_cast<Eigen::Index>(i);
-  const auto is_known = [&](Eigen::Index vertex) { return bool{marks[static_cast<std::size_t>(vertex)]}; };
+  for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) place[known.vertices[i]] = i;
+  const auto is_known = [&](Eigen::Index vertex) { return bool{marks[vertex]}; };
   point_columns predicted(3, model.vertices());
   for_each_index(
       marks.size(), 32,
-      [&](std::size_t i) {
-        const auto vertex = static_cast<Eigen::Index>(i);
+      [&](Eigen::Index vertex) {
         vertex_observations near{nearest_along_surface(mean, model.topology(), vertex, is_known, options.neighbours),
                                  {}};
         std::vector<Eigen::Index> columns;
-        for (const Eigen::Index neighbour : near.vertices)
-          columns.push_back(place[static_cast<std::size_t>(neighbour)]);
+        for (const Eigen::Index neighbour : near.vertices) columns.push_back(place[neighbour]);
         near.positions = chosen_columns(known.positions, columns);
         near.normals = chosen_columns(known.normals, columns);
         near.tangential = known.tangential;
@@ -100,8 +96,7 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
   for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
     // Procrustes alignment of the shape to the mean, and of the scan with it.
     point_columns whole = shape.vertices;
-    for (std::size_t i = 0; i < known.vertices.size(); ++i)
-      whole.col(known.vertices[i]) = known.positions.col(static_cast<Eigen::Index>(i));
+    for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) whole.col(known.vertices[i]) = known.positions.col(i);
     const similarity_transform step = align(whole, mean.vertices);
     posed.pose = step * posed.pose;
     known.positions = step(known.positions);

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,19 +39,18 @@ namespace gonio::shape::detail {
                                                                     const registration_options& options,
                                                                     thread_count threads) {
   const point_columns normals = unit_columns(averaged_over_neighbours(model.topology(), vertex_normals(shape)));
-  const auto count = static_cast<std::size_t>(shape.vertices.cols());
+  const Eigen::Index count = shape.vertices.cols();
   point_columns places(3, shape.vertices.cols());
   std::vector<char> shown(count, 0);
   for_each_index(
       count, 128,
-      [&](std::size_t i) {
-        const auto v = static_cast<Eigen::Index>(i);
+      [&](Eigen::Index v) {
         if (!(normals.col(v).norm() > 0.0)) return;
         const auto found = scan.along(shape.vertices.col(v), normals.col(v), options.reach);
         if (!found || found->on_border) return;
         if (scan.normal(*found).dot(normals.col(v)) < options.fit.correspondence.normal_agreement) return;
         places.col(v) = found->position;
-        shown[i] = 1;
+        shown[v] = 1;
       },
       threads);
   return shown_vertices(places, normals, shown, options.fit.correspondence.tangential);
@@ -97,8 +95,8 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
         detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
     require_shown(places, model);
     point_columns next = smoothed.vertices;
-    for (std::size_t i = 0; i < places.vertices.size(); ++i)
-      next.col(places.vertices[i]) = places.positions.col(static_cast<Eigen::Index>(i));
+    for (Eigen::Index i = 0; i < std::ssize(places.vertices); ++i)
+      next.col(places.vertices[i]) = places.positions.col(i);
     found.missing = 1.0 - static_cast<double>(places.vertices.size()) / static_cast<double>(model.vertices());
     const double change = (next - found.vertices).norm();
     found.vertices = std::move(next);

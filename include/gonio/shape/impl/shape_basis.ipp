@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,23 +22,21 @@ GONIO_INLINE shape_set shape_set::of(const std::vector<point_columns>& shapes, s
     refuse({"a set of shapes needs at least one, of at least one vertex, and a name for each: not ", shapes.size(),
             " shapes and ", names.size(), " names"});
   const Eigen::Index vertices = shapes[0].cols();
-  shape_set set{{static_cast<std::size_t>(vertices)},
-                std::move(names),
-                cell_matrix(3 * vertices, static_cast<Eigen::Index>(shapes.size()))};
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
+  shape_set set{{vertices}, std::move(names), cell_matrix(3 * vertices, std::ssize(shapes))};
+  for (Eigen::Index i = 0; i < std::ssize(shapes); ++i) {
     if (shapes[i].cols() != vertices)
       refuse({"shape '", set.names[i], "' has ", shapes[i].cols(), " vertices, expected ", vertices, " as '",
               set.names[0], "' has"});
     if (!shapes[i].allFinite()) refuse({"shape '", set.names[i], "' has a vertex that is not finite"});
     for (Eigen::Index row = 0; row < set.values.rows(); ++row)
-      set.values(row, static_cast<Eigen::Index>(i)) = static_cast<float>(shapes[i].data()[row]);
+      set.values(row, i) = static_cast<float>(shapes[i].data()[row]);
   }
   return set;
 }
 
 GONIO_INLINE point_columns mean_shape(const shape_basis& basis) {
   const std::vector<float>& mean = basis.mean();
-  point_columns shape(3, static_cast<Eigen::Index>(mean.size() / 3));
+  point_columns shape(3, mean.size() / 3);
   std::ranges::copy(mean, shape.data());
   return shape;
 }
@@ -60,9 +57,8 @@ GONIO_INLINE shape_basis truncated_to_variance(const shape_basis& basis, double 
   if (!(share > 0.0 && share <= 1.0)) refuse({"the explained variance must be above 0 and at most 1, not ", share});
   const Eigen::VectorXd& sigma = basis.singular_values();
   const double enough = share * sigma.squaredNorm() * (1.0 - 1e-12);
-  std::size_t kept = 0;
-  for (double sum = 0.0; kept < basis.size() && sum < enough; ++kept)
-    sum += sigma[static_cast<Eigen::Index>(kept)] * sigma[static_cast<Eigen::Index>(kept)];
+  Eigen::Index kept = 0;
+  for (double sum = 0.0; kept < basis.size() && sum < enough; ++kept) sum += sigma[kept] * sigma[kept];
   return basis.truncated(kept);
 }
 

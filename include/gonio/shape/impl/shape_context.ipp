@@ -63,10 +63,8 @@ struct point_tree::built_tree {
   struct adaptor {
     const point_columns& points;
 
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.cols()); }
-    [[nodiscard]] double kdtree_get_pt(std::size_t index, std::size_t axis) const {
-      return points(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(index));
-    }
+    [[nodiscard]] Eigen::Index kdtree_get_point_count() const { return points.cols(); }
+    [[nodiscard]] double kdtree_get_pt(Eigen::Index index, Eigen::Index axis) const { return points(axis, index); }
     template <class Box>
     [[nodiscard]] bool kdtree_get_bbox(Box&) const {
       return false;
@@ -74,7 +72,7 @@ struct point_tree::built_tree {
   };
   using metric = nanoflann::L2_Simple_Adaptor<double, adaptor>;
 
-  static constexpr std::size_t leaf_size = 16;
+  static constexpr Eigen::Index leaf_size = 16;
 
   explicit built_tree(const point_columns& of) : points{of}, tree(3, points, {leaf_size}) {}
 
@@ -96,7 +94,7 @@ GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const E
   tree_->tree.radiusSearch(place.data(), radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
   std::vector<Eigen::Index> numbers;
   numbers.reserve(found.size());
-  for (const auto& [number, squared] : found) numbers.push_back(static_cast<Eigen::Index>(number));
+  for (const auto& [number, squared] : found) numbers.push_back(number);
   return numbers;
 }
 
@@ -133,14 +131,14 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
   if (count < 0) refuse("the number of vertices to choose must not be negative");
   // Squared distances from what was chosen; vertices of no triangle are as near as those chosen.
   const std::ptrdiff_t vertices = mesh.vertices.cols();
-  std::vector<double> nearest(static_cast<std::size_t>(vertices), 0.0);
+  std::vector<double> nearest(vertices, 0.0);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
     for (Eigen::Index corner = 0; corner < 3; ++corner)
-      nearest[static_cast<std::size_t>(mesh.triangles(corner, t))] = std::numeric_limits<double>::infinity();
+      nearest[mesh.triangles(corner, t)] = std::numeric_limits<double>::infinity();
   const auto nearer_of = [&](const Eigen::Vector3d& place) {
     std::vector<double> nearer = nearest;
     for (Eigen::Index v = 0; v < vertices; ++v) {
-      double& square = nearer[static_cast<std::size_t>(v)];
+      double& square = nearer[v];
       const Eigen::Vector3d away = mesh.vertices.col(v) - place;
       square = std::min(square, away.squaredNorm());
     }
@@ -148,7 +146,7 @@ GONIO_INLINE std::vector<Eigen::Index> spread_vertices(const triangle_mesh& mesh
   };
   std::vector<double> key = nearer_of(centroid_of(mesh.vertices));
   std::vector<Eigen::Index> chosen;
-  while (static_cast<Eigen::Index>(chosen.size()) < count) {
+  while (std::ssize(chosen) < count) {
     const auto farthest = std::ranges::max_element(key);
     if (!(*farthest > 0.0)) break;
     chosen.push_back(farthest - key.begin());
@@ -170,10 +168,10 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
   const point_columns normals = vertex_normals(mesh);
   const Eigen::VectorXd areas = detail::vertex_areas(mesh);
   const detail::point_tree tree(mesh.vertices);
-  Eigen::MatrixXd histograms = Eigen::MatrixXd::Zero(options.bins(), static_cast<Eigen::Index>(chosen.size()));
+  Eigen::MatrixXd histograms = Eigen::MatrixXd::Zero(options.bins(), std::ssize(chosen));
   // Sum the areas of the neighbours of a vertex by the bin in its own frame.
   const auto fill = [&](Eigen::Index point) {
-    const Eigen::Index vertex = chosen[static_cast<std::size_t>(point)];
+    const Eigen::Index vertex = chosen[point];
     const Eigen::Vector3d origin = mesh.vertices.col(vertex);
     const std::optional<Eigen::Matrix3d> frame = context_frame(normals.col(vertex), options);
     if (!frame) return;
@@ -184,7 +182,7 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
     }
   };
   for_each_index(
-      chosen.size(), 8, [&](std::size_t i) { fill(static_cast<Eigen::Index>(i)); }, threads);
+      chosen.size(), 8, [&](Eigen::Index i) { fill(i); }, threads);
 
   // Normalise the histograms, and leave out vertices that see nothing.
   shape_descriptors found;
@@ -194,11 +192,11 @@ GONIO_INLINE shape_descriptors describe(const triangle_mesh& mesh, const std::ve
     if (!(sum > 0.0)) continue;
     histograms.col(point) /= sum;
     filled.push_back(point);
-    found.vertex.push_back(chosen[static_cast<std::size_t>(point)]);
+    found.vertex.push_back(chosen[point]);
   }
-  found.histograms.resize(histograms.rows(), static_cast<Eigen::Index>(filled.size()));
-  for (std::size_t i = 0; i < filled.size(); ++i)
-    found.histograms.col(static_cast<Eigen::Index>(i)) = histograms.col(filled[i]).cast<float>();
+  found.histograms.resize(histograms.rows(), std::ssize(filled));
+  for (Eigen::Index i = 0; i < std::ssize(filled); ++i)
+    found.histograms.col(i) = histograms.col(filled[i]).cast<float>();
   return found;
 }
 
@@ -210,9 +208,9 @@ GONIO_INLINE Eigen::MatrixXd chi_square_costs(const shape_descriptors& from, con
   // Empty in both: 0 / least, which is 0.
   constexpr float least = std::numeric_limits<float>::min();
   for_each_block(
-      static_cast<std::size_t>(costs.cols()), 8,
+      costs.cols(), 8,
       [&](block columns) {
-        for (auto j = static_cast<Eigen::Index>(columns.begin); j < static_cast<Eigen::Index>(columns.end); ++j)
+        for (Eigen::Index j = columns.begin; j < columns.end; ++j)
           for (Eigen::Index i = 0; i < costs.rows(); ++i) {
             const auto a = from.histograms.col(i).array(), b = onto.histograms.col(j).array();
             costs(i, j) = 0.5 * ((a - b).square() / (a + b).max(least)).cast<double>().sum();
@@ -228,7 +226,7 @@ GONIO_INLINE std::vector<shape_match> match(const shape_descriptors& from, const
   const std::vector<Eigen::Index> columns = optimal_assignment(costs);
   std::vector<shape_match> matches;
   for (Eigen::Index row = 0; row < costs.rows(); ++row) {
-    const Eigen::Index column = columns[static_cast<std::size_t>(row)];
+    const Eigen::Index column = columns[row];
     if (column >= 0) matches.push_back({row, column, costs(row, column)});
   }
   std::ranges::sort(matches, {}, [](const shape_match& one) { return std::tuple(one.cost, one.from); });

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -28,12 +27,12 @@ GONIO_INLINE Eigen::VectorXd matched_points::squared_distances(const similarity_
   return squares;
 }
 
-GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matched_points& points, Eigen::Index first,
-                                                                      double tolerance) {
+GONIO_INLINE std::pair<similarity_transform, Eigen::Index> robust_pose(const matched_points& points, Eigen::Index first,
+                                                                       double tolerance) {
   constexpr double narrowing = 0.8;
   constexpr int most_steps = 200;
   similarity_transform pose = align(points.from.leftCols(first), points.onto.leftCols(first));
-  auto used = static_cast<std::size_t>(first);
+  Eigen::Index used = first;
   const Eigen::Index fewest = std::max<Eigen::Index>(3, points.from.cols() / 10);
   double limit = 3.0 * std::sqrt(points.squared_distances(pose).mean()) / narrowing;
   if (std::isinf(tolerance)) return {pose, used};
@@ -46,7 +45,7 @@ GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matc
       left += weight > 0.0 ? 1 : 0;
     }
     if (left < fewest) break;
-    used = static_cast<std::size_t>(left);
+    used = left;
     const similarity_transform next = align(points.from, points.onto, alignment_kind::rigid, weights);
     double moved = 0.0;
     for (Eigen::Index i = 0; i < points.from.cols(); ++i) {
@@ -61,13 +60,12 @@ GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matc
 
 /// The vertices that triangles have.
 [[nodiscard]] GONIO_INLINE point_columns surface_vertices(const triangle_mesh& mesh) {
-  std::vector<bool> in_use(static_cast<std::size_t>(mesh.vertices.cols()), false);
+  std::vector<bool> in_use(mesh.vertices.cols(), false);
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t)
-    for (Eigen::Index corner = 0; corner < 3; ++corner)
-      in_use[static_cast<std::size_t>(mesh.triangles(corner, t))] = true;
+    for (Eigen::Index corner = 0; corner < 3; ++corner) in_use[mesh.triangles(corner, t)] = true;
   std::vector<Eigen::Index> kept;
-  for (std::size_t v = 0; v < in_use.size(); ++v)
-    if (in_use[v]) kept.push_back(static_cast<Eigen::Index>(v));
+  for (Eigen::Index v = 0; v < std::ssize(in_use); ++v)
+    if (in_use[v]) kept.push_back(v);
   return chosen_columns(mesh.vertices, kept);
 }
 
@@ -75,11 +73,9 @@ GONIO_INLINE std::pair<similarity_transform, std::size_t> robust_pose(const matc
 [[nodiscard]] GONIO_INLINE double mean_distance(const similarity_transform& pose, const point_columns& points,
                                                 const point_tree& tree, thread_count threads) {
   const auto add = [&](double& sum, block some) {
-    for (auto i = static_cast<Eigen::Index>(some.begin); i < static_cast<Eigen::Index>(some.end); ++i)
-      sum += std::sqrt(tree.squared_distance(pose(points.col(i))));
+    for (Eigen::Index i = some.begin; i < some.end; ++i) sum += std::sqrt(tree.squared_distance(pose(points.col(i))));
   };
-  return sum_over_blocks(static_cast<std::size_t>(points.cols()), 256, 0.0, add, threads) /
-         static_cast<double>(points.cols());
+  return sum_over_blocks(points.cols(), 256, 0.0, add, threads) / static_cast<double>(points.cols());
 }
 
 /// What looks alike is looked for among these.
@@ -131,11 +127,11 @@ GONIO_INLINE pre_alignment shape_context_matcher::align(const triangle_mesh& sca
   const detail::described_points found = detail::described(scan, options_, threads);
   detail::require_points(found.descriptors, "scan");
   const std::vector<shape_match> matches = match(found.descriptors, model_->points.descriptors, threads);
-  detail::matched_points pairs{point_columns(3, static_cast<Eigen::Index>(matches.size())), {}};
+  detail::matched_points pairs{point_columns(3, std::ssize(matches)), {}};
   pairs.onto.resizeLike(pairs.from);
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    pairs.from.col(static_cast<Eigen::Index>(i)) = found.places.col(matches[i].from);
-    pairs.onto.col(static_cast<Eigen::Index>(i)) = model_->points.places.col(matches[i].onto);
+  for (Eigen::Index i = 0; i < std::ssize(matches); ++i) {
+    pairs.from.col(i) = found.places.col(matches[i].from);
+    pairs.onto.col(i) = model_->points.places.col(matches[i].onto);
   }
   const auto count = static_cast<double>(matches.size());
   const auto first = std::max<Eigen::Index>(3, std::lround(options_.significant * count));

@@ -10,7 +10,6 @@
 #include <gonio/shape/shape_model.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +28,7 @@ GONIO_INLINE shape_model learn_shape_model(const std::vector<point_columns>& sha
   if (std::ranges::all_of(shapes, [&](const point_columns& shape) { return shape == shapes.front(); }))
     refuse({"a shape model needs at least two shapes that differ, not ", shapes.size(), " that do not"});
   const aligned_shapes aligned = procrustes_mean(shapes);
-  const std::size_t components = shapes.size();
+  const Eigen::Index components = shapes.size();
   return {learn_pca(shape_set::of(aligned.shapes, std::move(names)), lin{}, components, threads), std::move(triangles)};
 }
 

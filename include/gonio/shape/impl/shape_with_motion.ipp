@@ -19,26 +19,24 @@ GONIO_INLINE shape_with_motion::shape_with_motion(shape_basis shape, const point
   if (moved.size() != components.rows())
     refuse({"a shape of ", moved.cols(), " vertices is to move with a basis of ", components.rows() / 3});
   centroid_ = centroid_of(moved);
-  const auto k = static_cast<Eigen::Index>(shape_.size());
+  const Eigen::Index k = shape_.size();
   functions_.resize(components.rows(), k + motions);
   functions_.leftCols(k) = components;
   const auto scale = static_cast<float>(freedom);
   for (Eigen::Index vertex = 0; vertex < moved.cols(); ++vertex) {
     std::array<float, 3> arm{};
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      arm[static_cast<std::size_t>(axis)] = static_cast<float>(moved(axis, vertex) - centroid_[axis]);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) arm[axis] = static_cast<float>(moved(axis, vertex) - centroid_[axis]);
     // turn x arm, and the shift
     const std::array<std::array<float, motions>, 3> displaced{
         {{0, arm[2], -arm[1], 1, 0, 0}, {-arm[2], 0, arm[0], 0, 1, 0}, {arm[1], -arm[0], 0, 0, 0, 1}}};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      for (std::size_t motion = 0; motion < motions; ++motion)
-        functions_(3 * vertex + static_cast<Eigen::Index>(axis), k + static_cast<Eigen::Index>(motion)) =
-            scale * displaced[axis][motion];
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      for (Eigen::Index motion = 0; motion < motions; ++motion)
+        functions_(3 * vertex + axis, k + motion) = scale * displaced[axis][motion];
   }
 }
 
 GONIO_INLINE shape_with_motion::parts shape_with_motion::split(const Eigen::VectorXd& weights) const {
-  const auto k = static_cast<Eigen::Index>(shape_.size());
+  const Eigen::Index k = shape_.size();
   parts found{weights.head(k), {}};
   Eigen::Vector3d turn, shift;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

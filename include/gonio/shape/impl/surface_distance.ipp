@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace gonio::shape {
 
@@ -19,10 +18,9 @@ GONIO_INLINE Eigen::VectorXd signed_distances(const surface_index& surface, cons
                                               thread_count threads) {
   Eigen::VectorXd distances(points.cols());
   for_each_block(
-      static_cast<std::size_t>(points.cols()), 256,
+      points.cols(), 256,
       [&](block some) {
-        for (auto i = static_cast<Eigen::Index>(some.begin); i < static_cast<Eigen::Index>(some.end); ++i)
-          distances[i] = surface.signed_distance(points.col(i));
+        for (Eigen::Index i = some.begin; i < some.end; ++i) distances[i] = surface.signed_distance(points.col(i));
       },
       threads);
   return distances;

@@ -43,8 +43,8 @@ inline constexpr double on_side = 1e-9;
   }
   Eigen::Vector3d best(1.0, 0.0, 0.0);
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t from = 0; from < 3; ++from) {
-    const std::size_t to = (from + 1) % 3;
+  for (Eigen::Index from = 0; from < 3; ++from) {
+    const Eigen::Index to = (from + 1) % 3;
     const Eigen::Vector3d side = corner[to] - corner[from], away = point - corner[from];
     const double square = side.squaredNorm(),
                  along = square > 0.0 ? std::clamp(away.dot(side) / square, 0.0, 1.0) : 0.0;
@@ -53,8 +53,8 @@ inline constexpr double on_side = 1e-9;
     if (!(distance < least)) continue;
     least = distance;
     best.setZero();
-    best[static_cast<Eigen::Index>(from)] = 1.0 - along;
-    best[static_cast<Eigen::Index>(to)] = along;
+    best[from] = 1.0 - along;
+    best[to] = along;
   }
   return best;
 }
@@ -143,15 +143,15 @@ class box_tree {
   /// returns the limit from then on.
   template <class Bound, class Visit>
   void search(double limit, const Bound& bound, const Visit& visit) const {
-    std::array<std::pair<double, std::size_t>, 64> pending;  // one for each halving of the triangles
-    std::size_t size = 0;
+    std::array<std::pair<double, Eigen::Index>, 64> pending;  // one for each halving of the triangles
+    Eigen::Index size = 0;
     pending[size++] = {bound(nodes_[0].box), 0};
     while (size > 0) {
       const auto [least, place] = pending[--size];
       if (least > limit) continue;
       const node& here = nodes_[place];
       if (here.second == 0) {
-        for (std::size_t i = here.begin; i < here.end; ++i) limit = visit(order_[i]);
+        for (Eigen::Index i = here.begin; i < here.end; ++i) limit = visit(order_[i]);
         continue;
       }
       pending[size] = {bound(nodes_[here.second].box), here.second};
@@ -165,49 +165,48 @@ class box_tree {
   /// The first child follows its parent; `second` is 0 for a leaf.
   struct node {
     centred_box box;
-    std::size_t begin, end, second;
+    Eigen::Index begin, end, second;
   };
 
-  static constexpr std::size_t leaf_size = 4;
+  static constexpr Eigen::Index leaf_size = 4;
 
-  std::size_t build(const std::vector<extent>& boxes, std::size_t begin, std::size_t end);
+  Eigen::Index build(const std::vector<extent>& boxes, Eigen::Index begin, Eigen::Index end);
 
   std::vector<Eigen::Index> order_;
   std::vector<node> nodes_;
 };
 
-GONIO_INLINE box_tree::box_tree(const triangle_mesh& mesh) : order_(static_cast<std::size_t>(mesh.triangles.cols())) {
+GONIO_INLINE box_tree::box_tree(const triangle_mesh& mesh) : order_(mesh.triangles.cols()) {
   std::iota(order_.begin(), order_.end(), Eigen::Index{0});
   std::vector<extent> boxes(order_.size());
   for (const Eigen::Index t : order_)
-    for (Eigen::Index corner = 0; corner < 3; ++corner)
-      boxes[static_cast<std::size_t>(t)].include(mesh.vertices.col(mesh.triangles(corner, t)));
+    for (Eigen::Index corner = 0; corner < 3; ++corner) boxes[t].include(mesh.vertices.col(mesh.triangles(corner, t)));
   nodes_.reserve(order_.size());
   build(boxes, 0, order_.size());
 }
 
-GONIO_INLINE std::size_t box_tree::build(const std::vector<extent>& boxes, std::size_t begin, std::size_t end) {
+GONIO_INLINE Eigen::Index box_tree::build(const std::vector<extent>& boxes, Eigen::Index begin, Eigen::Index end) {
   extent all, centres;
-  for (std::size_t i = begin; i < end; ++i) {
-    const extent& box = boxes[static_cast<std::size_t>(order_[i])];
+  for (Eigen::Index i = begin; i < end; ++i) {
+    const extent& box = boxes[order_[i]];
     all.include(box.low);
     all.include(box.high);
     centres.include(box.centre());
   }
-  const std::size_t place = nodes_.size(), middle = begin + (end - begin) / 2;
+  const Eigen::Index place = nodes_.size(), middle = begin + (end - begin) / 2;
   nodes_.push_back({centred_box(all), begin, end, 0});
   if (end - begin <= leaf_size) return place;
   Eigen::Index axis = 0;
   for (const Eigen::Index other : {Eigen::Index{1}, Eigen::Index{2}})
     if (centres.high[other] - centres.low[other] > centres.high[axis] - centres.low[axis]) axis = other;
   const auto key = [&](Eigen::Index t) {
-    const extent& box = boxes[static_cast<std::size_t>(t)];
+    const extent& box = boxes[t];
     return std::pair(box.low[axis] + box.high[axis], t);
   };
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+  const auto at = [&](Eigen::Index i) { return order_.begin() + i; };
   std::ranges::nth_element(at(begin), at(middle), at(end), {}, key);
   build(boxes, begin, middle);
-  const std::size_t second = build(boxes, middle, end);
+  const Eigen::Index second = build(boxes, middle, end);
   nodes_[place].second = second;
   return place;
 }
@@ -232,7 +231,7 @@ struct triangle_feature {
 [[nodiscard]] GONIO_INLINE triangle_columns across_sides(const triangle_columns& triangles) {
   using side_of = std::tuple<int, int, int>;  // from, to, triangle
   std::vector<side_of> sides;
-  sides.reserve(static_cast<std::size_t>(triangles.size()));
+  sides.reserve(triangles.size());
   const auto count = static_cast<int>(triangles.cols());
   for (int t = 0; t < count; ++t)
     for (int side = 0; side < 3; ++side) sides.emplace_back(triangles(side, t), triangles((side + 1) % 3, t), t);
@@ -363,10 +362,9 @@ GONIO_INLINE double surface_index::signed_distance(const Eigen::Vector3d& point)
 
 GONIO_INLINE std::vector<surface_point> closest_points(const surface_index& surface, const point_columns& points,
                                                        thread_count threads) {
-  std::vector<surface_point> found(static_cast<std::size_t>(points.cols()));
+  std::vector<surface_point> found(points.cols());
   for_each_index(
-      found.size(), 256, [&](std::size_t i) { found[i] = surface.closest(points.col(static_cast<Eigen::Index>(i))); },
-      threads);
+      found.size(), 256, [&](Eigen::Index i) { found[i] = surface.closest(points.col(i)); }, threads);
   return found;
 }
 

@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <cstddef>
 #include <span>
 #include <utility>
 
@@ -60,8 +59,8 @@ GONIO_INLINE Eigen::Vector3d centroid_of(const point_columns& points) {
 }
 
 GONIO_INLINE point_columns chosen_columns(const point_columns& all, std::span<const Eigen::Index> numbers) {
-  point_columns chosen(3, static_cast<Eigen::Index>(numbers.size()));
-  for (std::size_t i = 0; i < numbers.size(); ++i) chosen.col(static_cast<Eigen::Index>(i)) = all.col(numbers[i]);
+  point_columns chosen(3, std::ssize(numbers));
+  for (Eigen::Index i = 0; i < std::ssize(numbers); ++i) chosen.col(i) = all.col(numbers[i]);
   return chosen;
 }
 

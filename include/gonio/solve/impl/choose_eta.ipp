@@ -113,14 +113,14 @@ class eta_scores {
     const Eigen::VectorXd least = etas.array() / (largest() + etas.array());
     Eigen::VectorXd scores = Eigen::VectorXd::Zero(etas.size());
     problem_.for_each_row_block([&](block range, const row_matrix& part) {
-      const auto begin = static_cast<Eigen::Index>(range.begin);
+      const Eigen::Index begin = range.begin;
       const Eigen::VectorXd root = problem_.weights().segment(begin, part.rows()).cwiseSqrt();
       Eigen::MatrixXd projected = product(part, vectors_);
       for (Eigen::Index j = 0; j < projected.cols(); ++j) projected.col(j).array() *= root.array();
       const Eigen::MatrixXd leverages = product(projected.cwiseAbs2(), factors);
-      for (std::size_t column = 0; column < of_each.size(); ++column) {
-        const Eigen::VectorXd right = root.cwiseProduct(
-            problem_.right_hand_side().col(static_cast<Eigen::Index>(column)).segment(begin, part.rows()));
+      for (Eigen::Index column = 0; column < std::ssize(of_each); ++column) {
+        const Eigen::VectorXd right =
+            root.cwiseProduct(problem_.right_hand_side().col(column).segment(begin, part.rows()));
         const Eigen::MatrixXd fitted = product(projected, of_each[column]);
         for (Eigen::Index e = 0; e < etas.size(); ++e)
           scores[e] +=

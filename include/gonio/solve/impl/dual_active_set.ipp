@@ -57,17 +57,15 @@ GONIO_INLINE dual_active_set::dual_active_set(const scaled_program& program, vec
       y_(vector::Zero(program.unknowns())),
       bound_multiplier_(vector::Zero(program.unknowns())),
       row_multiplier_(vector::Zero(program.rows())),
-      tolerated_(static_cast<std::size_t>(program.unknowns() + program.rows()), false) {}
+      tolerated_(program.unknowns() + program.rows(), false) {}
 
 GONIO_INLINE void dual_active_set::adopt(const active_constraints& start) {
   for (Eigen::Index j = 0; j < program_.unknowns(); ++j) {
-    const bool bound = program_.non_negative && !start.bounds.empty() && start.bounds[static_cast<std::size_t>(j)];
+    const bool bound = program_.non_negative && !start.bounds.empty() && start.bounds[j];
     if (!bound && !set_.release(j) && !program_.non_negative) singular_ = true;
   }
   for (Eigen::Index i = 0; i < program_.rows(); ++i)
-    if (i < program_.equalities ||
-        (!start.rows.empty() && start.rows[static_cast<std::size_t>(i - program_.equalities)]))
-      set_.add_row(i);
+    if (i < program_.equalities || (!start.rows.empty() && start.rows[i - program_.equalities])) set_.add_row(i);
 }
 
 GONIO_INLINE void dual_active_set::settle() {
@@ -86,7 +84,7 @@ GONIO_INLINE void dual_active_set::settle() {
 GONIO_INLINE void dual_active_set::resolve() {
   set_.update();
   vector a = set_.gather(rhs_), c(std::ssize(set_.rows()));
-  for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = program_.b[set_.rows()[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = program_.b[set_.rows()[i]];
   set_.solve(a, c);
   y_.setZero();
   row_multiplier_.setZero();
@@ -97,10 +95,8 @@ GONIO_INLINE void dual_active_set::resolve() {
 
 GONIO_INLINE void dual_active_set::advance(const vector& free_part, double free_length, const vector& row_part,
                                            double row_length) {
-  for (Eigen::Index i = 0; i < free_part.size(); ++i)
-    y_[set_.free()[static_cast<std::size_t>(i)]] += free_length * free_part[i];
-  for (Eigen::Index i = 0; i < row_part.size(); ++i)
-    row_multiplier_[set_.rows()[static_cast<std::size_t>(i)]] += row_length * row_part[i];
+  for (Eigen::Index i = 0; i < free_part.size(); ++i) y_[set_.free()[i]] += free_length * free_part[i];
+  for (Eigen::Index i = 0; i < row_part.size(); ++i) row_multiplier_[set_.rows()[i]] += row_length * row_part[i];
 }
 
 GONIO_INLINE void dual_active_set::update_bound_multipliers() {
@@ -134,7 +130,7 @@ GONIO_INLINE void dual_active_set::choose_violated() {
   for (Eigen::Index i = 0; i < program_.rows(); ++i) {
     if (violated_ >= 0 && i >= program_.equalities && is_equality(violated_)) return;
     const Eigen::Index constraint = program_.unknowns() + i;
-    if (tolerated_[static_cast<std::size_t>(constraint)] || set_.has_row(i)) continue;
+    if (tolerated_[constraint] || set_.has_row(i)) continue;
     const double off = violation(constraint);
     if (off <= 10 * rounding * (std::abs(program_.b[i]) + size) + rows_tolerance) continue;
     if (violated_ >= 0 && off <= worst) continue;
@@ -144,7 +140,7 @@ GONIO_INLINE void dual_active_set::choose_violated() {
   if (!program_.non_negative || (violated_ >= 0 && is_equality(violated_))) return;
   worst = std::max(worst, bounds_tolerance);
   for (const Eigen::Index j : set_.free()) {
-    if (tolerated_[static_cast<std::size_t>(j)] || -y_[j] <= worst) continue;
+    if (tolerated_[j] || -y_[j] <= worst) continue;
     worst = -y_[j];
     violated_ = j;
   }
@@ -198,9 +194,9 @@ GONIO_INLINE dual_active_set::direction dual_active_set::direction_towards(const
   }
   way.bound_rate = normal;
   for (Eigen::Index i = 0; i < way.row_rate.size(); ++i)
-    way.bound_rate -= way.row_rate[i] * program_.normals.col(set_.rows()[static_cast<std::size_t>(i)]);
+    way.bound_rate -= way.row_rate[i] * program_.normals.col(set_.rows()[i]);
   for (Eigen::Index i = 0; i < way.z.size() && !way.dependent; ++i)
-    way.bound_rate -= way.z[i] * program_.G.col(set_.free()[static_cast<std::size_t>(i)]);
+    way.bound_rate -= way.z[i] * program_.G.col(set_.free()[i]);
   for (const Eigen::Index j : set_.free()) way.bound_rate[j] = 0.0;
   return way;
 }
@@ -215,7 +211,7 @@ GONIO_INLINE dual_active_set::obstacle dual_active_set::first_obstacle(const dir
     first = {constraint, std::max(multiplier, 0.0) / rate};
   };
   for (Eigen::Index i = 0; i < way.row_rate.size(); ++i) {
-    const Eigen::Index row = set_.rows()[static_cast<std::size_t>(i)];
+    const Eigen::Index row = set_.rows()[i];
     if (row >= program_.equalities) consider(program_.unknowns() + row, row_multiplier_[row], way.row_rate[i]);
   }
   if (!program_.non_negative) return first;
@@ -249,14 +245,14 @@ GONIO_INLINE void dual_active_set::exchange(Eigen::Index added, Eigen::Index dro
 GONIO_INLINE void dual_active_set::tolerate(Eigen::Index constraint, double bound, const direction& way) {
   double allowed = 0.0, size = std::abs(bound);
   for (Eigen::Index i = 0; i < way.row_rate.size(); ++i) {
-    const double part = way.row_rate[i] * program_.b[set_.rows()[static_cast<std::size_t>(i)]];
+    const double part = way.row_rate[i] * program_.b[set_.rows()[i]];
     allowed += part;
     size += std::abs(part);
   }
   if (bound - allowed > 1e3 * rounding * size)
     refuse({"the constraints contradict one another: no weights satisfy ", describe(constraint),
             " together with the others"});
-  tolerated_[static_cast<std::size_t>(constraint)] = true;
+  tolerated_[constraint] = true;
 }
 
 GONIO_INLINE std::string dual_active_set::describe(Eigen::Index constraint) const {
@@ -270,8 +266,8 @@ GONIO_INLINE void dual_active_set::refine() {
   double last = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < 20; ++pass) {
     vector a(std::ssize(set_.free())), c(std::ssize(set_.rows()));
-    for (Eigen::Index i = 0; i < a.size(); ++i) a[i] = gradient_misfit(set_.free()[static_cast<std::size_t>(i)]);
-    for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = row_misfit(set_.rows()[static_cast<std::size_t>(i)]);
+    for (Eigen::Index i = 0; i < a.size(); ++i) a[i] = gradient_misfit(set_.free()[i]);
+    for (Eigen::Index i = 0; i < c.size(); ++i) c[i] = row_misfit(set_.rows()[i]);
     set_.solve(a, c);
     const double change = a.size() > 0 ? a.cwiseAbs().maxCoeff() : 0.0;
     if (!(change < 0.7 * last)) return;

@@ -23,9 +23,9 @@ GONIO_INLINE normal_equations assemble(const row_source& rows, const Eigen::Matr
   const sum_type zero(k + r);
   const Eigen::MatrixXd all =
       sum_over_blocks(
-          static_cast<std::size_t>(rows.rows), sum_type::block_rows, zero,
+          rows.rows, sum_type::block_rows, zero,
           [&](sum_type& sum, block range) {
-            const auto begin = static_cast<Eigen::Index>(range.begin), count = static_cast<Eigen::Index>(range.size());
+            const Eigen::Index begin = range.begin, count = range.size();
             const Eigen::OuterStride<> stride(sum.stride());
             // Read the rows, and append their right-hand sides.
             rows.read(range, Eigen::Map<row_matrix, 0, Eigen::OuterStride<>>(sum.row(0), count, k, stride));

@@ -31,14 +31,14 @@ GONIO_INLINE void require_penalty(double lambda) {
 
 namespace gonio {
 
-GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal, std::size_t count,
+GONIO_INLINE std::vector<double> lambda_sequence(const normal_equations& normal, Eigen::Index count,
                                                  double smallest_share, sign_rule signs) {
   if (count < 2) refuse({"a regularisation path needs at least two penalties, not ", count});
   if (!(smallest_share > 0.0 && smallest_share < 1.0))
     refuse({"the smallest penalty of a path must be a share in (0, 1) of the largest, not ", smallest_share});
   const double largest = largest_lambda(normal, signs);
   std::vector<double> lambdas(count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (Eigen::Index i = 0; i < count; ++i)
     lambdas[i] = largest * std::pow(smallest_share, static_cast<double>(i) / static_cast<double>(count - 1));
   return lambdas;
 }

@@ -28,7 +28,7 @@ namespace gonio {
 GONIO_INLINE row_matrix least_squares_problem::rows() const {
   row_matrix gathered(equations(), unknowns());
   for_each_row_block([&](block range, const row_matrix& part) {
-    std::copy_n(part.data(), part.size(), gathered.data() + static_cast<Eigen::Index>(range.begin) * gathered.cols());
+    std::copy_n(part.data(), part.size(), gathered.data() + range.begin * gathered.cols());
   });
   return gathered;
 }
@@ -44,7 +44,7 @@ GONIO_INLINE row_matrix least_squares_problem::weighted_rows() const {
   Eigen::Index filled = 0;
   for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row) {
-      const double weight = weights()[static_cast<Eigen::Index>(range.begin) + row];
+      const double weight = weights()[range.begin + row];
       if (!(weight > 0.0)) continue;
       for (Eigen::Index column = 0; column < part.cols(); ++column)
         gathered(filled, column) = std::sqrt(weight) * part(row, column);
@@ -84,7 +84,7 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
   for (Eigen::Index& column : chosen) {
     if (column < 0 || column >= unknowns())
       gonio::refuse({"a least-squares problem of ", unknowns(), " unknowns has no column ", column});
-    if (columns_) column = (*columns_)[static_cast<std::size_t>(column)];
+    if (columns_) column = (*columns_)[column];
   }
   if (chosen.empty()) gonio::refuse("a least-squares problem needs at least one column");
   // Columns count from the whole that has no whole itself, so that subsets of subsets do not nest.
@@ -96,11 +96,11 @@ GONIO_INLINE least_squares_problem least_squares_problem::subset(std::span<const
 GONIO_INLINE Eigen::VectorXd least_squares_problem::residual(const Eigen::MatrixXd& x) const {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(x.cols());
   Eigen::VectorXd norms = sum_over_blocks(
-      static_cast<std::size_t>(equations()), block_rows, zero,
+      equations(), block_rows, zero,
       [&](Eigen::VectorXd& sum, block range) {
         const row_matrix part = read(range);
         for (Eigen::Index row = 0; row < part.rows(); ++row) {
-          const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+          const Eigen::Index at = range.begin + row;
           for (Eigen::Index column = 0; column < x.cols(); ++column) {
             const double misfit = dot(&part(row, 0), &x(0, column), x.rows()) - right_hand_side()(at, column);
             sum[column] += weights()[at] * misfit * misfit;
@@ -132,7 +132,7 @@ GONIO_INLINE least_squares_problem::stored::stored(row_source source, Eigen::Mat
 }
 
 GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
-  row_matrix all(static_cast<Eigen::Index>(range.size()), equations_->rows.columns);
+  row_matrix all(range.size(), equations_->rows.columns);
   equations_->rows.read(range, all);
   // A finite sum of squares has finite terms, and is one vectorised pass; terms of one that overflows may be finite
   // too.
@@ -140,17 +140,15 @@ GONIO_INLINE row_matrix least_squares_problem::read(block range) const {
   if (!columns_) return all;
   row_matrix chosen(all.rows(), unknowns());
   for (Eigen::Index row = 0; row < chosen.rows(); ++row)
-    for (Eigen::Index column = 0; column < chosen.cols(); ++column)
-      chosen(row, column) = all(row, (*columns_)[static_cast<std::size_t>(column)]);
+    for (Eigen::Index column = 0; column < chosen.cols(); ++column) chosen(row, column) = all(row, (*columns_)[column]);
   return chosen;
 }
 
-GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, std::size_t first_row) {
+GONIO_INLINE void least_squares_problem::require_finite(const row_matrix& part, Eigen::Index first_row) {
   for (Eigen::Index row = 0; row < part.rows(); ++row)
     for (Eigen::Index column = 0; column < part.cols(); ++column)
       if (!std::isfinite(part(row, column)))
-        gonio::refuse({"row ", first_row + static_cast<std::size_t>(row),
-                       " of a least-squares problem is not finite in column ", column});
+        gonio::refuse({"row ", first_row + row, " of a least-squares problem is not finite in column ", column});
 }
 
 GONIO_INLINE normal_equations least_squares_problem::assemble_finite() const {
@@ -179,8 +177,7 @@ GONIO_INLINE void least_squares_problem::require_no_underflow(const normal_equat
   for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row)
       for (Eigen::Index column = 0; column < part.cols(); ++column)
-        if (normal.gram()(column, column) < least && part(row, column) != 0.0 &&
-            weights()[static_cast<Eigen::Index>(range.begin) + row] > 0.0)
+        if (normal.gram()(column, column) < least && part(row, column) != 0.0 && weights()[range.begin + row] > 0.0)
           refuse_tiny("column " + std::to_string(column));
   });
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -31,20 +30,20 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
   while (!free.empty()) {
     // Solve for the free unknowns: H_ff s = -(g + H s_held)_f.
     const Eigen::VectorXd change = thin_product(hessian, step);  // by the step of those that are held
-    const auto count = static_cast<Eigen::Index>(free.size());
+    const Eigen::Index count = std::ssize(free);
     Eigen::MatrixXd among(count, count);
     Eigen::VectorXd descent(count);
     for (Eigen::Index j = 0; j < count; ++j) {
-      const Eigen::Index column = free[static_cast<std::size_t>(j)];
+      const Eigen::Index column = free[j];
       descent[j] = -(gradient[column] + change[column]);
-      for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[static_cast<std::size_t>(i)], column);
+      for (Eigen::Index i = 0; i < count; ++i) among(i, j) = hessian(free[i], column);
     }
     const Eigen::VectorXd moves = solve_semidefinite(among, descent);
     // Hold those whose step leaves the box at its border.
     std::vector<Eigen::Index> inside;
-    for (std::size_t j = 0; j < free.size(); ++j) {
+    for (Eigen::Index j = 0; j < std::ssize(free); ++j) {
       const Eigen::Index i = free[j];
-      const double move = moves[static_cast<Eigen::Index>(j)];
+      const double move = moves[j];
       if (move < lowest[i] || move > highest[i])
         step[i] = std::clamp(move, lowest[i], highest[i]);
       else
@@ -52,7 +51,7 @@ GONIO_INLINE Eigen::VectorXd bounded_step(const Eigen::VectorXd& gradient, const
     }
     // Accept the step once all free unknowns are inside.
     if (inside.size() == free.size()) {
-      for (std::size_t j = 0; j < free.size(); ++j) step[free[j]] = moves[static_cast<Eigen::Index>(j)];
+      for (Eigen::Index j = 0; j < std::ssize(free); ++j) step[free[j]] = moves[j];
       break;
     }
     free = std::move(inside);

@@ -52,11 +52,11 @@ GONIO_INLINE normal_equations operator+(const normal_equations& a, const normal_
 }
 
 GONIO_INLINE normal_equations normal_equations::subset(std::span<const Eigen::Index> columns) const {
-  const auto k = static_cast<Eigen::Index>(columns.size());
+  const Eigen::Index k = std::ssize(columns);
   Eigen::MatrixXd gram(k, k), rhs(k, right_hand_sides());
   for (Eigen::Index j = 0; j < k; ++j) {
-    const Eigen::Index from = columns[static_cast<std::size_t>(j)];
-    for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[static_cast<std::size_t>(i)], from);
+    const Eigen::Index from = columns[j];
+    for (Eigen::Index i = 0; i < k; ++i) gram(i, j) = gram_(columns[i], from);
     for (Eigen::Index r = 0; r < rhs.cols(); ++r) rhs(j, r) = rhs_(from, r);
   }
   return {std::move(gram), std::move(rhs), rhs_squared_norm_};
@@ -100,7 +100,7 @@ GONIO_INLINE normal_equations leave_one_out(const Eigen::MatrixXd& gram, Eigen::
 
 GONIO_INLINE std::vector<Eigen::Index> all_but(Eigen::Index k, Eigen::Index left_out) {
   std::vector<Eigen::Index> columns;
-  columns.reserve(static_cast<std::size_t>(k));
+  columns.reserve(k);
   for (Eigen::Index column = 0; column < k; ++column)
     if (column != left_out) columns.push_back(column);
   return columns;

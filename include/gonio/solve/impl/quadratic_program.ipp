@@ -38,7 +38,7 @@ GONIO_INLINE program_optimum program_solver::solve(Eigen::Index right_hand_side,
 
 GONIO_INLINE active_constraints program_solver::origin() const {
   active_constraints start;
-  if (program_.non_negative) start.bounds.assign(static_cast<std::size_t>(program_.unknowns()), true);
+  if (program_.non_negative) start.bounds.assign(program_.unknowns(), true);
   return start;
 }
 

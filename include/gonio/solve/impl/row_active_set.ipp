@@ -37,7 +37,7 @@ GONIO_INLINE row_active_set::row_active_set(Eigen::MatrixXd rows, Eigen::VectorX
       unit_(columns_.cols()),
       penalty_(columns_.cols()),
       signs_(signs),
-      barred_(static_cast<std::size_t>(columns_.cols()), false) {
+      barred_(columns_.cols(), false) {
   const Eigen::Index n = columns_.rows(), k = columns_.cols();
   const double inverse = near_inverse(norm(right_.data(), n));
   for (double& value : right_) value *= inverse;
@@ -53,8 +53,7 @@ GONIO_INLINE row_active_set::row_active_set(Eigen::MatrixXd rows, Eigen::VectorX
 
 GONIO_INLINE Eigen::MatrixXd row_active_set::columns_of(const std::vector<Eigen::Index>& passive) const {
   Eigen::MatrixXd some(columns_.rows(), std::ssize(passive));
-  for (Eigen::Index i = 0; i < some.cols(); ++i)
-    std::copy_n(&columns_(0, passive[static_cast<std::size_t>(i)]), some.rows(), &some(0, i));
+  for (Eigen::Index i = 0; i < some.cols(); ++i) std::copy_n(&columns_(0, passive[i]), some.rows(), &some(0, i));
   return some;
 }
 
@@ -67,7 +66,7 @@ GONIO_INLINE void row_active_set::step() {
     barred_.assign(barred_.size(), false);
   } else {
     state_ = before;
-    barred_[static_cast<std::size_t>(entering)] = true;
+    barred_[entering] = true;
   }
   choose_entering();
 }
@@ -92,15 +91,14 @@ GONIO_INLINE bool row_active_set::exchange(Eigen::Index column) {
   double length = std::numeric_limits<double>::infinity();
   std::ptrdiff_t first = -1;
   for (Eigen::Index i = 0; i < combination.size(); ++i) {
-    const Eigen::Index j = state_.passive[static_cast<std::size_t>(i)];
+    const Eigen::Index j = state_.passive[i];
     const double shrinking = combination[i] * sign * state_.sign[j];
     if (!(shrinking > 0.0) || std::abs(state_.x[j]) / shrinking >= length) continue;
     length = std::abs(state_.x[j]) / shrinking;
     first = i;
   }
   if (first < 0) return false;
-  for (Eigen::Index i = 0; i < combination.size(); ++i)
-    state_.x[state_.passive[static_cast<std::size_t>(i)]] -= length * sign * combination[i];
+  for (Eigen::Index i = 0; i < combination.size(); ++i) state_.x[state_.passive[i]] -= length * sign * combination[i];
   drop(first);
   state_.passive.push_back(column);
   state_.x[column] = length * sign;
@@ -135,7 +133,7 @@ GONIO_INLINE row_active_set::passive_optimum row_active_set::optimum() const {
       above[i] = left.value();
     }
     for (Eigen::Index j = 0; j < p; ++j) {
-      const Eigen::Index column = state_.passive[static_cast<std::size_t>(j)];
+      const Eigen::Index column = state_.passive[j];
       compensated_sum left(penalty_[column] * state_.sign[column]);
       for (Eigen::Index i = 0; i < n; ++i) left.add_product(-columns(i, j), found.misfit[i]);
       below[j] = left.value();
@@ -162,14 +160,14 @@ GONIO_INLINE bool row_active_set::settle() {
     double length = 1.0;
     bool inside = true;
     for (Eigen::Index i = 0; i < best.z.size(); ++i) {
-      const Eigen::Index j = state_.passive[static_cast<std::size_t>(i)];
+      const Eigen::Index j = state_.passive[i];
       if (best.z[i] * state_.sign[j] > 0.0) continue;
       inside = false;
       const double distance = std::abs(state_.x[j]) + std::abs(best.z[i]);
       length = std::min(length, distance > 0.0 ? std::abs(state_.x[j]) / distance : 0.0);
     }
     for (Eigen::Index i = 0; i < best.z.size(); ++i) {
-      double& weight = state_.x[state_.passive[static_cast<std::size_t>(i)]];
+      double& weight = state_.x[state_.passive[i]];
       weight = inside ? best.z[i] : weight + length * (best.z[i] - weight);
     }
     if (inside) {
@@ -177,7 +175,7 @@ GONIO_INLINE bool row_active_set::settle() {
       return true;
     }
     for (std::ptrdiff_t i = best.z.size() - 1; i >= 0; --i) {
-      const Eigen::Index j = state_.passive[static_cast<std::size_t>(i)];
+      const Eigen::Index j = state_.passive[i];
       const double rounding = 4 * std::numeric_limits<double>::epsilon() * std::abs(best.z[i]);
       if (best.z[i] * state_.sign[j] <= 0.0 && state_.x[j] * state_.sign[j] <= rounding) drop(i);
     }
@@ -191,7 +189,7 @@ GONIO_INLINE void row_active_set::choose_entering() {
   double best = 4 * std::numeric_limits<double>::epsilon() * norm;
   entering_ = -1;
   for (Eigen::Index j = 0; j < descent_.size(); ++j) {
-    if (state_.sign[j] != 0.0 || barred_[static_cast<std::size_t>(j)]) continue;
+    if (state_.sign[j] != 0.0 || barred_[j]) continue;
     const double slope = (signs_ == sign_rule::any ? std::abs(descent_[j]) : descent_[j]) - penalty_[j];
     if (slope <= best) continue;
     best = slope;

@@ -34,7 +34,7 @@ GONIO_INLINE Eigen::MatrixXd triangular_equations(const least_squares_problem& p
   };
   problem.for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row) {
-      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+      const Eigen::Index at = range.begin + row;
       if (filled == stacked.rows()) triangularise();
       const double root = std::sqrt(problem.weights()[at]);
       for (Eigen::Index j = 0; j < k; ++j) stacked(filled, j) = root * part(row, j);
@@ -52,7 +52,7 @@ GONIO_INLINE std::vector<scaled_gradient> gradients_of_rows(const least_squares_
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(x.rows());
   problem.for_each_row_block([&](block range, const row_matrix& part) {
     for (Eigen::Index row = 0; row < part.rows(); ++row) {
-      const Eigen::Index at = static_cast<Eigen::Index>(range.begin) + row;
+      const Eigen::Index at = range.begin + row;
       const double weight = problem.weights()[at];
       const double* a = part.data() + row * part.cols();
       for (Eigen::Index column = 0; column < x.cols(); ++column) {

@@ -178,7 +178,7 @@ GONIO_INLINE solution certified(const least_squares_problem& problem, const sign
     found.report.objective[column] =
         0.5 * (residual * residual - normal.rhs_squared_norm()[column]) + penalty_at(found, column, task.lambda);
     found.report.kkt_residual[column] =
-        kkt_violation(gradients[static_cast<std::size_t>(column)], &found.weights(0, column), task.lambda, task.signs);
+        kkt_violation(gradients[column], &found.weights(0, column), task.lambda, task.signs);
     const std::string why = objection(normal, found, column, 0.0, kkt_residual_limit);
     if (!why.empty()) throw no_optimum(task, why);
   }
@@ -219,8 +219,8 @@ GONIO_INLINE bool is_resolved(const normal_equations& normal, Eigen::Index right
   double least = 1.0;
   Eigen::VectorXd cross(std::ssize(columns));
   for (Eigen::Index size = 0; size < cross.size(); ++size) {
-    const Eigen::Index j = columns[static_cast<std::size_t>(size)];
-    for (Eigen::Index i = 0; i < size; ++i) cross[i] = gram(columns[static_cast<std::size_t>(i)], j);
+    const Eigen::Index j = columns[size];
+    for (Eigen::Index i = 0; i < size; ++i) cross[i] = gram(columns[i], j);
     if (!factor.append(cross.head(size), gram(j, j))) return false;
     least = std::min(least, factor.pivot(size) / gram(j, j));
   }

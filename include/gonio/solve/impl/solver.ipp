@@ -39,8 +39,7 @@ GONIO_INLINE solution scatter_columns(solution found, std::span<const Eigen::Ind
   if (found.weights.rows() == unknowns) return found;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, found.weights.cols());
   for (Eigen::Index side = 0; side < all.cols(); ++side)
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      all(columns[i], side) = found.weights(static_cast<Eigen::Index>(i), side);
+    for (Eigen::Index i = 0; i < std::ssize(columns); ++i) all(columns[i], side) = found.weights(i, side);
   found.weights = std::move(all);
   return found;
 }

@@ -16,16 +16,13 @@
 namespace gonio {
 
 GONIO_INLINE working_set::working_set(const scaled_program& program, double shift)
-    : program_(program),
-      shift_(shift),
-      factor_(program.unknowns()),
-      is_free_(static_cast<std::size_t>(program.unknowns()), false) {}
+    : program_(program), shift_(shift), factor_(program.unknowns()), is_free_(program.unknowns(), false) {}
 
 GONIO_INLINE bool working_set::release(Eigen::Index j) {
   vector cross = gather(program_.G.col(j));
   if (!factor_.append(cross, program_.G(j, j) + shift_)) return false;
   free_.push_back(j);
-  changed_ = is_free_[static_cast<std::size_t>(j)] = true;
+  changed_ = is_free_[j] = true;
   return true;
 }
 
@@ -33,7 +30,7 @@ GONIO_INLINE void working_set::fix(Eigen::Index j) {
   const auto place = std::ranges::find(free_, j);
   factor_.remove(place - free_.begin());
   free_.erase(place);
-  is_free_[static_cast<std::size_t>(j)] = false;
+  is_free_[j] = false;
   changed_ = true;
 }
 
@@ -62,7 +59,7 @@ GONIO_INLINE void working_set::update() {
 
 GONIO_INLINE working_set::vector working_set::gather(const Eigen::Ref<const vector>& all) const {
   vector some(std::ssize(free_));
-  for (Eigen::Index i = 0; i < some.size(); ++i) some[i] = all[free_[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < some.size(); ++i) some[i] = all[free_[i]];
   return some;
 }
 

@@ -15,7 +15,7 @@ namespace gonio {
 
 GONIO_INLINE brdf_table::brdf_table(valid_cells cells, std::vector<float> values)
     : cells_(std::move(cells)), values_(std::move(values)) {
-  if (values_.size() != 3 * cells_.size())
+  if (std::ssize(values_) != 3 * cells_.size())
     refuse({"a table over ", cells_.size(), " cells needs 3 values a cell, got ", values_.size()});
 }
 
@@ -24,7 +24,7 @@ GONIO_INLINE brdf_table resample(const brdf_table& table, const valid_cells& cel
   brdf_table result(cells);
   for_each_index(
       cells.size(), 4096,
-      [&](std::size_t cell) { result.set(cell, table.at(locate(table.cells(), cells.angles(cell)))); }, threads);
+      [&](Eigen::Index cell) { result.set(cell, table.at(locate(table.cells(), cells.angles(cell)))); }, threads);
   return result;
 }
 

@@ -19,27 +19,26 @@
 
 namespace gonio {
 
-GONIO_INLINE std::size_t material_set::find(const std::string& name) const {
+GONIO_INLINE Eigen::Index material_set::find(const std::string& name) const {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) refuse({"there is no material named '", name, "'"});
-  return static_cast<std::size_t>(found - names.begin());
+  return found - names.begin();
 }
 
-GONIO_INLINE brdf_table material_set::table(std::size_t material) const {
+GONIO_INLINE brdf_table material_set::table(Eigen::Index material) const {
   brdf_table result(cells);
-  const auto column = static_cast<Eigen::Index>(3 * material);
+  const Eigen::Index column = 3 * material;
   Eigen::Map<cell_matrix>(result.values().data(), values.rows(), 3) = values.middleCols(column, 3);
   return result;
 }
 
-GONIO_INLINE material_set material_set::subset(const std::vector<std::size_t>& positions) const {
+GONIO_INLINE material_set material_set::subset(const std::vector<Eigen::Index>& positions) const {
   material_set some{cells, {}, cell_matrix(values.rows(), 3 * std::ssize(positions))};
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const std::size_t from = positions[i];
-    if (from >= names.size()) refuse({"there is no material ", from, " among ", names.size()});
+  for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
+    const Eigen::Index from = positions[i];
+    if (from < 0 || from >= std::ssize(names)) refuse({"there is no material ", from, " among ", names.size()});
     some.names.push_back(names[from]);
-    some.values.middleCols(static_cast<Eigen::Index>(3 * i), 3) =
-        values.middleCols(static_cast<Eigen::Index>(3 * from), 3);
+    some.values.middleCols(3 * i, 3) = values.middleCols(3 * from, 3);
   }
   return some;
 }

@@ -11,7 +11,7 @@
 
 namespace gonio::detail {
 
-GONIO_INLINE void require_usable_sample(const sample& s, std::size_t number) {
+GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
   const auto refuse = [&](const char* what) { gonio::refuse({"sample ", number, ": ", what}); };
   const auto& [theta_h, theta_d, phi_d] = s.angles();
   if (!std::isfinite(theta_h) || !std::isfinite(theta_d) || !std::isfinite(phi_d)) refuse("an angle is not finite");

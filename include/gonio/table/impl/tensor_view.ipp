@@ -18,7 +18,7 @@ GONIO_INLINE xt::xtensor<float, 4> dense_tensor(const brdf_table& table) {
   const std::array<std::size_t, 4> shape{static_cast<std::size_t>(theta_h), static_cast<std::size_t>(theta_d),
                                          static_cast<std::size_t>(phi_d), 3};
   xt::xtensor<float, 4> dense(shape, std::numeric_limits<float>::quiet_NaN());
-  for (std::size_t cell = 0; cell < table.cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
     std::copy_n(table.values().data() + 3 * cell, 3, dense.data() + 3 * table.cells().linear(cell));
   return dense;
 }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,12 +17,12 @@ namespace gonio {
 
 GONIO_INLINE valid_cells::index::index(const gonio::grid& cells, double threshold)
     : grid(cells), minimum_cosine(threshold) {
-  const auto columns = static_cast<std::size_t>(grid.extents().phi_d);
-  const std::size_t layer = static_cast<std::size_t>(grid.extents().theta_d) * columns;
+  const Eigen::Index columns = grid.extents().phi_d;
+  const Eigen::Index layer = grid.extents().theta_d * columns;
   const double limit = std::max(minimum_cosine, horizon);
   representative.resize(grid.size());
   linear.reserve(grid.size());
-  for_each_smaller_cosine(grid, [&](std::size_t cell, double cosine) {
+  for_each_smaller_cosine(grid, [&](Eigen::Index cell, double cosine) {
     const auto count = static_cast<std::uint32_t>(linear.size());
     if (cell % columns == 0) row_begin.push_back(count);
     if (cosine > limit) {

@@ -17,7 +17,7 @@ struct Vector3f {
 };
 struct Point2f {
   std::array<Float, 2> of{};
-  Float operator[](int i) const { return of[static_cast<std::size_t>(i)]; }
+  Float operator[](int i) const { return of[i]; }
 };
 inline bool SameHemisphere(const Vector3f& w, const Vector3f& wp) { return w.z * wp.z > 0; }
 

@@ -68,7 +68,7 @@ GONIO_INLINE void write_ply(const std::filesystem::path& path, const shape::tria
   byte_writer body;
   for (Eigen::Index v = 0; v < mesh.vertices.cols(); ++v) {
     body.put_all(std::span<const double>(mesh.vertices.col(v).data(), 3));
-    if (!colours.empty()) body.put(srgb_codes(colours[static_cast<std::size_t>(v)]));
+    if (!colours.empty()) body.put(srgb_codes(colours[v]));
   }
   for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
     body.put(std::uint8_t{3});
@@ -102,8 +102,7 @@ GONIO_INLINE shape::triangle_mesh read_mesh(const std::filesystem::path& path) {
   const std::string name = path.string();
   const detail::mesh_parts parts =
       format == detail::mesh_format::ply ? detail::parse_ply(text, {name}) : detail::parse_obj(text, name);
-  const auto vertices = static_cast<Eigen::Index>(parts.vertices()),
-             triangles = static_cast<Eigen::Index>(parts.corners.size() / 3);
+  const Eigen::Index vertices = parts.vertices(), triangles = parts.corners.size() / 3;
   const shape::triangle_mesh mesh{Eigen::Map<const shape::point_columns>(parts.coordinates.data(), 3, vertices),
                                   Eigen::Map<const shape::triangle_columns>(parts.corners.data(), 3, triangles)};
   detail::check_mesh(mesh, path);
@@ -124,7 +123,7 @@ GONIO_INLINE void write_mesh(const std::filesystem::path& path, const shape::tri
   if (detail::mesh_format_of(path) != detail::mesh_format::ply)
     detail::refuse_file(path, "an OBJ file holds no colours of vertices, expected .ply");
   detail::check_mesh(mesh, path);
-  if (colours.size() != static_cast<std::size_t>(mesh.vertices.cols()))
+  if (std::ssize(colours) != mesh.vertices.cols())
     detail::refuse_file(path, std::to_string(colours.size()) + " colours were given for " +
                                   std::to_string(mesh.vertices.cols()) + " vertices");
   const auto bad = std::ranges::find_if(colours, [](const rgb& colour) { return colour.isNaN().any(); });

@@ -28,7 +28,7 @@ GONIO_INLINE void put_shape_model(byte_writer& out, const shape::shape_model& mo
   for (const std::string& name : basis.names()) out.put_text(name);
   const auto put_matrix = [&](const auto& matrix) {
     using number = typename std::remove_cvref_t<decltype(matrix)>::Scalar;
-    out.put_all(std::span<const number>(matrix.data(), static_cast<std::size_t>(matrix.size())));
+    out.put_all(std::span<const number>(matrix.data(), matrix.size()));
   };
   put_matrix(model.triangles());
   put_matrix(basis.singular_values());
@@ -41,7 +41,7 @@ GONIO_INLINE void put_shape_model(byte_writer& out, const shape::shape_model& mo
 template <class Matrix>
 [[nodiscard]] Matrix take_matrix(byte_reader& in, std::size_t rows, std::size_t columns) {
   const auto bytes = in.take_bytes(rows * columns * sizeof(typename Matrix::Scalar));
-  Matrix matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
+  Matrix matrix(rows, columns);
   std::ranges::copy(bytes, std::as_writable_bytes(std::span(matrix.data(), rows * columns)).begin());
   return matrix;
 }
@@ -82,7 +82,7 @@ template <class Matrix>
   if (!finite) gonio::refuse(name + ": a value of the shape model is not finite");
   // Construct the model; its own checks name the file.
   try {
-    return {shape::shape_basis({{vertices},
+    return {shape::shape_basis({{std::ssize(mean) / 3},
                                 lin{},
                                 std::move(names),
                                 singular_values,
