@@ -75,7 +75,7 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, s
                                                    : gonio::light_calibration::irradiance,
        .threads = options.threads});
   refinement.solve();
-  for (std::size_t i = 0; i < images.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(images); ++i)
     std::cout << images[i].file << ": light off by " << angle_of(refinement.turns()[i].light) << " degrees, camera by "
               << angle_of(refinement.turns()[i].camera) << '\n';
   std::vector<gonio::sample_set> all;
@@ -96,7 +96,7 @@ std::vector<gonio::sample_set> joined(const std::vector<taken_image>& images, sa
 /// How many samples each image has, a line each.
 std::string counts_of(const std::vector<taken_image>& images, const std::vector<gonio::sample_set>& samples) {
   std::string lines;
-  for (std::size_t i = 0; i < images.size(); ++i)
+  for (Eigen::Index i = 0; i < std::ssize(images); ++i)
     lines += images[i].file + ": " + std::to_string(samples[i].size()) + " samples\n";
   return lines;
 }
@@ -127,13 +127,13 @@ void require_fixed_camera(const std::vector<taken_image>& images) {
 }
 
 /// Clusters of the pixels of an image's region by their reflectance.
-gonio::capture::colour_clusters clusters_of(const taken_image& image, const std::vector<std::size_t>& region,
+gonio::capture::colour_clusters clusters_of(const taken_image& image, const std::vector<Eigen::Index>& region,
                                             const near_field_command& options) {
   static_cast<void>(samples_of(image));  // refuses what is no image of the sample
-  const std::size_t columns = image.setup.camera.intrinsics().columns;
+  const Eigen::Index columns = image.setup.camera.intrinsics().columns;
   gonio::capture::point_matrix colours(std::ssize(region), 3);
   for (Eigen::Index i = 0; i < colours.rows(); ++i) {
-    const std::size_t number = region[static_cast<std::size_t>(i)];
+    const Eigen::Index number = region[i];
     const gonio::rgb value = gonio::pixel(image.pixels, number / columns, number % columns);
     colours.row(i) = (value / image.setup.light.irradiance).matrix().transpose();
   }
@@ -189,7 +189,7 @@ void write_samples_of_each(std::vector<taken_image> images, const command& given
     counts.push_back(counts_of(images, own));
   }
   const std::vector<gonio::sample_set> all = joined(images, std::move(samples), options);
-  for (std::size_t material = 0; material < clusters.count(); ++material) {
+  for (Eigen::Index material = 0; material < clusters.count(); ++material) {
     const std::filesystem::path path = path_of_material(options.output, material);
     gonio::io::write_samples(path, all[material]);
     std::cout << path.string() << ", " << clusters.sizes[material] << " pixels\n" << counts[material];

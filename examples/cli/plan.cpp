@@ -89,7 +89,7 @@ void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, do
     for (int column = first(at.x()); column <= last(at.x(), image.shape(1)); ++column) {
       const double distance = (Eigen::Vector2d(column + 0.5, row + 0.5) - at).norm();
       if (distance >= inner && distance <= outer)
-        gonio::set_pixel(image, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour);
+        gonio::set_pixel(image, row, column, colour);
     }
 }
 
@@ -102,7 +102,7 @@ Eigen::Vector2d place_of(const gonio::direction& w) {
 
 /// Each pose a line from its light (a disc) to its viewer (a ring); circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
-  const auto size = static_cast<std::size_t>(2 * (hemisphere_radius + hemisphere_margin));
+  const auto size = static_cast<Eigen::Index>(2 * (hemisphere_radius + hemisphere_margin));
   gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());
   const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
   for (const int theta : {30, 60, 90})

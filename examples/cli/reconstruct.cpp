@@ -195,6 +195,8 @@ void add_reconstruct(command& app) {
                    "Keep samples that all others contradict (of up to 1,000, pca leaves them out and names them)");
   command.add_output("--residuals", options->residuals, {".csv"},
                      "What all other samples say of each sample, to write (.csv)");
+  command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
+                     "Table to write of how well each direction is known: 0.06 is to 6 % in 68 of 100 cases");
   // Declare the corrections.
   add_correction_options(command, *options);
   command

@@ -74,13 +74,13 @@ gonio::image sparse_slice(const gonio::sample_set& samples, const gonio::rgb& no
   const auto shown = samples_near_slice(samples);
   const int reach = shown.size() <= 400 ? 1 : 0;
   gonio::image image = gonio::uniform_image(tile, tile, nothing);
-  for (const std::size_t i : shown) {
+  for (const Eigen::Index i : shown) {
     const gonio::half_difference in_slice{samples[i].angles().theta_h, samples[i].angles().theta_d, 0.0};
     const gonio::cell_index cell = nodes.nearest(in_slice);
     const int left = 2 * cell.theta_h, top = tile - 2 - 2 * cell.theta_d;
     for (int row = std::max(top - reach, 0); row < std::min(top + 2 + reach, tile); ++row)
       for (int column = std::max(left - reach, 0); column < std::min(left + 2 + reach, tile); ++column)
-        gonio::set_pixel(image, static_cast<std::size_t>(row), static_cast<std::size_t>(column), colour(i));
+        gonio::set_pixel(image, row, column, colour(i));
   }
   return image;
 }

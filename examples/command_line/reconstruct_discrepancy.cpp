@@ -1,10 +1,13 @@
 /// gonio reconstruct --method pca: components and a discrepancy, and samples that the others contradict.
 
 #include "fixed.hpp"
+#include "measurement_files.hpp"
 #include "measures_as_json.hpp"
 #include "reconstruct_methods.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
+#include <gonio/estimate/posterior.hpp>
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
@@ -18,12 +21,12 @@ namespace {
 
 /// Samples are looked through for wrong ones up to here: beyond, a few wrong ones hardly matter, and many are
 /// --method correction's.
-constexpr std::size_t most_looked_through = 1000;
+constexpr Eigen::Index most_looked_through = 1000;
 
 /// Which samples of the file count, by their positions.
-std::vector<std::size_t> counting(const gonio::sample_set& samples) {
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+std::vector<Eigen::Index> counting(const gonio::sample_set& samples) {
+  std::vector<Eigen::Index> numbers;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
     if (samples[i].weight.counts()) numbers.push_back(i);
   return numbers;
 }
@@ -32,7 +35,7 @@ std::vector<std::size_t> counting(const gonio::sample_set& samples) {
 std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
 /// "sample 6 disagrees, left out: measured 2.09, the others say 0.140 (0.110 to 0.170)".
-std::string told(const gonio::outlying_sample& out, std::size_t number) {
+std::string told(const gonio::outlying_sample& out, Eigen::Index number) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(number + 1) + " disagrees, left out: measured " + reflectance(out.measured.y()) +
          ", the others say " + reflectance(out.predicted.y()) + " (" + reflectance(low) + " to " + reflectance(high) +
@@ -42,10 +45,10 @@ std::string told(const gonio::outlying_sample& out, std::size_t number) {
 /// Of all samples that count: what was measured, what all others say, and by how much it is off.
 void write_residuals(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
                      const gonio::located_samples& located, const gonio::left_out_predictions& others,
-                     const std::vector<std::size_t>& numbers, const std::vector<bool>& left_out) {
+                     const std::vector<Eigen::Index>& numbers, const std::vector<bool>& left_out) {
   std::string text = "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
   const Eigen::VectorXd disagreement = others.disagreement();
-  for (std::size_t i = 0; i < located.size(); ++i) {
+  for (Eigen::Index i = 0; i < located.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     const gonio::location& at = located.locations[i];
     const double offset = gonio::offset_at(prior, at);
@@ -65,6 +68,38 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
+/// By how much, relative to it, a value is known with a probability of 68 %.
+double known_to(double deviation) {
+  return std::expm1(gonio::deviations_of(gonio::confidence_level::sixty_eight_percent) * deviation);
+}
+
+/// "half of all directions are known to 6 %, of those beyond 80 degrees to 40 %".
+void describe(const gonio::posterior<gonio::log_relative>& known, const reconstruct_options& options,
+              reconstruction& result) {
+  const gonio::valid_cells coarse(gonio::grid({15, 9, 12}));
+  const std::vector<double> all = known.deviations(coarse, options.threads);
+  std::vector<double> grazing;
+  const double limit = std::cos(gonio::radians(80.0));
+  for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell) {
+    const gonio::cosine_pair cosine = gonio::cosines(coarse.angles(cell));
+    if (std::min(cosine.i, cosine.o) < limit) grazing.push_back(all[cell]);
+  }
+  const double everywhere = known_to(gonio::median(std::vector(all))), there = known_to(gonio::median(grazing));
+  result.details["known_to"] = everywhere;
+  result.details["known_to_beyond_80_degrees"] = there;
+  result.sentence += "; half of all directions are known to " + fixed(100.0 * everywhere, 0) +
+                     " %, half of those beyond 80 degrees to " + fixed(100.0 * there, 0) + " %";
+}
+
+/// The relative deviation in all directions as a table, the same in all channels.
+gonio::brdf_table uncertainty_table(const gonio::posterior<gonio::log_relative>& known, gonio::thread_count threads) {
+  gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
+  const std::vector<double> all = known.deviations(coarse.cells(), threads);
+  for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
+    coarse.set(cell, gonio::rgb::Constant(known_to(all[cell])));
+  return gonio::resample(coarse, gonio::valid_cells(), threads);
+}
+
 }  // namespace
 
 reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
@@ -72,7 +107,7 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
   const gonio::discrepancy_decomposition estimator{prior, model, options.threads};
   gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
-  const std::vector<std::size_t> numbers = counting(samples);
+  const std::vector<Eigen::Index> numbers = counting(samples);
   const bool looks = located.size() <= most_looked_through;
   if (!options.residuals.empty() && !looks)
     gonio::refuse("--residuals needs at most " + std::to_string(most_looked_through) + " samples, not " +
@@ -110,6 +145,9 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
                     ' ' + fixed(residual.z(), 3);
   result.warnings = std::move(warnings);
+  const gonio::posterior known(estimator, located);
+  describe(known, options, result);
+  if (!options.uncertainty.empty()) write_table(options.uncertainty, uncertainty_table(known, options.threads));
   return result;
 }
 

@@ -23,7 +23,7 @@ struct reconstruct_options {
   std::optional<double> noise;
   double discrepancy = 0.02;
   bool keeps_all = false;
-  std::filesystem::path residuals;
+  std::filesystem::path residuals, uncertainty;
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;

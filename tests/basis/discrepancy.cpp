@@ -15,24 +15,24 @@ static_assert(gonio::computed_basis<gonio::discrepancy<gonio::log>>);
 
 namespace {
 
-std::vector<half_difference> some_centres(std::size_t count, unsigned seed = 4) {
+std::vector<half_difference> some_centres(Eigen::Index count, unsigned seed = 4) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<half_difference> centres;
-  for (std::size_t i = 0; i < count; ++i)
+  for (Eigen::Index i = 0; i < count; ++i)
     centres.push_back({0.9 * uniform(random), 1.2 * uniform(random), std::numbers::pi * uniform(random)});
   return centres;
 }
 
 std::vector<double> row_of(const discrepancy_functions& functions, const half_difference& angles) {
-  std::vector<double> row(static_cast<std::size_t>(functions.size()));
+  std::vector<double> row(static_cast<Eigen::Index>(functions.size()));
   functions.read(angles, row.data());
   return row;
 }
 
 double product_of(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero
   const discrepancy_functions functions(centres, 1.0);
   const auto same = [&](const half_difference& a, const half_difference& b) {
     const auto x = row_of(functions, a), y = row_of(functions, b);
-    for (std::size_t i = 0; i < x.size(); ++i) CHECK(x[i] == doctest::Approx(y[i]).epsilon(1e-9));
+    for (Eigen::Index i = 0; i < x.size(); ++i) CHECK(x[i] == doctest::Approx(y[i]).epsilon(1e-9));
   };
   same({0.3, 0.5, 0.1}, {0.3, 0.5, 0.1 + std::numbers::pi});
   same({0.3, 0.0, 0.1}, {0.3, 0.0, 1.4});
@@ -80,13 +80,13 @@ TEST_CASE("a combination at all cells is that of the rows") {
   const gonio::discrepancy functions{cells, gonio::log{}, some_centres(20), 0.7};
   const Eigen::MatrixXd weights = Eigen::MatrixXd::Random(20, 3);
   const auto field = functions.combination(weights);
-  REQUIRE(field.cols() == static_cast<Eigen::Index>(cells.size()));
+  REQUIRE(field.cols() == cells.size());
   double largest = 0.0;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const Eigen::RowVectorXd row = gonio::row_at(functions, gonio::locate_cell(cells, cell));
     for (Eigen::Index c = 0; c < 3; ++c)
       largest =
-          std::max(largest, std::abs(double{field(c, static_cast<Eigen::Index>(cell))} - row.dot(weights.col(c))));
+          std::max(largest, std::abs(double{field(c, cell)} - row.dot(weights.col(c))));
   }
   CHECK(largest < 1e-5);
   const auto single = functions.combination(weights, gonio::thread_count(1));

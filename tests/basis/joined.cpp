@@ -37,7 +37,7 @@ TEST_CASE("a fit by a joined basis is tabulated as it is looked up") {
   const gonio::fitted_brdf fit(both, Eigen::MatrixXd(0.3 * Eigen::MatrixXd::Random(8, 3)));
   const gonio::brdf_table table = fit.tabulate(small_cells()), slow = fit.tabulate_cells(small_cells());
   double largest = 0.0;
-  for (std::size_t cell = 0; cell < small_cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < small_cells().size(); ++cell)
     largest = std::max(largest, ((table.at(cell) - slow.at(cell)).abs() / (slow.at(cell) + 1e-3)).maxCoeff());
   CHECK(largest < 1e-4);
 }

@@ -18,9 +18,9 @@ constexpr gonio::design::expected_error_options with_noise{.eta = 0.5, .noise = 
 
 /// E of all samples of some images, one row each.
 template <class Geometry>
-double of_all_samples(const Geometry& geometry, const std::vector<std::size_t>& images) {
+double of_all_samples(const Geometry& geometry, const std::vector<Eigen::Index>& images) {
   std::vector<Eigen::RowVectorXd> rows;
-  for (const std::size_t image : images)
+  for (const Eigen::Index image : images)
     for (const auto& angles : geometry.directions(image)) {
       const auto& grid = small_cells().grid();
       const Eigen::Index cell = small_cells().representative(grid.linear(grid.nearest(angles)));
@@ -44,10 +44,10 @@ auto objective_of(const Geometry& geometry) {
 
 TEST_CASE("compressed images are worth what all of their samples are") {
   const sphere_geometry spheres(small_cells());
-  for (const std::vector<std::size_t>& images : {std::vector<std::size_t>{0}, {3}, {1, 5}, {0, 2, 6}})
+  for (const std::vector<Eigen::Index>& images : {std::vector<Eigen::Index>{0}, {3}, {1, 5}, {0, 2, 6}})
     CHECK(objective_of(spheres)(images) == doctest::Approx(of_all_samples(spheres, images)).epsilon(2e-3));
   const auto near_field = coarse_near_field();
-  for (const std::vector<std::size_t>& images : {std::vector<std::size_t>{45}, {30, 170}})
+  for (const std::vector<Eigen::Index>& images : {std::vector<Eigen::Index>{45}, {30, 170}})
     CHECK(objective_of(near_field)(images) == doctest::Approx(of_all_samples(near_field, images)).epsilon(2e-3));
 }
 
@@ -86,10 +86,10 @@ TEST_CASE("an image is worth more than its centre") {
   const auto near_field = coarse_near_field();
   const expected_error criterion(candidate_basis(), {.eta = 0.5});
   const gonio::design::image_objective objective(candidate_basis(), criterion, near_field);
-  for (const std::size_t image : {std::size_t{45}, std::size_t{88}}) {
+  for (const Eigen::Index image : {Eigen::Index{45}, Eigen::Index{88}}) {
     const std::vector<gonio::half_difference> centre{
         gonio::to_half_difference(near_field.centre(image).wi, near_field.centre(image).wo)};
-    CHECK(objective(std::vector<std::size_t>{image}) <
+    CHECK(objective(std::vector<Eigen::Index>{image}) <
           criterion(gonio::design::rows_at(candidate_basis(), centre).components));
   }
 }

@@ -31,7 +31,7 @@ const gonio::log_relative_pca& prior() {
 /// A material of the prior with a wave that no combination of its components has.
 gonio::brdf_table wavy_material() {
   gonio::brdf_table table = synthetic_materials(cells(), 8).table(3);
-  for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell) {
     const auto angles = cells().angles(cell);
     const double wave = std::exp(0.4 * std::sin(6.0 * std::sqrt(angles.theta_h)) * std::cos(2.0 * angles.theta_d));
     table.set(cell, wave * table.at(cell));
@@ -41,7 +41,7 @@ gonio::brdf_table wavy_material() {
 
 double mapped_error(const gonio::brdf_table& estimate, const gonio::brdf_table& truth) {
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < cells().size(); ++cell)
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell)
     for (Eigen::Index c = 0; c < 3; ++c)
       sum += std::pow(
           prior().metric().forward(estimate.at(cell)[c], cell) - prior().metric().forward(truth.at(cell)[c], cell), 2);
@@ -66,25 +66,25 @@ TEST_CASE("the fit is the posterior mean of prior and discrepancy") {
     smooth.read(a.angles, x.data());
     smooth.read(b.angles, y.data());
     double sum = gonio::row_at(prior(), a).dot(gonio::row_at(prior(), b)) / m;
-    for (std::size_t i = 0; i < 25; ++i) sum += model.variance * x[i] * y[i];
+    for (Eigen::Index i = 0; i < 25; ++i) sum += model.variance * x[i] * y[i];
     return sum;
   };
   Eigen::MatrixXd among(25, 25);
   Eigen::VectorXd y(25);
   for (Eigen::Index i = 0; i < 25; ++i) {
-    const auto& at = located.locations[static_cast<std::size_t>(i)];
+    const auto& at = located.locations[i];
     y[i] = prior().metric().forward(located.values(i, 1), at) - gonio::offset_at(prior(), at);
     for (Eigen::Index j = 0; j < 25; ++j)
       among(i, j) =
-          covariance(at, located.locations[static_cast<std::size_t>(j)]) + (i == j ? model.error_variance : 0);
+          covariance(at, located.locations[j]) + (i == j ? model.error_variance : 0);
   }
   const Eigen::VectorXd dual = among.llt().solve(y);
   const gonio::brdf_table table = fit.tabulate(cells());
-  for (const std::size_t cell : gonio::random_cells(cells(), 40, 9)) {
+  for (const Eigen::Index cell : gonio::random_cells(cells(), 40, 9)) {
     const auto at = gonio::locate_cell(cells(), cell);
     double expected = gonio::offset_at(prior(), at);
     for (Eigen::Index i = 0; i < 25; ++i)
-      expected += dual[i] * covariance(at, located.locations[static_cast<std::size_t>(i)]);
+      expected += dual[i] * covariance(at, located.locations[i]);
     CHECK(prior().metric().forward(table.at(cell).y(), at) == doctest::Approx(expected).epsilon(1e-3));
   }
 }

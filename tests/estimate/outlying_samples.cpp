@@ -23,7 +23,7 @@ const gonio::discrepancy_decomposition<gonio::log_relative>& estimator() {
 }
 
 /// A material that the prior has not seen, at some cells.
-gonio::sample_set clean_samples(std::size_t count, unsigned seed) {
+gonio::sample_set clean_samples(Eigen::Index count, unsigned seed) {
   return gonio::sample_table(synthetic_materials(cells(), 3, 100 + seed).table(1),
                              gonio::random_cells(cells(), count, seed));
 }
@@ -82,7 +82,7 @@ TEST_CASE("of clean samples none is left out") {
 
 TEST_CASE("no more samples are left out than the rule says") {
   auto samples = clean_samples(20, 3);
-  for (std::size_t i = 0; i < 20; i += 3) samples[i].value *= i % 2 == 0 ? 30.0 : 0.01;
+  for (Eigen::Index i = 0; i < 20; i += 3) samples[i].value *= i % 2 == 0 ? 30.0 : 0.01;
   const auto located = gonio::locate_samples(cells(), samples);
   CHECK(gonio::reject_outlying(estimator(), located).left_out.size() <= 4);
   CHECK(gonio::reject_outlying(estimator(), located, {.threshold = 1e-3, .largest_share = 0.1}).left_out.size() == 2);

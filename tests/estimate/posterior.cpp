@@ -24,7 +24,7 @@ const gonio::discrepancy_decomposition<gonio::log_relative>& estimator() {
 }
 
 /// Some cells as samples, and then a cell alone.
-gonio::located_samples measured_at(const std::vector<std::size_t>& chosen, const gonio::brdf_table& table) {
+gonio::located_samples measured_at(const std::vector<Eigen::Index>& chosen, const gonio::brdf_table& table) {
   return gonio::locate_samples(cells(), gonio::sample_table(table, chosen));
 }
 
@@ -39,7 +39,7 @@ gonio::brdf_table drawn_material(unsigned seed) {
   };
   const auto& prior = estimator().prior();
   std::vector<gonio::half_difference> centres;
-  for (const std::size_t cell : gonio::random_cells(cells(), 120, seed)) centres.push_back(cells().angles(cell));
+  for (const Eigen::Index cell : gonio::random_cells(cells(), 120, seed)) centres.push_back(cells().angles(cell));
   const gonio::discrepancy smooth{cells(), prior.metric(), centres, estimator().model().variance};
   gonio::brdf_table table(cells());
   Eigen::MatrixXd components(prior.size(), 3), waves(smooth.size(), 3);
@@ -47,7 +47,7 @@ gonio::brdf_table drawn_material(unsigned seed) {
     components.col(c) = numbers(components.rows()) / std::sqrt(estimator().observations());
     waves.col(c) = numbers(waves.rows());
   }
-  for (std::size_t cell = 0; cell < cells().size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell) {
     const auto at = gonio::locate_cell(cells(), cell);
     const Eigen::RowVector3d y = gonio::row_at(prior, at) * components + gonio::row_at(smooth, at) * waves;
     gonio::rgb value;
@@ -85,7 +85,7 @@ TEST_CASE("intervals hold as often as they say on materials of the model") {
     const auto located = measured_at(gonio::random_cells(cells(), 25, seed + 50), truth);
     const auto fit = estimator().fit_located(located);
     const gonio::posterior known(estimator(), located);
-    for (const std::size_t cell : gonio::random_cells(cells(), 60, seed + 90)) {
+    for (const Eigen::Index cell : gonio::random_cells(cells(), 60, seed + 90)) {
       const auto at = gonio::locate_cell(cells(), cell);
       const auto [low, high] = known.interval(fit.at(at), at, confidence_level::ninety_five_percent);
       for (Eigen::Index c = 0; c < 3; ++c) {
@@ -106,7 +106,7 @@ TEST_CASE("more samples make surer, and intervals are nested and not negative") 
   const auto coarse = valid_cells(gonio::grid({6, 5, 6}));
   const auto with_few = few.deviations(coarse), with_many = many.deviations(coarse);
   double sum_few = 0.0, sum_many = 0.0;
-  for (std::size_t i = 0; i < coarse.size(); ++i) {
+  for (Eigen::Index i = 0; i < coarse.size(); ++i) {
     sum_few += with_few[i];
     sum_many += with_many[i];
   }

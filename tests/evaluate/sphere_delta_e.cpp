@@ -130,7 +130,7 @@ TEST_CASE("a black truth is seen at exposure 1") {
 
 TEST_CASE("negative reflectance counts as zero for a sphere delta_e, cell by cell") {
   brdf_table negative = matte(rgb::Constant(0.3)), clamped = negative;
-  for (std::size_t cell = 0; cell < room_cells().size(); cell += 3) {
+  for (Eigen::Index cell = 0; cell < std::ssize(room_cells()); cell += 3) {
     negative.set(cell, rgb(-5.0, 0.1, -1e-3));
     clamped.set(cell, rgb(0.0, 0.1, 0.0));
   }

@@ -149,8 +149,8 @@ TEST_CASE("the template of ear canals has 3096 vertices and near-equilateral tri
                                                                << angles[angles.size() / 5]);
   CHECK(angles[angles.size() / 5] > 40.0);
   CHECK(angles.front() > 20.0);
-  for (const std::size_t vertices : {50U, 51U, 52U, 313U, 1000U})
-    CHECK(static_cast<std::size_t>(synthetic::ear_canal_template(vertices).mesh().vertices.cols()) == vertices);
+  for (const Eigen::Index vertices : {50U, 51U, 52U, 313U, 1000U})
+    CHECK(static_cast<Eigen::Index>(synthetic::ear_canal_template(vertices).mesh().vertices.cols()) == vertices);
 }
 
 TEST_CASE("ear canals differ by one or two millimetres once they are aligned") {
@@ -221,7 +221,7 @@ TEST_CASE("ear canals are functions of a seed and of their latent numbers") {
   CHECK(first.at(1.0, 0.0) == first.at(1.0, 2.0));
   // Each latent number does something, and none too much.
   const synthetic::ear_canal plain = synthetic::ear_canal_family::mean();
-  for (std::size_t i = 0; i < synthetic::ear_canal::latent_count; ++i) {
+  for (Eigen::Index i = 0; i < synthetic::ear_canal::latent_count; ++i) {
     std::vector<double> latents(synthetic::ear_canal::latent_count, 0.0);
     latents[i] = 1.0;
     const synthetic::ear_canal changed(latents);
@@ -452,7 +452,7 @@ TEST_CASE("populations are functions of a seed, whatever their size") {
   const auto all = synthetic::population(synthetic::ear_canal_family(), coarse, 60, 3, 0.4, options);
   const auto few = synthetic::population(synthetic::ear_canal_family(), coarse, 5, 3, 0.4, options);
   REQUIRE(all.size() == 60);
-  for (std::size_t i = 0; i < few.size(); ++i) CHECK(equal_scans(all[i], few[i]));
+  for (Eigen::Index i = 0; i < std::ssize(few); ++i) CHECK(equal_scans(all[i], few[i]));
   CHECK_FALSE(equal_scans(all[0], synthetic::population(synthetic::ear_canal_family(), coarse, 1, 4, 0.4, options)[0]));
   std::map<synthetic::scan_defect, int> kinds;
   for (const synthetic::ear_scan& scan : all) {
@@ -470,7 +470,7 @@ TEST_CASE("populations are functions of a seed, whatever their size") {
 TEST_CASE("scans of any size and hole are surfaces") {
   rc::check("a scan is a surface that uses all its vertices", [] {
     synthetic::scan_options options = quick_ear_scan();
-    options.vertices = static_cast<std::size_t>(*rc::gen::inRange(50, 800));
+    options.vertices = static_cast<Eigen::Index>(*rc::gen::inRange(50, 800));
     options.noise = 0.0;
     synthetic::hole_options hole;
     hole.length = *rc::gen::inRange(1, 12);

@@ -58,7 +58,7 @@ gonio::shape::shape_model learn_ear_canals(const synthetic::ear_canal_template& 
   std::vector<gonio::shape::point_columns> shapes;
   std::vector<std::string> names;
   synthetic::number_source seeds(options.seed);
-  for (std::size_t i = 0; i < options.shapes; ++i) {
+  for (Eigen::Index i = 0; i < options.shapes; ++i) {
     shapes.push_back(common.corresponded(family.draw(seeds.seed())));
     names.push_back("ear-" + std::to_string(i + 1));
   }
@@ -66,7 +66,7 @@ gonio::shape::shape_model learn_ear_canals(const synthetic::ear_canal_template& 
 }
 
 synthetic::ear_scan scan_held_out(const synthetic::ear_canal_template& common, const shape_demo_command& options,
-                                  std::size_t i) {
+                                  Eigen::Index i) {
   synthetic::scan_options how;
   how.hole = options.hole == "large" ? synthetic::hole_options::large() : synthetic::hole_options::small();
   how.hole->edge_noise = options.edge_noise;
@@ -203,7 +203,7 @@ void show_shapes(const shape_demo_command& options) {
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
   std::vector<judged_ear> ears;
-  for (std::size_t i = 0; i < options.held_out; ++i) {
+  for (Eigen::Index i = 0; i < options.held_out; ++i) {
     const synthetic::ear_scan scan = scan_held_out(common, options, i);
     judged_ear ear = judge_ear(model, common, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);

@@ -37,7 +37,7 @@ requires std::is_invocable_r_v<gonio::sample_set, Measure&, const gonio::brdf_ta
 /// The same from the cells of its table. A material's defects come from `seed` plus its number.
 template <gonio::estimator Estimator, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
-    const Estimator& estimator, std::span<const std::size_t> cells, const gonio::material_set& truths,
+    const Estimator& estimator, std::span<const Eigen::Index> cells, const gonio::material_set& truths,
     const Metric& metric, const gonio::appearance_metric& appearance, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
   return reconstruct_each(
@@ -51,7 +51,7 @@ template <gonio::estimator Estimator, gonio::error_metric Metric>
 /// The same by a prior with Tikhonov's penalty eta (Eq. 12).
 template <gonio::basis Basis, gonio::error_metric Metric>
 [[nodiscard]] std::vector<material_result> reconstruct_from_cells(
-    const Basis& prior, double eta, std::span<const std::size_t> cells, const gonio::material_set& truths,
+    const Basis& prior, double eta, std::span<const Eigen::Index> cells, const gonio::material_set& truths,
     const Metric& metric, const gonio::appearance_metric& appearance, gonio::thread_count threads = {},
     const gonio::measurement_defects& defects = {}, std::uint64_t seed = 0) {
   return reconstruct_from_cells(gonio::decomposition{prior, gonio::tikhonov{eta}}, cells, truths, metric, appearance,

@@ -32,7 +32,7 @@ namespace {
 
 struct measured_options {
   std::filesystem::path tables, prior, image;
-  std::vector<std::size_t> counts{20, 500};
+  std::vector<Eigen::Index> counts{20, 500};
   double eta = 40.0;
   std::uint64_t seed = 1;
   Eigen::Index repetitions = 5;

@@ -15,6 +15,7 @@
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
+#include <gonio/estimate/posterior.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
@@ -26,6 +27,7 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <random>
 
@@ -37,9 +39,9 @@ struct real_materials_options {
   std::vector<std::filesystem::path> networks;
   std::filesystem::path materials, folder = shipped_directions(), state;
   std::string set = "perceived";
-  std::vector<std::size_t> designed{5, 10, 20}, random{20, 100, 500, 2000};
+  std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "rejecting"};
-  std::size_t components = 100, first_components = 60, repetitions = 2, wrong = 0;
+  Eigen::Index components = 100, first_components = 60, repetitions = 2, wrong = 0;
   double noise = 0.0;
   bool surrogates = false;
   thinning thin{{3, 5}};
@@ -75,13 +77,13 @@ class material_library {
 
   /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
   template <class Keep>
-  [[nodiscard]] gonio::material_set materials(std::size_t sets, const Keep& keep) const {
+  [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
     gonio::material_set chosen{cells_, {}, {}};
     Eigen::Index columns = 0;
-    for (std::size_t s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
+    for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
     chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
-    for (std::size_t s = 0; s < sets; ++s)
-      for (std::size_t i = 0; i < sets_[s].names.size(); ++i) {
+    for (Eigen::Index s = 0; s < sets; ++s)
+      for (Eigen::Index i = 0; i < sets_[s].names.size(); ++i) {
         if (!keep(sets_[s].names[i])) continue;
         chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
             sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
@@ -89,7 +91,7 @@ class material_library {
       }
     return chosen;
   }
-  [[nodiscard]] std::size_t all() const noexcept { return sets_.size(); }
+  [[nodiscard]] Eigen::Index all() const noexcept { return sets_.size(); }
 
  private:
   gonio::valid_cells cells_;
@@ -112,17 +114,17 @@ struct sampling {
 
 std::vector<sampling> samplings(const real_materials_options& given) {
   std::vector<sampling> all;
-  for (const std::size_t count : given.designed) {
+  for (const Eigen::Index count : given.designed) {
     const auto points = written_points(given.folder, given.set, count);
     if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
     all.push_back({std::to_string(count) + " designed", {*points}});
   }
   const gonio::valid_cells cells;
-  for (const std::size_t count : given.random) {
+  for (const Eigen::Index count : given.random) {
     sampling drawn{std::to_string(count) + " random", {}};
-    for (std::size_t r = 0; r < given.repetitions; ++r) {
+    for (Eigen::Index r = 0; r < given.repetitions; ++r) {
       std::vector<gonio::half_difference> directions;
-      for (const std::size_t cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
+      for (const Eigen::Index cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
       drawn.sets.push_back(std::move(directions));
     }
     all.push_back(std::move(drawn));
@@ -145,9 +147,9 @@ gonio::sample_set measure(const judged_material& material, const std::vector<gon
 }
 
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
-std::vector<std::size_t> corrupt_some(gonio::sample_set& samples, std::size_t count, std::uint64_t seed) {
-  const std::vector<std::size_t> chosen = gonio::random_choice(samples.size(), count, seed);
-  for (std::size_t i = 0; i < chosen.size(); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
+std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
+  const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
+  for (Eigen::Index i = 0; i < chosen.size(); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
   return chosen;
 }
 
@@ -192,7 +194,7 @@ class experiment {
     if (given_.surrogates) {
       const auto known = gonio::io::read_networks(given_.networks.front());
       for (const std::string& name : gonio::nielsen_test_materials()) {
-        const std::size_t i = library_.first().find(name);
+        const Eigen::Index i = library_.first().find(name);
         all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i])});
       }
       return all;
@@ -214,18 +216,42 @@ class experiment {
       return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;
     });
     const auto metric = gonio::log_relative::to_median_of(set, given_.threads);
-    const std::size_t components = everything ? given_.components : given_.first_components;
+    const Eigen::Index components = everything ? given_.components : given_.first_components;
     return priors_.emplace(key, gonio::learn_pca(std::move(set), metric, components, given_.threads)).first->second;
   }
 
   /// A table, and which samples were left out, the worst first.
   struct estimated {
     gonio::brdf_table table;
-    std::vector<std::size_t> left_out = {};
+    std::vector<Eigen::Index> left_out = {};
+    /// Values of cells in each of eight regions, and how many of them are within the intervals of 68 and 95 %.
+    std::vector<double> values = std::vector<double>(8, 0.0), within_68 = values, within_95 = values;
   };
 
-  estimated estimate(const std::string& method, const gonio::sample_set& samples, const std::string& family) {
-    const gonio::log_relative_pca& known = prior(method != "first", family);
+  /// Of every 37th cell; regions by theta_h (2, 10 and 30 degrees) and theta_d (45).
+  void count_within(estimated& found, const gonio::posterior<gonio::log_relative>& known,
+                    const gonio::brdf_table& truth) const {
+    for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
+      const gonio::location at = gonio::locate_cell(library_.cells(), cell);
+      const double theta_h = gonio::degrees(at.angles.theta_h);
+      const int region = 2 * (theta_h < 2.0    ? 0
+                              : theta_h < 10.0 ? 1
+                              : theta_h < 30.0 ? 2
+                                               : 3) +
+                         (gonio::degrees(at.angles.theta_d) < 45.0 ? 0 : 1);
+      const gonio::rgb value = truth.at(cell).max(0.0), estimate = found.table.at(cell);
+      const auto holds = [&](gonio::confidence_level level) {
+        const auto [low, high] = known.interval(estimate, at, level);
+        return static_cast<double>((value >= low && value <= high).count());
+      };
+      found.values[region] += 3.0;
+      found.within_68[region] += holds(gonio::confidence_level::sixty_eight_percent);
+      found.within_95[region] += holds(gonio::confidence_level::ninety_five_percent);
+    }
+  }
+
+  estimated estimate(const std::string& method, const gonio::sample_set& samples, const judged_material& material) {
+    const gonio::log_relative_pca& known = prior(method != "first", material.family);
     if (method == "first" || method == "all") {
       const double eta = given_.noise > 0.0 ? gonio::eta_of_noise(known, samples, given_.noise, given_.threads)
                                             : gonio::eta_of_unknown_noise(known, samples, 0.3, given_.threads);
@@ -234,38 +260,47 @@ class experiment {
     }
     const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
     gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
-    std::vector<std::size_t> left_out;
+    std::vector<Eigen::Index> left_out;
     if (method == "rejecting" && located.size() <= 1000) {
       const gonio::sorted_samples sorted = gonio::reject_outlying(both, located);
       for (const gonio::outlying_sample& out : sorted.left_out) left_out.push_back(out.number);
       located = located.subset(sorted.kept);
     }
-    return {both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
+    estimated found{both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
+    count_within(found, gonio::posterior(both, located), material.truth);
+    return found;
   }
 
   json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
+    std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
     const auto times = static_cast<double>(where.sets.size());
-    for (std::size_t r = 0; r < where.sets.size(); ++r) {
+    for (Eigen::Index r = 0; r < where.sets.size(); ++r) {
       gonio::sample_set samples = measure(material, where.sets[r], given_.noise, r);
-      const std::vector<std::size_t> wrong = corrupt_some(samples, given_.wrong, r + 100);
-      const estimated found = estimate(method, samples, material.family);
+      const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, r + 100);
+      const estimated found = estimate(method, samples, material);
       const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
       lights += errors.delta_e_lights / times;
       low = std::min(low, errors.peak_ratio.minCoeff());
       high = std::max(high, errors.peak_ratio.maxCoeff());
+      for (int region = 0; region < 8; ++region) {
+        values[region] += found.values[region];
+        within_68[region] += found.within_68[region];
+        within_95[region] += found.within_95[region];
+      }
       left_out += static_cast<double>(found.left_out.size()) / times;
-      const auto is_first = [&](std::size_t i) {
+      const auto is_first = [&](Eigen::Index i) {
         const auto end = found.left_out.begin() + std::min(std::ssize(found.left_out), std::ssize(wrong));
         return std::find(found.left_out.begin(), end, i) != end;
       };
       named += std::ranges::all_of(wrong, is_first) ? 1.0 / times : 0.0;
     }
-    return {{"mapped_rms", rms},   {"delta_e_env", environment}, {"delta_e_lights", lights},
-            {"least_peak", low},   {"largest_peak", high},       {"named", named},
-            {"left_out", left_out}};
+    return {{"mapped_rms", rms},     {"delta_e_env", environment}, {"delta_e_lights", lights},
+            {"least_peak", low},     {"largest_peak", high},       {"named", named},
+            {"left_out", left_out},  {"values", values},           {"within_68", within_68},
+            {"within_95", within_95}};
   }
 
   const real_materials_options& given_;
@@ -277,6 +312,23 @@ class experiment {
   resumable_results results_;
 };
 
+/// How many values are within the intervals of 68 and 95 %, and of the latter in the worst region.
+std::string coverage(const json& materials) {
+  std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
+  for (const auto& [name, errors] : materials.items())
+    for (int region = 0; region < 8; ++region) {
+      values[region] += errors["values"].elements()[region].number();
+      within_68[region] += errors["within_68"].elements()[region].number();
+      within_95[region] += errors["within_95"].elements()[region].number();
+    }
+  const auto sum = [](const std::vector<double>& all) { return std::accumulate(all.begin(), all.end(), 0.0); };
+  if (sum(values) == 0.0) return "- | -";
+  double worst = 1.0;
+  for (int region = 0; region < 8; ++region) worst = std::min(worst, within_95[region] / values[region]);
+  return fixed(100.0 * sum(within_68) / sum(values), 1) + " | " + fixed(100.0 * sum(within_95) / sum(values), 1) +
+         " (" + fixed(100.0 * worst, 1) + ")";
+}
+
 void print(const real_materials_options& given, const json& rows) {
   std::cout << "Means (medians) over " << rows[0]["materials"].size() << " materials, " << given.repetitions
             << " random sets each";
@@ -284,11 +336,12 @@ void print(const real_materials_options& given, const json& rows) {
   if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
   std::cout
       << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | left out | "
-         "wrong ones first |\n|---|---|---|---|---|---|---|---|\n";
+         "wrong ones first | within 68 % | within 95 % (worst region) |\n|---|---|---|---|---|---|---|---|---|---|\n";
   for (const json& row : rows.elements()) {
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, errors] : row["materials"].items())
-      for (const auto& [key, value] : errors.items()) values[key].push_back(value.number());
+      for (const auto& [key, value] : errors.items())
+        if (value.is_number()) values[key].push_back(value.number());
     const auto mean_and_median = [&](const char* key, int digits) {
       const auto found = distribution(values[key]);
       return fixed(found.mean, digits) + " (" + fixed(found.median, digits) + ")";
@@ -298,7 +351,8 @@ void print(const real_materials_options& given, const json& rows) {
               << mean_and_median("delta_e_lights", 2) << " | " << fixed(std::ranges::min(values["least_peak"]), 2)
               << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " | "
               << fixed(distribution(values["left_out"]).mean, 2) << " | "
-              << (given.wrong == 0 ? "-" : fixed(100.0 * distribution(values["named"]).mean, 0) + " %") << " |\n";
+              << (given.wrong == 0 ? "-" : fixed(100.0 * distribution(values["named"]).mean, 0) + " %") << " | "
+              << coverage(row["materials"]) << " |\n";
   }
 }
 

@@ -32,13 +32,13 @@ template <combinable_basis Basis>
     return functions.combination(weights, threads);
   } else {
     const Eigen::MatrixXf columns = weights.cast<float>();
-    cell_fields<3> field(3, static_cast<Eigen::Index>(functions.cells().size()));
+    cell_fields<3> field(3, functions.cells().size());
     for_each_index(
         functions.cells().size(), 4096,
-        [&](std::size_t cell) {
+        [&](Eigen::Index cell) {
           const std::span<const float> row = functions.row(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel)
-            field(channel, static_cast<Eigen::Index>(cell)) =
+            field(channel, cell) =
                 dot(columns.data() + channel * columns.rows(), row.data(), columns.rows());
         },
         threads);

@@ -94,7 +94,7 @@ class discrepancy {
   [[nodiscard]] Eigen::Index size() const noexcept { return functions_.size(); }
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] const Metric& metric() const noexcept { return metric_; }
-  [[nodiscard]] double offset(std::size_t /*cell*/) const noexcept { return 0.0; }
+  [[nodiscard]] double offset(Eigen::Index /*cell*/) const noexcept { return 0.0; }
   [[nodiscard]] const discrepancy_functions& functions() const noexcept { return functions_; }
 
   void read_row(const location& at, function_row out) const noexcept { functions_.read(at.angles, out.data()); }

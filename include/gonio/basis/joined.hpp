@@ -25,10 +25,10 @@ class joined {
   [[nodiscard]] const First& first() const noexcept { return first_; }
   [[nodiscard]] const Second& second() const noexcept { return second_; }
 
-  [[nodiscard]] Eigen::Index size() const noexcept { return first_size() + static_cast<Eigen::Index>(second_.size()); }
+  [[nodiscard]] Eigen::Index size() const noexcept { return first_size() + second_.size(); }
   [[nodiscard]] const auto& cells() const noexcept { return first_.cells(); }
   [[nodiscard]] const auto& metric() const noexcept { return first_.metric(); }
-  [[nodiscard]] double offset(std::size_t cell) const noexcept { return first_.offset(cell) + second_.offset(cell); }
+  [[nodiscard]] double offset(Eigen::Index cell) const noexcept { return first_.offset(cell) + second_.offset(cell); }
 
   void read_row(const location& at, function_row out) const noexcept {
     read_row_at(first_, at, out.head(first_size()));
@@ -43,7 +43,7 @@ class joined {
   }
 
  private:
-  [[nodiscard]] Eigen::Index first_size() const noexcept { return static_cast<Eigen::Index>(first_.size()); }
+  [[nodiscard]] Eigen::Index first_size() const noexcept { return first_.size(); }
 
   First first_;
   Second second_;

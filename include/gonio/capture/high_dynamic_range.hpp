@@ -58,7 +58,7 @@ struct exposed {
 [[nodiscard]] measured_radiance mean_radiance(std::vector<exposed> all, const camera_response& response,
                                               const sensor_noise& noise, double saturation, double pixels);
 
-void require_times(std::size_t images, std::span<const double> times, const std::string& what);
+void require_times(Eigen::Index images, std::span<const double> times, const std::string& what);
 
 /// Even the longest exposure shows nothing.
 [[nodiscard]] inline measured_radiance dark_radiance(const camera_response& response, std::span<const double> times) {

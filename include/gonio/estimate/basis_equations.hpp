@@ -32,7 +32,7 @@ class basis_equations {
   }
 
   /// A system over all functions of the basis: of a channel, or of all if there is but one.
-  [[nodiscard]] least_squares_problem problem(std::size_t system = 0) const;
+  [[nodiscard]] least_squares_problem problem(Eigen::Index system = 0) const;
 
   /// All systems.
   [[nodiscard]] std::vector<least_squares_problem> problems() const {
@@ -78,29 +78,29 @@ class basis_equations {
 };
 
 template <colour_basis Basis>
-least_squares_problem basis_equations<Basis>::problem(std::size_t system) const {
+least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const {
   const auto functions = channel_of(basis_, system);
   const std::shared_ptr<const located_samples> measured = measured_;
-  const row_source rows{static_cast<Eigen::Index>(measured->locations.size()),
-                        static_cast<Eigen::Index>(functions.size()), [functions, measured](block range, row_block out) {
-                          for (std::size_t i = range.begin; i < range.end; ++i)
+  const row_source rows{std::ssize(measured->locations),
+                        Eigen::Index(functions.size()), [functions, measured](block range, row_block out) {
+                          for (Eigen::Index i = range.begin; i < range.end; ++i)
                             read_row_at(functions, measured->locations[i],
-                                        out.row(static_cast<Eigen::Index>(i - range.begin)));
+                                        out.row(i - range.begin));
                         }};
-  const auto first = static_cast<Eigen::Index>(system);
+  const Eigen::Index first = system;
   return {rows, mapped(functions, first), measured->weights_of(first), threads_};
 }
 
 template <colour_basis Basis>
 solution basis_equations<Basis>::solve_each(const solve_function& solve_one) const {
   const std::vector<Eigen::Index> columns = columns_of(basis_);
-  const auto unknowns = static_cast<Eigen::Index>(basis_.size());
+  const Eigen::Index unknowns = basis_.size();
   std::vector<solution> found(systems());
   for_each_block(
       found.size(), 1,
       [&](block system) {
         const least_squares_problem whole = problem(system.begin);
-        const bool all = static_cast<Eigen::Index>(columns.size()) == unknowns;
+        const bool all = std::ssize(columns) == unknowns;
         found[system.begin] = solve_one(all ? whole : whole.subset(columns));
       },
       threads_);

@@ -81,9 +81,9 @@ class discrepancy_decomposition {
   /// The covariance of the samples, errors included, in the metric's domain: n x n. A sample's weight, the mean of its
   /// channels', divides the variance of its error. O(n^2 k).
   [[nodiscard]] Eigen::MatrixXd covariance(const located_samples& samples) const {
-    const auto n = static_cast<Eigen::Index>(samples.size());
-    Eigen::MatrixXd rows(n, static_cast<Eigen::Index>(prior_.size()));
-    for (Eigen::Index i = 0; i < n; ++i) rows.row(i) = row_at(prior_, samples.locations.begin()[i]);
+    const auto n = samples.size();
+    Eigen::MatrixXd rows(n, prior_.size());
+    for (Eigen::Index i = 0; i < n; ++i) rows.row(i) = row_at(prior_, samples.locations[i]);
     Eigen::MatrixXd all = product_with_transpose(rows) / observations();
     all += model_.variance * discrepancy_covariance(angles_of(samples), model_.lengths);
     const Eigen::ArrayXd errors = error_variances(samples) / samples.weights.rowwise().mean().array();
@@ -95,7 +95,7 @@ class discrepancy_decomposition {
   [[nodiscard]] Eigen::MatrixXd mapped_values(const located_samples& samples) const {
     Eigen::MatrixXd mapped = samples.values;
     for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
-      const location& at = samples.locations.begin()[i];
+      const location& at = samples.locations[i];
       const double offset = offset_at(prior_, at);
       for (Eigen::Index c = 0; c < mapped.cols(); ++c)
         mapped(i, c) = prior_.metric().forward(mapped(i, c), at) - offset;
@@ -116,9 +116,9 @@ class discrepancy_decomposition {
   }
 
   [[nodiscard]] basis_type functions_for(const located_samples& samples) const {
-    const auto most = static_cast<std::size_t>(model_.most_centres);
+    const Eigen::Index most = model_.most_centres;
     std::vector<half_difference> centres;
-    for (const std::size_t i : random_choice(samples.size(), most, 0)) centres.push_back(samples.locations[i].angles);
+    for (const Eigen::Index i : random_choice(samples.size(), most, 0)) centres.push_back(samples.locations[i].angles);
     return {prior_, discrepancy<Metric>(prior_.cells(), prior_.metric(), centres, observations() * model_.variance,
                                         model_.lengths)};
   }

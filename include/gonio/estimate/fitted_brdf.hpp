@@ -149,7 +149,7 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
       weights_(std::move(weights)),
       report_(std::move(report)),
       float_weights_(weights_.rows(), weights_.cols()) {
-  if (weights_.rows() != static_cast<Eigen::Index>(basis_.size()) || weights_.cols() != 3)
+  if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != 3)
     refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
   if (computed && weights_.rows() > most_computed_functions)
     refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
@@ -178,14 +178,14 @@ const {
       return mapped_at(at);
     else
       return interpolate(
-          at, [&](std::size_t cell) { return field.col(static_cast<Eigen::Index>(cell)).template cast<double>(); },
+          at, [&](Eigen::Index cell) { return field.col(cell).template cast<double>(); },
           rgb(rgb::Zero()));
   };
   const bool own = cells == basis_.cells();
   brdf_table table(cells);
   for_each_index(
       cells.size(), 4096,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         const location at = own ? locate_cell(cells, cell) : locate(basis_.cells(), cells.angles(cell));
         table.set(cell, reflectance(value_at(at), at));
       },
@@ -196,18 +196,18 @@ const {
 template <colour_basis Basis>
 requires std::same_as<domain_of<Basis>, valid_cells>
 typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thread_count threads) const {
-  mapped_fields field(3, static_cast<Eigen::Index>(basis_.cells().size()));
+  mapped_fields field(3, basis_.cells().size());
   if constexpr (combining_basis<Basis>) field = basis_.combination(weights_, threads);
   for_each_index(
       basis_.cells().size(), 4096,
-      [&](std::size_t cell) {
+      [&](Eigen::Index cell) {
         if constexpr (combining_basis<Basis>) {
-          field.col(static_cast<Eigen::Index>(cell)) += static_cast<float>(basis_.offset(cell));
+          field.col(cell) += static_cast<float>(basis_.offset(cell));
           return;
         }
         const rgb value = mapped(cell);
         for (Eigen::Index channel = 0; channel < 3; ++channel)
-          field(channel, static_cast<Eigen::Index>(cell)) = static_cast<float>(value[channel]);
+          field(channel, cell) = static_cast<float>(value[channel]);
       },
       threads);
   return field;
@@ -219,13 +219,13 @@ fitted_brdf<Basis>::tabulate_rows(const valid_cells& cells, thread_count threads
 const {
   const metric_type& metric = basis_.metric();
   constexpr int fields_count = 3 + metric_type::companions;
-  cell_fields<fields_count> fields(fields_count, static_cast<Eigen::Index>(basis_.cells().size()));
+  cell_fields<fields_count> fields(fields_count, basis_.cells().size());
   const mapped_fields channels = mapped_field(threads);
   for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
     float* field = &fields(0, cell);
     std::copy_n(&channels(0, cell), 3, field);
     if constexpr (metric_type::companions > 0) {
-      const auto companions = metric.companion(static_cast<std::size_t>(cell));
+      const auto companions = metric.companion(cell);
       std::copy(companions.begin(), companions.end(), field + 3);
     }
   }

@@ -32,7 +32,7 @@ struct left_out_predictions {
 
 /// A sample that was left out, for people: which of the samples that count, and the others' prediction.
 struct outlying_sample {
-  std::size_t number = 0;   ///< its position among the located samples
+  Eigen::Index number = 0;  ///< its position among the located samples
   rgb measured;             ///< sr^-1
   rgb predicted;            ///< sr^-1, from those that were kept
   double deviation = 0.0;   ///< of the prediction, in the metric's domain: relative where that is a logarithm
@@ -50,7 +50,7 @@ struct rejection_rule {
 
 /// Which of the samples that count were kept, and which were left out, the worst first.
 struct sorted_samples {
-  std::vector<std::size_t> kept;
+  std::vector<Eigen::Index> kept;
   std::vector<outlying_sample> left_out;
 };
 
@@ -59,7 +59,7 @@ namespace detail {
 /// The worst first: leaves out one sample at a time, while the worst of those that are left disagrees by more than the
 /// threshold. `covariance` is that of all samples.
 struct rejection_step {
-  std::size_t number = 0;
+  Eigen::Index number = 0;
   double disagreement = 0.0;
 };
 [[nodiscard]] std::vector<rejection_step> reject(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
@@ -67,7 +67,7 @@ struct rejection_step {
 
 /// A row of predictions for each of some samples from all others than these.
 [[nodiscard]] left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
-                                                       const std::vector<std::size_t>& left_out);
+                                                       const std::vector<Eigen::Index>& left_out);
 
 }  // namespace detail
 
@@ -84,7 +84,7 @@ struct rejection_step {
 template <error_metric Metric>
 [[nodiscard]] sorted_samples reject_outlying(const discrepancy_decomposition<Metric>& estimator,
                                              const located_samples& samples, const rejection_rule& rule = {}) {
-  constexpr std::size_t most_samples = 5000;
+  constexpr Eigen::Index most_samples = 5000;
   if (samples.size() > most_samples)
     refuse({"outlying samples are sought among at most ", most_samples, ", not among ", samples.size()});
   const auto& metric = estimator.prior().metric();
@@ -94,18 +94,18 @@ template <error_metric Metric>
 
   // Say what those that were kept make of those that were not.
   std::vector<bool> rejected(samples.size(), false);
-  std::vector<std::size_t> numbers;
+  std::vector<Eigen::Index> numbers;
   for (const detail::rejection_step& step : steps) {
     rejected[step.number] = true;
     numbers.push_back(step.number);
   }
   const left_out_predictions others = detail::predict_from_others(covariance, values, numbers);
   sorted_samples sorted;
-  for (std::size_t i = 0; i < samples.size(); ++i)
+  for (Eigen::Index i = 0; i < samples.size(); ++i)
     if (!rejected[i]) sorted.kept.push_back(i);
-  for (std::size_t i = 0; i < steps.size(); ++i) {
+  for (Eigen::Index i = 0; i < steps.size(); ++i) {
     const location& at = samples.locations[steps[i].number];
-    const auto row = static_cast<Eigen::Index>(i), sample = static_cast<Eigen::Index>(steps[i].number);
+    const Eigen::Index row = i, sample = steps[i].number;
     const double offset = offset_at(estimator.prior(), at);
     outlying_sample out{.number = steps[i].number,
                         .measured = samples.values.row(sample).head<3>().transpose().array(),

@@ -99,7 +99,7 @@ class pose_iteration {
   /// Of |t|^2, where the objective is divided by eta.
   [[nodiscard]] double turn_penalty() const;
   [[nodiscard]] std::vector<pose_correction> moved(const Eigen::VectorXd& by) const;
-  [[nodiscard]] Eigen::MatrixXd derivative(std::size_t material, std::size_t image_number, Eigen::Index unknown,
+  [[nodiscard]] Eigen::MatrixXd derivative(Eigen::Index material, Eigen::Index image_number, Eigen::Index unknown,
                                            const reader& read) const;
   [[nodiscard]] Eigen::MatrixXd jacobian(Eigen::Index material, const reader& read) const;
   /// Adds a material's part of the normal equations of a step.

@@ -6,6 +6,7 @@
 
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/product.hpp>
 
 #include <Eigen/Core>
 
@@ -39,7 +40,7 @@ template <error_metric Metric>
 class posterior {
  public:
   /// Of more samples, so many at random are looked at: what more of them know is left out, deviations are too large.
-  static constexpr std::size_t most_samples = 500;
+  static constexpr Eigen::Index most_samples = 500;
 
   /// O(n^2 (n + k)) for n samples and k components. Throws gonio::error for samples that cannot be.
   posterior(discrepancy_decomposition<Metric> estimator, const located_samples& samples)
@@ -53,7 +54,7 @@ class posterior {
   [[nodiscard]] double deviation(const location& at) const {
     const Eigen::RowVectorXd row = row_at(estimator_.prior(), at);
     const double observations = estimator_.observations();
-    Eigen::VectorXd with = thin_product(shared_->rows, row.transpose()) / observations;
+    Eigen::VectorXd with = product(shared_->rows, row.transpose()) / observations;
     with +=
         estimator_.model().variance * discrepancy_covariance(shared_->places, at.angles, estimator_.model().lengths);
     const double before =
@@ -87,7 +88,7 @@ class posterior {
     std::vector<double> all(cells.size());
     for_each_index(
         cells.size(), 64,
-        [&](std::size_t cell) { all[cell] = deviation(locate(estimator_.prior().cells(), cells.angles(cell))); },
+        [&](Eigen::Index cell) { all[cell] = deviation(locate(estimator_.prior().cells(), cells.angles(cell))); },
         threads);
     return all;
   }
@@ -98,8 +99,8 @@ class posterior {
         : rows(samples.size(), estimator.prior().size()), factors(estimator.covariance(samples)) {
       if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
       for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        rows.row(i) = row_at(estimator.prior(), samples.locations.begin()[i]);
-        places.push_back(samples.locations.begin()[i].angles);
+        rows.row(i) = row_at(estimator.prior(), samples.locations[i]);
+        places.push_back(samples.locations[i].angles);
       }
       const Eigen::MatrixXd whitened = factors.solve_lower(estimator.mapped_values(samples));
       constexpr double before = 10.0;

@@ -38,7 +38,7 @@ class reweighted_combination {
   [[nodiscard]] channel_values relative(const channel_values& estimates, const Eigen::Array3f& offsets) const;
 
  private:
-  [[nodiscard]] normal_equations equations(std::size_t channel, const channel_values& inlier_weights) const;
+  [[nodiscard]] normal_equations equations(Eigen::Index channel, const channel_values& inlier_weights) const;
   [[nodiscard]] solution combine(const std::array<normal_equations, 3>& equations) const;
 
   measured<Metric> materials_;
@@ -143,7 +143,7 @@ class robust_reconstruction {
   };
 
   [[nodiscard]] robust_run<Metric> initialise_located(const located_samples& all) const;
-  [[nodiscard]] located_samples some_of(const located_samples& samples, std::size_t count) const;
+  [[nodiscard]] located_samples some_of(const located_samples& samples, Eigen::Index count) const;
   /// Steps 1 to 3.
   [[nodiscard]] initial_state initial_state_of(const located_samples& some) const;
   /// What is expected of a surface that was never measured, at cells all over the grid.
@@ -179,7 +179,7 @@ template <error_metric Metric>
 solution reweighted_combination<Metric>::solve(const channel_values& inlier_weights,
                                                const reweighted_combination& others) const {
   const channel_values all = channel_values::Ones(3, std::ssize(others.locations_));
-  const auto sum = [&](std::size_t c) { return equations(c, inlier_weights) + others.equations(c, all); };
+  const auto sum = [&](Eigen::Index c) { return equations(c, inlier_weights) + others.equations(c, all); };
   return combine({sum(0), sum(1), sum(2)});
 }
 
@@ -188,7 +188,7 @@ channel_values reweighted_combination<Metric>::values(const solution& found) con
   channel_values values = functions_.apply(found.weights);
   for (Eigen::Index i = 0; i < values.cols(); ++i)
     for (float& value : values.col(i))
-      value = static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[static_cast<std::size_t>(i)]),
+      value = static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[i]),
                                             0.0, double{correction_factor::largest_estimate}));
   return values;
 }
@@ -200,7 +200,7 @@ channel_values reweighted_combination<Metric>::relative(const channel_values& es
   channel_values factors(3, estimates.cols());
   for (Eigen::Index i = 0; i < estimates.cols(); ++i)
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const location& at = locations_[static_cast<std::size_t>(i)];
+      const location& at = locations_[i];
       const double rho = estimates(c, i), next = rho + step * (rho + offsets[c]);
       const double slope = materials_.metric().forward(next, at) - materials_.metric().forward(rho, at);
       factors(c, i) = static_cast<float>(std::pow(step / slope, 2));
@@ -209,9 +209,9 @@ channel_values reweighted_combination<Metric>::relative(const channel_values& es
 }
 
 template <error_metric Metric>
-normal_equations reweighted_combination<Metric>::equations(std::size_t channel,
+normal_equations reweighted_combination<Metric>::equations(Eigen::Index channel,
                                                            const channel_values& inlier_weights) const {
-  const auto row = static_cast<Eigen::Index>(channel);
+  const auto row = channel;
   return functions_.normal(channel, inlier_weights.row(row) * confidence_.row(row), mapped_.row(row))
       .subset(functions_.columns());
 }
@@ -286,7 +286,7 @@ robust_run<Metric> robust_reconstruction<Metric>::initialise_located(const locat
 }
 
 template <error_metric Metric>
-located_samples robust_reconstruction<Metric>::some_of(const located_samples& samples, std::size_t count) const {
+located_samples robust_reconstruction<Metric>::some_of(const located_samples& samples, Eigen::Index count) const {
   return samples.subset(random_choice(samples.size(), count, options_.seed));
 }
 
@@ -319,9 +319,9 @@ template <error_metric Metric>
 located_samples robust_reconstruction<Metric>::expectation(const nearest_material<Metric>& nearest,
                                                            const std::array<scaled_material, 3>& chosen) const {
   const valid_cells& cells = materials_.cells();
-  const std::size_t count = std::min<std::size_t>(cells.size(), 1'000);
+  const Eigen::Index count = std::min<Eigen::Index>(cells.size(), 1'000);
   located_samples expected;
-  for (std::size_t i = 0; i < count; ++i) expected.locations.push_back(locate_cell(cells, i * cells.size() / count));
+  for (Eigen::Index i = 0; i < count; ++i) expected.locations.push_back(locate_cell(cells, i * cells.size() / count));
   expected.values = nearest.values(chosen, expected.locations).template cast<double>().matrix().transpose();
   expected.weights =
       Eigen::MatrixXd::Constant(std::ssize(expected.locations), 1, options_.expectation / static_cast<double>(count));

@@ -102,7 +102,7 @@ template <class Function>
   found.evaluations = 1;
   const double scale = std::max(std::abs(here.value), std::numeric_limits<double>::min());
   detail::step_control control;
-  for (std::size_t iteration = 0; iteration < options.iteration_limit && !found.converged; ++iteration) {
+  for (Eigen::Index iteration = 0; iteration < options.iteration_limit && !found.converged; ++iteration) {
     // Step to the minimum of the damped parabola.
     local_parabola flatter = here;
     flatter.hessian *= control.bend;

@@ -41,9 +41,9 @@ namespace detail {
 /// The fields at all cells of a grid, so that blending needs no case for the horizon.
 template <int Fields>
 [[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, const cell_fields<Fields>& fields) {
-  const std::size_t size = from.grid().size();
-  cell_fields<Fields> dense(Fields, static_cast<Eigen::Index>(size));
-  for (std::size_t linear = 0; linear < size; ++linear)
+  const Eigen::Index size = from.grid().size();
+  cell_fields<Fields> dense(Fields, size);
+  for (Eigen::Index linear = 0; linear < size; ++linear)
     std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
   return dense;
 }
@@ -69,10 +69,10 @@ void blend_rows(const grid& source, const cell_fields<Fields>& dense, double the
   const auto h = clamped_interval(source.theta_h_coordinate(theta_h), extents.theta_h);
   const auto d = clamped_interval(source.theta_d_coordinate(theta_d), extents.theta_d);
   std::fill_n(line.data(), line.size(), 0.0f);
-  for (std::size_t a = 0; a < 2; ++a)
-    for (std::size_t b = 0; b < 2; ++b) {
+  for (Eigen::Index a = 0; a < 2; ++a)
+    for (Eigen::Index b = 0; b < 2; ++b) {
       const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
-      const auto start = static_cast<Eigen::Index>(source.linear({h.node[a], d.node[b], 0}));
+      const auto start = source.linear({h.node[a], d.node[b], 0});
       if (weight != 0.0f) line += weight * dense.middleCols(start, extents.phi_d);
     }
 }
@@ -87,8 +87,8 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
               thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
-  const auto index = [](int i) { return static_cast<std::size_t>(i); };
-  const std::size_t theta_d_count = index(target.extents().theta_d), phi_d_count = index(target.extents().phi_d);
+  const auto index = [](int i) { return i; };
+  const Eigen::Index theta_d_count = index(target.extents().theta_d), phi_d_count = index(target.extents().phi_d);
   const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields);
   const detail::phi_d_nodes nodes(source, target);
 
@@ -98,17 +98,17 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
       [&](block range) {
         cell_fields<Fields> line(Fields, source.extents().phi_d), values(Fields, target.extents().phi_d);
         std::vector<int> phi_d(phi_d_count);
-        for (std::size_t r = range.begin; r < range.end; ++r) {
-          const auto count = static_cast<Eigen::Index>(to.row_begin(r + 1) - to.row_begin(r));
+        for (Eigen::Index r = range.begin; r < range.end; ++r) {
+          const auto count = to.row_begin(r + 1) - to.row_begin(r);
           if (count == 0) continue;
           const double theta_h = target.theta_h(static_cast<double>(r / theta_d_count));
           const double theta_d = target.theta_d(static_cast<double>(r % theta_d_count));
           detail::blend_rows<Fields>(source, dense, theta_h, theta_d, line);
           // Interpolate along the line at the row's cells.
-          const std::size_t first = to.row_begin(r), before = r * phi_d_count;
+          const Eigen::Index first = to.row_begin(r), before = r * phi_d_count;
           for (Eigen::Index i = 0; i < count; ++i) {
-            const std::size_t k = to.linear(first + static_cast<std::size_t>(i)) - before;
-            phi_d[static_cast<std::size_t>(i)] = static_cast<int>(k);
+            const Eigen::Index k = to.linear(first + i) - before;
+            phi_d[i] = static_cast<int>(k);
             const detail::axis_interval& p = nodes.along[k];
             values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
                             static_cast<float>(p.weight[1]) * line.col(p.node[1]);

@@ -68,7 +68,7 @@ GONIO_INLINE Eigen::VectorXd discrepancy_covariance(std::span<const half_differe
   const Eigen::Vector4d here = detail::discrepancy_place(place, lengths);
   Eigen::VectorXd with(std::ssize(angles));
   for (Eigen::Index i = 0; i < with.size(); ++i)
-    with[i] = detail::squared_exponential((detail::discrepancy_place(angles.begin()[i], lengths) - here).squaredNorm());
+    with[i] = detail::squared_exponential((detail::discrepancy_place(angles[i], lengths) - here).squaredNorm());
   return with;
 }
 
@@ -116,10 +116,10 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
     }
   }
   // The part of theta_d and phi_d, a slice of the grid at a time.
-  cell_fields<3> field(3, static_cast<Eigen::Index>(cells.size()));
+  cell_fields<3> field(3, cells.size());
   for_each_index(
-      static_cast<std::size_t>(rows), 1,
-      [&](std::size_t row) {
+      rows, 1,
+      [&](Eigen::Index row) {
         const int j = static_cast<int>(row);
         Eigen::MatrixXd slice(columns, size());
         for (int k = 0; k < columns; ++k) {
@@ -131,10 +131,9 @@ GONIO_INLINE cell_fields<3> discrepancy_functions::combination(const Eigen::Matr
         const Eigen::MatrixXd values = product(slice, by_height);
         for (int i = 0; i < heights; ++i)
           for (int k = 0; k < columns; ++k) {
-            const std::size_t linear = over.linear({i, j, k});
+            const Eigen::Index linear = over.linear({i, j, k});
             if (!cells.contains(linear)) continue;
-            field.col(static_cast<Eigen::Index>(cells.representative(linear))) =
-                values.row(k).segment<3>(3 * i).transpose().array().cast<float>();
+            field.col(cells.representative(linear)) = values.row(k).segment<3>(3 * i).transpose().array().cast<float>();
           }
       },
       threads);

@@ -62,8 +62,8 @@ GONIO_INLINE measured_radiance mean_radiance(std::vector<exposed> all, const cam
   return {value, 1.0 / std::sqrt(weights), false, false};
 }
 
-GONIO_INLINE void require_times(std::size_t images, std::span<const double> times, const std::string& what) {
-  if (images != times.size() || times.empty())
+GONIO_INLINE void require_times(Eigen::Index images, std::span<const double> times, const std::string& what) {
+  if (images != std::ssize(times) || times.empty())
     refuse(what + " needs as many exposure times, not " + std::to_string(times.size()) + ", and at least one");
   for (const double time : times)
     if (!(time > 0.0 && std::isfinite(time))) refuse("an exposure time must be positive, not " + std::to_string(time));
@@ -106,7 +106,7 @@ GONIO_INLINE measured_radiance merge_exposures(const reading& taken, Eigen::Inde
   const Eigen::Index pixels = taken.frames.front().rows();
   std::vector<detail::exposed> usable;
   bool is_dark = true;
-  for (std::size_t j = 0; j < taken.frames.size(); ++j) {
+  for (Eigen::Index j = 0; j < std::ssize(taken.frames); ++j) {
     const camera_frame& frame = taken.frames[j];
     if (frame.rows() != pixels || pixels == 0)
       refuse("a reading's frames need the same number of pixels, at least one, not " + std::to_string(pixels) +

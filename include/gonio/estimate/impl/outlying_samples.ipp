@@ -48,12 +48,12 @@ namespace detail {
                                              const std::vector<Eigen::Index>& columns) {
   Eigen::MatrixXd part(std::ssize(rows), std::ssize(columns));
   for (Eigen::Index j = 0; j < part.cols(); ++j)
-    for (Eigen::Index i = 0; i < part.rows(); ++i) part(i, j) = whole(rows.begin()[i], columns.begin()[j]);
+    for (Eigen::Index i = 0; i < part.rows(); ++i) part(i, j) = whole(rows[i], columns[j]);
   return part;
 }
 
 [[nodiscard]] inline std::vector<Eigen::Index> numbers_up_to(Eigen::Index count) {
-  std::vector<Eigen::Index> all(static_cast<std::size_t>(count));
+  std::vector<Eigen::Index> all(count);
   std::iota(all.begin(), all.end(), Eigen::Index{0});
   return all;
 }
@@ -74,7 +74,7 @@ GONIO_INLINE std::vector<rejection_step> reject(const Eigen::MatrixXd& covarianc
   std::vector<Eigen::Index> kept = numbers_up_to(covariance.rows());
   const std::vector<Eigen::Index> channels = numbers_up_to(values.cols());
   const auto most =
-      std::max<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(rule.largest_share * static_cast<double>(kept.size())), 1);
+      std::max<Eigen::Index>(static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(kept.size())), 1);
   const double threshold = rule.threshold * std::sqrt(std::max(static_cast<double>(kept.size()) / 20.0, 1.0));
   Eigen::MatrixXd inverse = inverse_of(covariance);
   std::vector<rejection_step> steps;
@@ -83,7 +83,7 @@ GONIO_INLINE std::vector<rejection_step> reject(const Eigen::MatrixXd& covarianc
     Eigen::Index worst = 0;
     const double largest = disagreement.maxCoeff(&worst) / bulk_disagreement(disagreement);
     if (!(largest > threshold)) break;
-    steps.push_back({static_cast<std::size_t>(kept.begin()[worst]), largest});
+    steps.push_back({kept[worst], largest});
     // The inverse of the covariance without a row and column is the Schur complement of the whole inverse.
     std::vector<Eigen::Index> others = numbers_up_to(inverse.rows());
     others.erase(others.begin() + worst);
@@ -97,7 +97,7 @@ GONIO_INLINE std::vector<rejection_step> reject(const Eigen::MatrixXd& covarianc
 }
 
 GONIO_INLINE left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
-                                                      const std::vector<std::size_t>& left_out) {
+                                                      const std::vector<Eigen::Index>& left_out) {
   const std::vector<Eigen::Index> out(left_out.begin(), left_out.end()), channels = numbers_up_to(values.cols());
   std::vector<Eigen::Index> kept = numbers_up_to(covariance.rows());
   std::erase_if(kept, [&](Eigen::Index i) { return std::ranges::find(out, i) != out.end(); });
@@ -109,7 +109,7 @@ GONIO_INLINE left_out_predictions predict_from_others(const Eigen::MatrixXd& cov
                              product(half.transpose(), factors.solve_lower(part_of(values, kept, channels))),
                              Eigen::VectorXd(std::ssize(out))};
   for (Eigen::Index i = 0; i < std::ssize(out); ++i) {
-    const Eigen::Index number = out.begin()[i];
+    const Eigen::Index number = out[i];
     found.deviation[i] = std::sqrt(std::max(covariance(number, number) - half.col(i).squaredNorm(), 0.0));
   }
   return found;

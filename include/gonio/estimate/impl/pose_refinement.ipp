@@ -81,7 +81,7 @@ GONIO_INLINE sample_set pose_iteration::samples(Eigen::Index material) const {
   require_material(material);
   const std::vector<sample_set>& images = materials_[material];
   sample_set all;
-  for (std::size_t p = 0; p < images.size(); ++p)
+  for (Eigen::Index p = 0; p < std::ssize(images); ++p)
     for (const sample& s : images[p]) all.push_back(turned(s, turns_[p]));
   return all;
 }
@@ -108,8 +108,8 @@ GONIO_INLINE void pose_iteration::add_image(const sample_set& samples, const pos
                                             Eigen::Index begin, equations& out) const {
   for_each_index(
       samples.size(), 64,
-      [&](std::size_t i) {
-        const Eigen::Index at = begin + static_cast<Eigen::Index>(i);
+      [&](Eigen::Index i) {
+        const Eigen::Index at = begin + i;
         const sample seen = turned(samples[i], turns);
         const double root = std::sqrt(seen.weight.mean());  // the channels share their equations
         rgb right;
@@ -128,7 +128,7 @@ GONIO_INLINE pose_iteration::fit pose_iteration::fit_of(const std::vector<sample
   for (const sample_set& samples : images) n += std::ssize(samples);
   fit found{equations(components_, n), {}, {}, 0.0};
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < images.size(); ++p) {
+  for (Eigen::Index p = 0; p < std::ssize(images); ++p) {
     add_image(images[p], turns[p], read, begin, found.system);
     begin += std::ssize(images[p]);
   }
@@ -170,7 +170,7 @@ GONIO_INLINE std::vector<pose_correction> pose_iteration::moved(const Eigen::Vec
 
 /// How the misfit y - Q c of an image changes with one of its unknowns, by central differences. They span what is
 /// expected of the turns: on the grid of the prior, smaller ones would see single cells.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, std::size_t image_number,
+GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(Eigen::Index material, Eigen::Index image_number,
                                                         Eigen::Index unknown, const reader& read) const {
   const sample_set& samples = materials_[material][image_number];
   const double width = options_.deviation / 2.0;
@@ -189,12 +189,12 @@ GONIO_INLINE Eigen::MatrixXd pose_iteration::derivative(std::size_t material, st
 
 /// The derivatives of a material's misfits by all unknowns, those of red, green and blue one above the other: 3 n x
 /// unknowns.
-GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(std::size_t material, const reader& read) const {
+GONIO_INLINE Eigen::MatrixXd pose_iteration::jacobian(Eigen::Index material, const reader& read) const {
   const std::vector<sample_set>& images = materials_[material];
   const Eigen::Index n = state_.fits[material].system.right.rows();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(3 * n, unknowns * std::ssize(images));
   Eigen::Index begin = 0;
-  for (std::size_t p = 0; p < images.size(); ++p) {
+  for (Eigen::Index p = 0; p < std::ssize(images); ++p) {
     const auto count = std::ssize(images[p]);
     for (Eigen::Index u = 0; u < unknowns; ++u) {
       const Eigen::MatrixXd change = derivative(material, p, u, read);

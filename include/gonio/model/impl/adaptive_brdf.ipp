@@ -153,7 +153,7 @@ GONIO_INLINE adaptive_brdf::stored adaptive_brdf::summed_up(adaptive_brdf_parts 
   unit_square_tables& density = parts.visible_normals;
   const auto [tables, rows, columns] = std::tuple(density.tables, density.rows, density.columns);
   unit_square_tables along = density;
-  unit_square_tables across{1, tables, rows, std::vector<float>(static_cast<std::size_t>(tables * rows))};
+  unit_square_tables across{1, tables, rows, std::vector<float>(tables * rows)};
   Eigen::ArrayXd part(rows * columns), whole(rows);
   for (Eigen::Index t = 0; t < tables; ++t) {
     // Sum along each row, then from row to row.

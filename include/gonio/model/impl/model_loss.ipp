@@ -46,8 +46,8 @@ GONIO_INLINE model_loss::model_loss(std::vector<const lobe_kind*> kinds, std::sp
       metric_(std::move(metric)),
       options_(options),
       weighs_channels_apart_(weigh_channels_apart(observations)) {
-  for (std::size_t l = 0; l < kinds_.size(); ++l)
-    for (std::size_t p = 0; p < kinds_[l]->parameters().size(); ++p) owners_.push_back({l, p});
+  for (Eigen::Index l = 0; l < std::ssize(kinds_); ++l)
+    for (Eigen::Index p = 0; p < std::ssize(kinds_[l]->parameters()); ++p) owners_.push_back({l, p});
   std::vector<double> sizes;
   for (const fit_observation& seen : observations_) {
     total_weight_ += seen.weight.of_each().sum();

@@ -45,7 +45,7 @@ GONIO_INLINE void environment_map::check_values() const {
   const float* end = image_.data() + image_.size();
   const float* bad = std::find_if(image_.data(), end, [](float v) { return !(std::isfinite(v) && v >= 0.0f); });
   if (bad != end) {
-    const auto at = static_cast<std::size_t>(bad - image_.data()) / 3;
+    const auto at = (bad - image_.data()) / 3;
     refuse("pixel (row " + std::to_string(at / columns()) + ", column " + std::to_string(at % columns()) +
            ") of an environment map is " + std::to_string(*bad) + ": radiance must be finite and must not be negative");
   }
