@@ -32,7 +32,7 @@ std::vector<double> row_of(const discrepancy_functions& functions, const half_di
 
 double product_of(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0.0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  for (Eigen::Index i = 0; i < std::ssize(a); ++i) sum += a[i] * b[i];
   return sum;
 }
 
@@ -69,7 +69,7 @@ TEST_CASE("phi_d counts modulo 180 degrees, and not at all where theta_d is zero
   const discrepancy_functions functions(centres, 1.0);
   const auto same = [&](const half_difference& a, const half_difference& b) {
     const auto x = row_of(functions, a), y = row_of(functions, b);
-    for (Eigen::Index i = 0; i < x.size(); ++i) CHECK(x[i] == doctest::Approx(y[i]).epsilon(1e-9));
+    for (Eigen::Index i = 0; i < std::ssize(x); ++i) CHECK(x[i] == doctest::Approx(y[i]).epsilon(1e-9));
   };
   same({0.3, 0.5, 0.1}, {0.3, 0.5, 0.1 + std::numbers::pi});
   same({0.3, 0.0, 0.1}, {0.3, 0.0, 1.4});
@@ -82,11 +82,10 @@ TEST_CASE("a combination at all cells is that of the rows") {
   const auto field = functions.combination(weights);
   REQUIRE(field.cols() == cells.size());
   double largest = 0.0;
-  for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
+  for (Eigen::Index cell = 0; cell < std::ssize(cells); ++cell) {
     const Eigen::RowVectorXd row = gonio::row_at(functions, gonio::locate_cell(cells, cell));
     for (Eigen::Index c = 0; c < 3; ++c)
-      largest =
-          std::max(largest, std::abs(double{field(c, cell)} - row.dot(weights.col(c))));
+      largest = std::max(largest, std::abs(double{field(c, cell)} - row.dot(weights.col(c))));
   }
   CHECK(largest < 1e-5);
   const auto single = functions.combination(weights, gonio::thread_count(1));

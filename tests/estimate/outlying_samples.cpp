@@ -12,20 +12,20 @@ using gonio::valid_cells;
 
 namespace {
 
-const valid_cells& cells() {
+const valid_cells& outlying_cells() {
   static const valid_cells small(gonio::grid({18, 9, 12}));
   return small;
 }
 
-const gonio::discrepancy_decomposition<gonio::log_relative>& estimator() {
-  static const gonio::discrepancy_decomposition all{learn(synthetic_materials(cells(), 60), 80)};
+const gonio::discrepancy_decomposition<gonio::log_relative>& outlying_estimator() {
+  static const gonio::discrepancy_decomposition all{learn(synthetic_materials(outlying_cells(), 60), 80)};
   return all;
 }
 
 /// A material that the prior has not seen, at some cells.
 gonio::sample_set clean_samples(Eigen::Index count, unsigned seed) {
-  return gonio::sample_table(synthetic_materials(cells(), 3, 100 + seed).table(1),
-                             gonio::random_cells(cells(), count, seed));
+  return gonio::sample_table(synthetic_materials(outlying_cells(), 3, 100 + seed).table(1),
+                             gonio::random_cells(outlying_cells(), count, seed));
 }
 
 }  // namespace
@@ -56,8 +56,8 @@ TEST_CASE("two wrong of twenty samples are found, and what they should be is tol
     const gonio::rgb truth = samples[4].value;
     samples[4].value *= 10.0;
     samples[13].value *= 0.1;
-    const auto located = gonio::locate_samples(cells(), samples);
-    const auto sorted = gonio::reject_outlying(estimator(), located);
+    const auto located = gonio::locate_samples(outlying_cells(), samples);
+    const auto sorted = gonio::reject_outlying(outlying_estimator(), located);
     CHECK(sorted.kept.size() + sorted.left_out.size() == 20);
     const bool both = sorted.left_out.size() == 2 && std::ranges::all_of(sorted.left_out, [](const auto& out) {
                         return out.number == 4 || out.number == 13;
@@ -75,36 +75,40 @@ TEST_CASE("two wrong of twenty samples are found, and what they should be is tol
 
 TEST_CASE("of clean samples none is left out") {
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const auto located = gonio::locate_samples(cells(), clean_samples(20, seed));
-    CHECK(gonio::reject_outlying(estimator(), located).left_out.empty());
+    const auto located = gonio::locate_samples(outlying_cells(), clean_samples(20, seed));
+    CHECK(gonio::reject_outlying(outlying_estimator(), located).left_out.empty());
   }
 }
 
 TEST_CASE("no more samples are left out than the rule says") {
   auto samples = clean_samples(20, 3);
   for (Eigen::Index i = 0; i < 20; i += 3) samples[i].value *= i % 2 == 0 ? 30.0 : 0.01;
-  const auto located = gonio::locate_samples(cells(), samples);
-  CHECK(gonio::reject_outlying(estimator(), located).left_out.size() <= 4);
-  CHECK(gonio::reject_outlying(estimator(), located, {.threshold = 1e-3, .largest_share = 0.1}).left_out.size() == 2);
-  CHECK(gonio::reject_outlying(estimator(), located, {.threshold = 1e-3, .largest_share = 0.0}).left_out.size() == 1);
+  const auto located = gonio::locate_samples(outlying_cells(), samples);
+  CHECK(gonio::reject_outlying(outlying_estimator(), located).left_out.size() <= 4);
+  CHECK(gonio::reject_outlying(outlying_estimator(), located, {.threshold = 1e-3, .largest_share = 0.1})
+            .left_out.size() == 2);
+  CHECK(gonio::reject_outlying(outlying_estimator(), located, {.threshold = 1e-3, .largest_share = 0.0})
+            .left_out.size() == 1);
 }
 
 TEST_CASE("one or two samples are never left out") {
   auto samples = clean_samples(2, 3);
   samples[0].value *= 1000.0;
-  CHECK(gonio::reject_outlying(estimator(), gonio::locate_samples(cells(), samples)).left_out.empty());
+  CHECK(
+      gonio::reject_outlying(outlying_estimator(), gonio::locate_samples(outlying_cells(), samples)).left_out.empty());
 }
 
 TEST_CASE("an impossible rule, and too many samples, are refused") {
-  const auto located = gonio::locate_samples(cells(), clean_samples(5, 1));
+  const auto located = gonio::locate_samples(outlying_cells(), clean_samples(5, 1));
   const auto refused = [&](const gonio::rejection_rule& rule) {
-    scratch::check_refused([&] { return gonio::reject_outlying(estimator(), located, rule); },
+    scratch::check_refused([&] { return gonio::reject_outlying(outlying_estimator(), located, rule); },
                            {"positive threshold", "share from 0 up to 1"});
   };
   refused({.threshold = 0.0});
   refused({.largest_share = 1.0});
   gonio::sample_set many;
   for (int i = 0; i < 5001; ++i) many.push_back({gonio::half_difference{0.1, 0.2, 0.3}, gonio::rgb::Ones(), 1.0});
-  scratch::check_refused([&] { return gonio::reject_outlying(estimator(), gonio::locate_samples(cells(), many)); },
-                         {"at most 5000", "5001"});
+  scratch::check_refused(
+      [&] { return gonio::reject_outlying(outlying_estimator(), gonio::locate_samples(outlying_cells(), many)); },
+      {"at most 5000", "5001"});
 }

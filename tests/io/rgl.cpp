@@ -145,7 +145,7 @@ TEST_CASE("what is read equals the same materials as others resampled them to ME
     const gonio::brdf_table table = gonio::io::read_merl_any(table_path);
     // Their file has 12 bits of each value, and its angles are those of the cells' lower corners.
     double largest = 0.0;
-    for (std::size_t cell = 7; cell < table.cells().size(); cell += 997) {
+    for (Eigen::Index cell = 7; cell < table.cells().size(); cell += 997) {
       const auto [wi, wo] = gonio::to_directions(table.cells().angles(cell));
       if (std::min(wi.z(), wo.z()) < 0.1) continue;
       const gonio::rgb ours = material.as_measured(wi, wo), theirs = table.at(cell);

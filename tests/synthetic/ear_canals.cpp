@@ -221,7 +221,7 @@ TEST_CASE("ear canals are functions of a seed and of their latent numbers") {
   CHECK(first.at(1.0, 0.0) == first.at(1.0, 2.0));
   // Each latent number does something, and none too much.
   const synthetic::ear_canal plain = synthetic::ear_canal_family::mean();
-  for (Eigen::Index i = 0; i < synthetic::ear_canal::latent_count; ++i) {
+  for (std::size_t i = 0; i < synthetic::ear_canal::latent_count; ++i) {
     std::vector<double> latents(synthetic::ear_canal::latent_count, 0.0);
     latents[i] = 1.0;
     const synthetic::ear_canal changed(latents);

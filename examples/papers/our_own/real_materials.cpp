@@ -83,7 +83,7 @@ class material_library {
     for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
     chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
     for (Eigen::Index s = 0; s < sets; ++s)
-      for (Eigen::Index i = 0; i < sets_[s].names.size(); ++i) {
+      for (Eigen::Index i = 0; i < std::ssize(sets_[s].names); ++i) {
         if (!keep(sets_[s].names[i])) continue;
         chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
             sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
@@ -149,7 +149,7 @@ gonio::sample_set measure(const judged_material& material, const std::vector<gon
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
 std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
-  for (Eigen::Index i = 0; i < chosen.size(); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
+  for (Eigen::Index i = 0; i < std::ssize(chosen); ++i) samples[chosen[i]].value *= i % 2 == 0 ? 10.0 : 0.1;
   return chosen;
 }
 
@@ -275,7 +275,7 @@ class experiment {
     std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
     const auto times = static_cast<double>(where.sets.size());
-    for (Eigen::Index r = 0; r < where.sets.size(); ++r) {
+    for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       gonio::sample_set samples = measure(material, where.sets[r], given_.noise, r);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, r + 100);
       const estimated found = estimate(method, samples, material);

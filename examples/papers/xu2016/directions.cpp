@@ -109,7 +109,7 @@ std::vector<judged_set> sets_to_judge(const directions_options& options) {
   std::vector<judged_set> all;
   for (const std::filesystem::path& file : options.files) {
     auto directions = gonio::io::read_direction_pairs(file);
-    const std::size_t count = directions.size();
+    const Eigen::Index count = directions.size();
     all.push_back({file.filename().string(), count, std::move(directions)});
   }
   for (const Eigen::Index count : options.counts)

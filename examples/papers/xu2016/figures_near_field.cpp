@@ -48,7 +48,7 @@ std::vector<gonio::design::capture_plan> refined_plans(const laboratory& lab, co
   auto plans = best_plans(coarse, most, most_exchanged, given.seed, listener);
   for (gonio::design::capture_plan& plan : plans) {
     gonio::report(listener, "sliding", static_cast<double>(plan.candidates.size()) / static_cast<double>(most));
-    for (std::size_t& candidate : plan.candidates)
+    for (Eigen::Index& candidate : plan.candidates)
       candidate = fine.geometry().nearest(coarse.geometry().centre(candidate));
     plan = gonio::design::descend(fine.geometry(), fine, std::move(plan), given.seed);
   }
