@@ -103,7 +103,7 @@ template <error_metric Metric>
   sorted_samples sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i)
     if (!rejected[i]) sorted.kept.push_back(i);
-  for (Eigen::Index i = 0; i < steps.size(); ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(steps); ++i) {
     const location& at = samples.locations[steps[i].number];
     const Eigen::Index row = i, sample = steps[i].number;
     const double offset = offset_at(estimator.prior(), at);
