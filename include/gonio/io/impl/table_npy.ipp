@@ -18,7 +18,7 @@ GONIO_INLINE void write_table_npy(const std::filesystem::path& path, const brdf_
   for (Eigen::Index cell = 0; cell < cells.size(); ++cell) {
     const rgb value = table.at(table.cells().representative(cell));
     for (std::size_t channel = 0; channel < 3; ++channel)
-      array.data()[3 * cell + channel] = static_cast<float>(value[static_cast<Eigen::Index>(channel)]);
+      array.data()[3 * cell + channel] = static_cast<float>(value[channel]);
   }
   write_npy(path, array);
 }
