@@ -104,6 +104,7 @@ struct judged_material {
   std::string name, family;
   gonio::brdf_table truth;
   std::function<gonio::rgb(const gonio::direction_pair&)> measured;
+  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
 };
 
 /// Where is measured: its name, and a set of directions for each repetition.
@@ -195,14 +196,14 @@ class experiment {
       const auto known = gonio::io::read_networks(given_.networks.front());
       for (const std::string& name : gonio::nielsen_test_materials()) {
         const Eigen::Index i = library_.first().find(name);
-        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i])});
+        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i]), all.size()});
       }
       return all;
     }
     for (const auto& [name, path] : gonio::io::list_rgl_directory(given_.materials)) {
       const gonio::material_set& set = library_.measured();
-      all.push_back(
-          {name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material)});
+      all.push_back({name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material),
+                     all.size()});
     }
     return all;
   }
@@ -276,8 +277,9 @@ class experiment {
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
-      gonio::sample_set samples = measure(material, where.sets[r], given_.noise, r);
-      const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, r + 100);
+      const std::uint64_t seed = 1000 * material.number + r;
+      gonio::sample_set samples = measure(material, where.sets[r], given_.noise, seed);
+      const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
       const estimated found = estimate(method, samples, material);
       const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);
       rms += errors.mapped_rms.mean() / times;
