@@ -74,6 +74,11 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --noise much", {"--noise", "much"});
   refuses(reconstruct + " --noise 0.1 --eta 3", {"--noise", "--eta", "one of them"});
   refuses(reconstruct + " --noise 0.1 --solver lasso", {"--noise", "tikhonov", "lasso"});
+  refuses(reconstruct + " --discrepancy -1", {"--discrepancy", "-1"});
+  refuses(reconstruct + " --discrepancy 0 --no-reject", {"--no-reject", "need a discrepancy"});
+  refuses(reconstruct + " --eta 3 --uncertainty " + (folder / "u.binary").string(), {"--uncertainty", "--eta"});
+  refuses(reconstruct + " --residuals " + (folder / "r.txt").string(), {"--residuals", ".csv"});
+  refuses(reconstruct + " --method linear --no-reject", {"--no-reject", "--method pca"});
   refuses(reconstruct + " --noise 0.1 --method linear", {"--noise", "linear", "--method pca"});
   refuses(reconstruct + " --solver magic", {"magic"});
   refuses(reconstruct + " --solver nnls", {"nnls", "signs", "--method linear"});
@@ -85,7 +90,8 @@ TEST_CASE("bad samples") {
   refuses(linear + " --metric root --root 0.5", {"0.5"});
   refuses(linear + " --solver lasso --lambda 2", {"lambda", "2"});
   refuses(linear + " --solver tsvd --variance 0", {"variance"});
-  refuses(linear + " --networks a.npy --merl b", {"--networks"});
+  refuses(linear + " --networks a.npy --merl b", {"a.npy", "No such file"});
+  refuses(linear + " --rgl " + folder.path().string(), {"hold no material"});
   refuses(reconstruct + " --prior " + path.string(), {"not a gonio prior"});
   refuses("reconstruct " + folder.path().string() + " -o x.binary", {folder.path().c_str()});
   refuses("reconstruct /no/such.csv -o x.binary", {"/no/such.csv"});

@@ -3,13 +3,16 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
+#include <gonio/core/statistics.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/samples.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -79,12 +82,51 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     const auto [wi, wo] = gonio::to_directions({gonio::radians(50), gonio::radians(10), gonio::radians(90)});
     CHECK(rubber(wi, wo).z() > 1.5 * rubber(wi, wo).x());  // away from the highlight it is blue
   }
+  SUBCASE("a sample that the others contradict is named and left out") {
+    auto samples = gonio::io::read_samples(at("samples.csv"));
+    const double truth = samples[5].value.y();
+    samples[5].value *= 10.0;
+    scratch::put(at("wrong.csv"), gonio::io::format_samples(samples));
+    const std::string files = " --residuals " + at("residuals.csv") + " -o " + at("without.binary");
+    const auto told = gonio_tool("reconstruct " + at("wrong.csv") + files);
+    CHECK(told.exit_code == 0);
+    CHECK(told.output.starts_with("sample 6 disagrees, left out: measured "));
+    const std::string residuals = scratch::get(at("residuals.csv"));
+    CHECK(std::ranges::count(residuals, '\n') == 21);
+    CHECK(residuals.find("\n6,") != std::string::npos);
+    const auto fit = parse_json(gonio_tool("reconstruct --json " + at("wrong.csv")).output);
+    REQUIRE(fit["left_out"].size() == 1);
+    CHECK(fit["left_out"][0]["sample"] == 6);
+    CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
+    CHECK(parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
+    const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
+    CHECK(kept.output.starts_with("20 samples,"));
+    const auto error = [&](const std::string& file) {
+      return parse_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
+          .get<double>();
+    };
+    CHECK(error("without.binary") < 0.7 * error("with.binary"));
+  }
+  SUBCASE("reconstruct says how sure it is") {
+    const auto known = [&](const std::string& noise) {
+      const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
+      REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+      return parse_json(result.output);
+    };
+    const auto fit = known(" --uncertainty " + at("known.binary"));
+    CHECK(fit["known_to"].get<double>() < fit["known_to_beyond_80_degrees"].get<double>());
+    CHECK(fit["known_to"].get<double>() < known(" --noise 0.3")["known_to"].get<double>());
+    const auto table = gonio::io::read_merl(at("known.binary"));
+    std::vector<float> values(table.values().begin(), table.values().end());
+    CHECK(std::ranges::min(values) > 0.0f);
+    CHECK(gonio::median(values) == doctest::Approx(fit["known_to"].get<double>()).epsilon(0.15));
+  }
   SUBCASE("reconstruct says how the fit went") {
     const auto fit = parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output);
     CHECK(fit["samples"] == 20);
     CHECK(fit["kkt_residual"][0].get<double>() < 1e-9);
     const auto eta = [&](const std::string& noise) {
-      const auto result = gonio_tool("reconstruct --json " + at("samples.csv") + noise);
+      const auto result = gonio_tool("reconstruct --json --discrepancy 0 " + at("samples.csv") + noise);
       REQUIRE_MESSAGE(result.exit_code == 0, result.output);
       return parse_json(result.output)["eta"].get<double>();
     };
@@ -120,6 +162,25 @@ TEST_CASE("learning from a folder of tables") {
   const auto unknown = gonio_tool("learn --merl " + folder.path().string() + " --exclude silver -o " + prior);
   CHECK(unknown.exit_code == 2);
   CHECK(unknown.output.find("'silver'") != std::string::npos);
+}
+
+TEST_CASE("learning from tables and materials of the RGL database together") {
+  const scratch::folder folder;
+  run("expand --formula red-paint -o " + (folder / "red.binary").string());
+  run("expand --formula grey-lambertian -o " + (folder / "grey.binary").string());
+  std::filesystem::create_directory(folder / "rgl");
+  std::filesystem::copy(std::string(GONIO_SOURCE_DIR) + "/tests/fuzz/seeds/rgl/one.bsdf", folder / "rgl/paint.bsdf");
+  const std::string prior = (folder / "mixed.prior").string();
+  const std::string learn =
+      "learn --components 3 -o " + prior + " --merl " + folder.path().string() + " --rgl " + (folder / "rgl").string();
+  run(learn);
+  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "red", "paint"});
+  run(learn + " --exclude red");
+  CHECK(parse_json(gonio_tool("info --json " + prior).output)["names"] == nlohmann::json{"grey", "paint"});
+  std::filesystem::copy(folder / "rgl/paint.bsdf", folder / "rgl/grey.bsdf");
+  const auto twice = gonio_tool(learn);
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.output.find("two materials of the sources are named 'grey'") != std::string::npos);
 }
 
 TEST_CASE("every metric and solver of the linear method reconstructs, and says how") {
