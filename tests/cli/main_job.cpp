@@ -101,7 +101,7 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());
     const auto kept = gonio_tool("reconstruct --no-reject " + at("wrong.csv") + " -o " + at("with.binary"));
     CHECK(kept.output.starts_with("20 samples,"));
-    const auto error = [&](const std::string& file) {
+    const auto error = [&](const char* file) {
       return parse_json(gonio_tool("compare --json " + at(file) + ' ' + at("truth.binary")).output)["mapped_rms"]
           .get<double>();
     };

@@ -43,7 +43,7 @@ struct outlying_sample {
 struct rejection_rule {
   /// Of the disagreement, over that of the bulk, for 20 samples; it grows with the root of their number, as the largest
   /// disagreement of clean samples does on real materials (docs/results/real-materials.md).
-  double threshold = 12.0;
+  double threshold = 16.0;
   /// At most this share of the samples, and at least one.
   double largest_share = 0.2;
 };
