@@ -88,8 +88,7 @@ void paint_ring(gonio::image& image, const Eigen::Vector2d& at, double inner, do
   for (int row = first(at.y()); row <= last(at.y(), image.shape(0)); ++row)
     for (int column = first(at.x()); column <= last(at.x(), image.shape(1)); ++column) {
       const double distance = (Eigen::Vector2d(column + 0.5, row + 0.5) - at).norm();
-      if (distance >= inner && distance <= outer)
-        gonio::set_pixel(image, row, column, colour);
+      if (distance >= inner && distance <= outer) gonio::set_pixel(image, row, column, colour);
     }
 }
 

@@ -19,9 +19,9 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/nearest_material.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
+#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/estimate/posterior.hpp>

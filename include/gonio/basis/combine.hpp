@@ -38,8 +38,7 @@ template <combinable_basis Basis>
         [&](Eigen::Index cell) {
           const std::span<const float> row = functions.row(cell);
           for (Eigen::Index channel = 0; channel < 3; ++channel)
-            field(channel, cell) =
-                dot(columns.data() + channel * columns.rows(), row.data(), columns.rows());
+            field(channel, cell) = dot(columns.data() + channel * columns.rows(), row.data(), columns.rows());
         },
         threads);
     return field;

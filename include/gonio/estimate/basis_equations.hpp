@@ -81,11 +81,10 @@ template <colour_basis Basis>
 least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const {
   const auto functions = channel_of(basis_, system);
   const std::shared_ptr<const located_samples> measured = measured_;
-  const row_source rows{std::ssize(measured->locations),
-                        Eigen::Index(functions.size()), [functions, measured](block range, row_block out) {
+  const row_source rows{std::ssize(measured->locations), Eigen::Index(functions.size()),
+                        [functions, measured](block range, row_block out) {
                           for (Eigen::Index i = range.begin; i < range.end; ++i)
-                            read_row_at(functions, measured->locations[i],
-                                        out.row(i - range.begin));
+                            read_row_at(functions, measured->locations[i], out.row(i - range.begin));
                         }};
   const Eigen::Index first = system;
   return {rows, mapped(functions, first), measured->weights_of(first), threads_};

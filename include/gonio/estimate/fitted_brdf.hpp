@@ -178,8 +178,7 @@ const {
       return mapped_at(at);
     else
       return interpolate(
-          at, [&](Eigen::Index cell) { return field.col(cell).template cast<double>(); },
-          rgb(rgb::Zero()));
+          at, [&](Eigen::Index cell) { return field.col(cell).template cast<double>(); }, rgb(rgb::Zero()));
   };
   const bool own = cells == basis_.cells();
   brdf_table table(cells);

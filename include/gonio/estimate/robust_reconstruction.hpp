@@ -188,8 +188,8 @@ channel_values reweighted_combination<Metric>::values(const solution& found) con
   channel_values values = functions_.apply(found.weights);
   for (Eigen::Index i = 0; i < values.cols(); ++i)
     for (float& value : values.col(i))
-      value = static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[i]),
-                                            0.0, double{correction_factor::largest_estimate}));
+      value = static_cast<float>(std::clamp(materials_.metric().inverse(value, locations_[i]), 0.0,
+                                            double{correction_factor::largest_estimate}));
   return values;
 }
 
