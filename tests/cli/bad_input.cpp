@@ -74,6 +74,7 @@ TEST_CASE("bad samples") {
   refuses(reconstruct + " --noise much", {"--noise", "much"});
   refuses(reconstruct + " --noise 0.1 --eta 3", {"--noise", "--eta", "one of them"});
   refuses(reconstruct + " --noise 0.1 --solver lasso", {"--noise", "tikhonov", "lasso"});
+  refuses(reconstruct + " --discrepancy 0.1 --eta 3", {"--discrepancy", "--eta"});
   refuses(reconstruct + " --discrepancy -1", {"--discrepancy", "-1"});
   refuses(reconstruct + " --discrepancy 0 --no-reject", {"--no-reject", "need a discrepancy"});
   refuses(reconstruct + " --eta 3 --uncertainty " + (folder / "u.binary").string(), {"--uncertainty", "--eta"});
