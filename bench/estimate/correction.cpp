@@ -77,7 +77,7 @@ BENCHMARK(correction_basis)->UseRealTime()->Unit(benchmark::kMillisecond)->Itera
 void whole_robust_reconstruction(benchmark::State& state) {
   const auto measured = samples(state.range(0));
   gonio::sample_set set;
-  for (std::size_t i = 0; i < measured.size(); ++i)
+  for (Eigen::Index i = 0; i < measured.size(); ++i)
     set.push_back({measured.locations[i].angles, measured.values.row(i).transpose().array(), 1.0});
   const gonio::robust_reconstruction estimator{others(), corrections()};
   for (auto _ : state) benchmark::DoNotOptimize(estimator.fit(set).tabulate(materials().cells));

@@ -100,7 +100,7 @@ void look_up_all(benchmark::State& state, const Brdf& f) {
   const auto& all = pairs<Real>();
   for (auto _ : state) {
     Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-    for (Eigen::Index i = 0; i < all.count; ++i) sum += Eigen::Array<Real, 3, 1>(f(all.wi[i], all.wo[i]));
+    for (std::size_t i = 0; i < all.count; ++i) sum += Eigen::Array<Real, 3, 1>(f(all.wi[i], all.wo[i]));
     benchmark::DoNotOptimize(sum);
   }
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(all.count));
@@ -199,7 +199,7 @@ void draw_directions(benchmark::State& state) {
   for (double& number : numbers) number = static_cast<double>(generator() >> 11) * 0x1p-53;
   for (auto _ : state) {
     double sum = 0.0;
-    for (Eigen::Index i = 0; i < all.count; ++i)
+    for (std::size_t i = 0; i < all.count; ++i)
       sum += material.sample(all.wo[i], numbers[2 * i], numbers[2 * i + 1]).pdf;
     benchmark::DoNotOptimize(sum);
   }
