@@ -52,10 +52,10 @@ namespace gonio::design {
 ///
 /// struct crowding {
 ///   gonio::design::point_geometry points;
-///   double operator()(std::span<const std::size_t> candidates) const {
+///   double operator()(std::span<const Eigen::Index> candidates) const {
 ///     double sum = 0.0;
-///     for (const std::size_t a : candidates)
-///       for (const std::size_t b : candidates)
+///     for (const Eigen::Index a : candidates)
+///       for (const Eigen::Index b : candidates)
 ///         if (a < b) sum += 1.0 / (0.01 + gonio::angle_between(points.centre(a).wi, points.centre(b).wi));
 ///     return sum;
 ///   }
