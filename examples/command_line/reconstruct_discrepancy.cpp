@@ -31,10 +31,11 @@ std::vector<Eigen::Index> counting(const gonio::sample_set& samples) {
   return numbers;
 }
 
-/// Green, which most of the luminance is, with as many digits as are known.
+/// Three or four digits: more are not known.
 std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
-/// "sample 6 disagrees, left out: measured 2.09, the others say 0.140 (0.110 to 0.170)".
+/// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
+/// 0.140 (0.110 to 0.170)".
 std::string told(const gonio::outlying_sample& out, Eigen::Index number) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(number + 1) + " disagrees, left out: measured " + reflectance(out.measured.y()) +

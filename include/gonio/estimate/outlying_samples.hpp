@@ -56,12 +56,14 @@ struct sorted_samples {
 
 namespace detail {
 
-/// The worst first: leaves out one sample at a time, while the worst of those that are left disagrees by more than the
-/// threshold. `covariance` is that of all samples.
+/// A sample that was left out, and its disagreement over that of the bulk when it was.
 struct rejection_step {
   Eigen::Index number = 0;
   double disagreement = 0.0;
 };
+
+/// The worst first: leaves out one sample at a time, while the worst of those that are left disagrees by more than the
+/// threshold. `covariance` is that of all samples.
 [[nodiscard]] std::vector<rejection_step> reject(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
                                                  const rejection_rule& rule);
 
@@ -104,16 +106,16 @@ template <error_metric Metric>
   for (Eigen::Index i = 0; i < samples.size(); ++i)
     if (!rejected[i]) sorted.kept.push_back(i);
   for (Eigen::Index i = 0; i < std::ssize(steps); ++i) {
-    const location& at = samples.locations[steps[i].number];
-    const Eigen::Index row = i, sample = steps[i].number;
+    const Eigen::Index number = steps[i].number;
+    const location& at = samples.locations[number];
     const double offset = offset_at(estimator.prior(), at);
-    outlying_sample out{.number = steps[i].number,
-                        .measured = samples.values.row(sample).head<3>().transpose().array(),
+    outlying_sample out{.number = number,
+                        .measured = samples.values.row(number).head<3>().transpose().array(),
                         .predicted = rgb::Zero(),
-                        .deviation = others.deviation[row],
+                        .deviation = others.deviation[i],
                         .disagreement = steps[i].disagreement};
     for (Eigen::Index c = 0; c < 3; ++c)
-      out.predicted[c] = std::max(metric.inverse(others.mean(row, c) + offset, at), 0.0);
+      out.predicted[c] = std::max(metric.inverse(others.mean(i, c) + offset, at), 0.0);
     sorted.left_out.push_back(out);
   }
   return sorted;

@@ -123,7 +123,4 @@ class posterior {
   std::shared_ptr<const stored> shared_;
 };
 
-template <error_metric Metric>
-posterior(discrepancy_decomposition<Metric>, const located_samples&) -> posterior<Metric>;
-
 }  // namespace gonio
