@@ -40,8 +40,9 @@ if(count LESS 37)
   message(FATAL_ERROR "only ${count} whole programs were found in the headers")
 endif()
 file(WRITE "${SCRATCH}/documented_programs.cpp" "${directives}${programs}")
+# A `main` in a namespace returns nothing. What narrows is an error with clang, so with g++ as well.
 execute_process(
-  COMMAND "${COMPILER}" -std=c++20 -fsyntax-only -DGONIO_COMPILED ${INCLUDES} "${SCRATCH}/documented_programs.cpp"
+  COMMAND "${COMPILER}" -std=c++20 -fsyntax-only -Wno-return-type -Werror=narrowing -DGONIO_COMPILED ${INCLUDES} "${SCRATCH}/documented_programs.cpp"
   RESULT_VARIABLE status ERROR_VARIABLE answer OUTPUT_QUIET)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "a program in a header does not compile:\n${answer}")

@@ -54,7 +54,7 @@ using kernel_row = Eigen::Ref<Eigen::Array<double, 1, Eigen::Dynamic>>;
 /// int main() {
 ///   const gonio::valid_cells cells(gonio::grid({45, 15, 18}));
 ///   const gonio::rbf functions{cells, gonio::root{}, gonio::farthest_point_centres(cells, 300)};
-///   std::printf("%zu functions\n", std::size_t{functions.size()});
+///   std::printf("%td functions\n", functions.size());
 /// }
 /// ```
 /// With a model of your own, the thin plate's r^2 log r:
