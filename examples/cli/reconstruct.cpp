@@ -5,6 +5,7 @@
 #include "command_line/measurement_files.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/reconstruct_methods.hpp"
+#include "command_line/sample_warnings.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "images.hpp"
@@ -15,6 +16,7 @@
 #include <array>
 #include <charconv>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <span>
 #include <sstream>
@@ -95,13 +97,14 @@ void write_history(const std::filesystem::path& path, std::span<const gonio::cor
 }
 
 void print(const reconstruction& result, std::size_t samples, bool as_json) {
+  for (const std::string& sentence : result.warnings) std::cerr << "gonio: warning: " << sentence << '\n';
   if (as_json) {
     json all{{"samples", samples}};
     all.update(result.details);
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << result.warnings << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
+  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
             << '\n';
 }
 
@@ -125,7 +128,8 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
 
 void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
-  const reconstruction result = chosen.reconstruct(options, samples);
+  reconstruction result = chosen.reconstruct(options, samples);
+  std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);

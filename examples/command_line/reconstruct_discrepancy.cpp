@@ -40,7 +40,7 @@ std::string told(const gonio::outlying_sample& out, Eigen::Index number) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
   return "sample " + std::to_string(number + 1) + " disagrees, left out: measured " + reflectance(out.measured.y()) +
          ", the others say " + reflectance(out.predicted.y()) + " (" + reflectance(low) + " to " + reflectance(high) +
-         ", green)\n";
+         ", green)";
 }
 
 /// Of all samples that count: what was measured, what all others say, and by how much it is off.
@@ -69,14 +69,28 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
+using known_values = gonio::posterior<gonio::log_relative>;
+
 /// By how much, relative to it, a value is known with a probability of 68 %.
-double known_to(double deviation) {
-  return std::expm1(gonio::deviations_of(gonio::confidence_level::sixty_eight_percent) * deviation);
+double known_to(const known_values& known, double deviation) {
+  return std::expm1(known.deviations_of(gonio::confidence_level::sixty_eight_percent) * deviation);
 }
 
-/// "half of all directions are known to 6 %, of those beyond 80 degrees to 40 %".
-void describe(const gonio::posterior<gonio::log_relative>& known, const reconstruct_options& options,
-              reconstruction& result) {
+/// To which factor the highlight of mirror-like directions up to 70 degrees is known, with a probability of 95 %: in
+/// the median of a grid's cells.
+double highlight_factor(const known_values& known, const gonio::valid_cells& cells,
+                        const std::vector<double>& deviations) {
+  std::vector<double> highlight;
+  for (Eigen::Index cell = 0; cell < std::ssize(deviations); ++cell) {
+    const gonio::half_difference angles = cells.angles(cell);
+    if (angles.theta_h < gonio::radians(5.0) && angles.theta_d < gonio::radians(70.0))
+      highlight.push_back(deviations[cell]);
+  }
+  return std::exp(known.deviations_of(gonio::confidence_level::ninety_five_percent) * gonio::median(highlight));
+}
+
+/// "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
+void describe(const known_values& known, const reconstruct_options& options, reconstruction& result) {
   const gonio::valid_cells coarse(gonio::grid({15, 9, 12}));
   const std::vector<double> all = known.deviations(coarse, options.threads);
   std::vector<double> grazing;
@@ -85,7 +99,14 @@ void describe(const gonio::posterior<gonio::log_relative>& known, const reconstr
     const gonio::cosine_pair cosine = gonio::cosines(coarse.angles(cell));
     if (std::min(cosine.i, cosine.o) < limit) grazing.push_back(all[cell]);
   }
-  const double everywhere = known_to(gonio::median(std::vector(all))), there = known_to(gonio::median(grazing));
+  // A highlight that may be four times too bright or too dark is no result.
+  const double factor = highlight_factor(known, coarse, all);
+  result.details["highlight_known_to_factor"] = factor;
+  if (factor > 4.0)
+    result.warnings.push_back("the highlight is known to a factor of " + fixed(factor, factor < 10.0 ? 1 : 0) +
+                              " only: measure more directions whose half vector is within 5 degrees of the normal");
+  const double everywhere = known_to(known, gonio::median(std::vector(all))),
+               there = known_to(known, gonio::median(grazing));
   result.details["known_to"] = everywhere;
   result.details["known_to_beyond_80_degrees"] = there;
   result.sentence += "; half of all directions are known to " + fixed(100.0 * everywhere, 0) +
@@ -93,11 +114,11 @@ void describe(const gonio::posterior<gonio::log_relative>& known, const reconstr
 }
 
 /// The relative deviation in all directions as a table, the same in all channels.
-gonio::brdf_table uncertainty_table(const gonio::posterior<gonio::log_relative>& known, gonio::thread_count threads) {
+gonio::brdf_table uncertainty_table(const known_values& known, gonio::thread_count threads) {
   gonio::brdf_table coarse(gonio::valid_cells(gonio::grid({30, 15, 18})));
   const std::vector<double> all = known.deviations(coarse.cells(), threads);
   for (Eigen::Index cell = 0; cell < std::ssize(all); ++cell)
-    coarse.set(cell, gonio::rgb::Constant(known_to(all[cell])));
+    coarse.set(cell, gonio::rgb::Constant(known_to(known, all[cell])));
   return gonio::resample(coarse, gonio::valid_cells(), threads);
 }
 
@@ -116,18 +137,18 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
 
   // Leave out what the others contradict.
   gonio::sorted_samples sorted;
-  std::string warnings;
+  std::vector<std::string> warnings;
   json left_out = json::array();
   std::vector<bool> is_left_out(located.size(), false);
   if (looks && !options.keeps_all) sorted = gonio::reject_outlying(estimator, located);
   for (const gonio::outlying_sample& out : sorted.left_out) {
     is_left_out[out.number] = true;
-    warnings += told(out, numbers[out.number]);
+    warnings.push_back(told(out, numbers[out.number]));
     left_out.push_back({{"sample", numbers[out.number] + 1},
                         {"measured", per_channel(out.measured)},
                         {"others", per_channel(out.predicted)},
                         {"mapped_deviation", out.deviation},
-                        {"disagreement", out.disagreement}});
+                        {"probability_wrong", out.probability}});
   }
   if (!options.residuals.empty())
     write_residuals(options.residuals, prior, located,

@@ -37,7 +37,7 @@ struct reconstruction {
   gonio::brdf_table table;
   json details = json::object();  ///< what --json prints beside the number of samples
   std::string sentence{};         ///< the same for people
-  std::string warnings{};         ///< whole lines, for people
+  std::vector<std::string> warnings{};  ///< sentences, for people: on standard error
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
 };

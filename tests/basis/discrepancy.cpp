@@ -49,6 +49,18 @@ double covariance(const half_difference& a, const half_difference& b) {
 
 }  // namespace
 
+TEST_CASE("many rows at once are those read one by one") {
+  const discrepancy_functions functions(some_centres(150), 0.7);
+  const auto places = some_centres(9, 21);
+  gonio::row_matrix all(9, 150);
+  functions.read(places, all);
+  for (Eigen::Index i = 0; i < 9; ++i) {
+    const std::vector<double> row = row_of(functions, places[i]);
+    const Eigen::Map<const Eigen::RowVectorXd> one(row.data(), 150);
+    CHECK((all.row(i) - one).cwiseAbs().maxCoeff() < 1e-9 * one.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST_CASE("weights of unit variance make a discrepancy of the covariance that was asked for") {
   const auto centres = some_centres(30);
   const discrepancy_functions functions(centres, 2.5);

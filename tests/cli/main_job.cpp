@@ -90,12 +90,14 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     const std::string files = " --residuals " + at("residuals.csv") + " -o " + at("without.binary");
     const auto told = gonio_tool("reconstruct " + at("wrong.csv") + files);
     CHECK(told.exit_code == 0);
-    CHECK(told.output.starts_with("sample 6 disagrees, left out: measured "));
+    CHECK(told.output.starts_with("gonio: warning: sample 6 disagrees, left out: measured "));
     const std::string residuals = scratch::get(at("residuals.csv"));
     CHECK(std::ranges::count(residuals, '\n') == 21);
     CHECK(residuals.find("\n6,") != std::string::npos);
-    const auto fit = parse_json(gonio_tool("reconstruct --json " + at("wrong.csv")).output);
+    const std::string output = gonio_tool("reconstruct --json " + at("wrong.csv")).output;
+    const auto fit = parse_json(output.substr(output.find('{')));  // after the warning, on standard error
     REQUIRE(fit["left_out"].size() == 1);
+    CHECK(fit["left_out"][0]["probability_wrong"].get<double>() > 0.75);
     CHECK(fit["left_out"][0]["sample"] == 6);
     CHECK(fit["left_out"][0]["others"][1].get<double>() == doctest::Approx(truth).epsilon(0.3));
     CHECK(parse_json(gonio_tool("reconstruct --json " + at("samples.csv")).output)["left_out"].empty());

@@ -129,6 +129,15 @@ TEST_CASE("beyond the most centres, samples are still all heard") {
   CHECK(mapped_error(fewer.tabulate(discrepancy_cells()), truth) < 1.3 * mapped_error(all, truth));
 }
 
+TEST_CASE("of more samples than are fitted some are chosen at random") {
+  const sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 90, 5));
+  sample_set some;
+  for (const Eigen::Index i : gonio::random_choice(90, 60, 0)) some.push_back(samples[i]);
+  const auto of_all = discrepancy_decomposition{discrepancy_prior(), {.most_samples = 60}}.fit(samples);
+  const auto of_some = discrepancy_decomposition{discrepancy_prior()}.fit(some);
+  CHECK((of_all.weights() - of_some.weights()).norm() == 0.0);
+}
+
 TEST_CASE("an impossible model of a discrepancy is refused") {
   const auto refused = [](const discrepancy_model& model, std::initializer_list<std::string> words) {
     const sample_set samples = gonio::sample_table(wavy_material(), gonio::random_cells(discrepancy_cells(), 5, 5));

@@ -200,6 +200,16 @@ void read_row_at(const Basis& functions, const location& at, Row&& out) {
   }
 }
 
+/// The same at many locations, a row of `out` each: by the basis' own `read_rows` if it has one, because many rows at
+/// once cost it less.
+template <basis Basis, class Rows>
+void read_rows_at(const Basis& functions, std::span<const location> at, Rows&& out) {
+  if constexpr (requires { functions.read_rows(at, out); })
+    functions.read_rows(at, out);
+  else
+    for (Eigen::Index i = 0; i < std::ssize(at); ++i) read_row_at(functions, at[i], out.row(i));
+}
+
 /// The values of all functions at a location: size() numbers. See `read_row_at`.
 template <basis Basis>
 [[nodiscard]] Eigen::RowVectorXd row_at(const Basis& functions, const location& at) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <span>
 #include <utility>
 
 namespace gonio {
@@ -33,6 +34,12 @@ class joined {
   void read_row(const location& at, function_row out) const noexcept {
     read_row_at(first_, at, out.head(first_size()));
     read_row_at(second_, at, out.tail(out.size() - first_size()));
+  }
+
+  template <class Rows>
+  void read_rows(std::span<const location> at, Rows&& out) const {
+    read_rows_at(first_, at, out.leftCols(first_size()));
+    read_rows_at(second_, at, out.rightCols(out.cols() - first_size()));
   }
 
   [[nodiscard]] cell_fields<3> combination(const Eigen::MatrixXd& weights, thread_count threads = {}) const requires

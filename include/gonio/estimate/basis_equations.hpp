@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -83,8 +84,8 @@ least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const
   const std::shared_ptr<const located_samples> measured = measured_;
   const row_source rows{std::ssize(measured->locations), Eigen::Index(functions.size()),
                         [functions, measured](block range, row_block out) {
-                          for (Eigen::Index i = range.begin; i < range.end; ++i)
-                            read_row_at(functions, measured->locations[i], out.row(i - range.begin));
+                          const std::span<const location> all = measured->locations;
+                          read_rows_at(functions, all.subspan(range.begin, range.size()), out);
                         }};
   const Eigen::Index first = system;
   return {rows, mapped(functions, first), measured->weights_of(first), threads_};

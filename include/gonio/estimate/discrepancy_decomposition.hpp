@@ -33,6 +33,8 @@ struct discrepancy_model {
   double noise = 0.0;  ///< of the measurements, relative to them: 0.02 is 2 %
   /// Around so many measurements, chosen at random, there are functions: beside them a discrepancy is smoothed.
   Eigen::Index most_centres = 1000;
+  /// So many samples, chosen at random, are fitted: beside at most 1,100 functions more of them change little.
+  Eigen::Index most_samples = 200'000;
 };
 
 /// Fits components and discrepancy together, in one system. An `estimator`.
@@ -55,7 +57,8 @@ class discrepancy_decomposition {
       : prior_(std::move(prior)), model_(model), threads_(threads) {
     if (!(model.error_variance > 0.0 && std::isfinite(model.error_variance)))
       refuse({"the error variance beside a discrepancy must be positive and finite, not ", model.error_variance});
-    if (model.most_centres < 1) refuse("a discrepancy needs at least one centre");
+    if (model.most_centres < 1 || model.most_samples < 1)
+      refuse("a discrepancy needs at least one centre and one sample");
   }
 
   [[nodiscard]] const pca<Metric>& prior() const noexcept { return prior_; }
@@ -72,6 +75,8 @@ class discrepancy_decomposition {
 
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] fitted_brdf<basis_type> fit_located(located_samples samples) const {
+    if (samples.size() > model_.most_samples)
+      samples = samples.subset(random_choice(samples.size(), model_.most_samples, 0));
     samples.weights.array().colwise() *= model_.error_variance / error_variances(samples);
     const basis_type functions = functions_for(samples);
     const basis_equations equations(functions, std::move(samples), threads_);

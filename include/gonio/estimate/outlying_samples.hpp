@@ -32,20 +32,22 @@ struct left_out_predictions {
 
 /// A sample that was left out, for people: which of the samples that count, and the others' prediction.
 struct outlying_sample {
-  Eigen::Index number = 0;  ///< its position among the located samples
-  rgb measured;             ///< sr^-1
-  rgb predicted;            ///< sr^-1, from those that were kept
-  double deviation = 0.0;   ///< of the prediction, in the metric's domain: relative where that is a logarithm
-  double disagreement = 0;  ///< see `left_out_predictions`, over that of the bulk of the samples
+  Eigen::Index number = 0;   ///< its position among the located samples
+  rgb measured;              ///< sr^-1
+  rgb predicted;             ///< sr^-1, from those that were kept
+  double deviation = 0.0;    ///< of the prediction, in the metric's domain: relative where that is a logarithm
+  double probability = 0.0;  ///< that the sample is wrong
 };
 
-/// When a sample is left out.
+/// What is expected of wrong samples, and when one is left out. The defaults were chosen on measured materials, with
+/// two wrong of twenty and with none (docs/results/real-materials.md).
 struct rejection_rule {
-  /// Of the disagreement, over that of the bulk, for 20 samples; it grows with the root of their number, as the largest
-  /// disagreement of clean samples does on real materials (docs/results/real-materials.md).
-  double threshold = 16.0;
-  /// At most this share of the samples, and at least one.
-  double largest_share = 0.2;
+  double expected_number = 0.2;  ///< of wrong samples among all; of one sample in two at most
+  /// Standard deviations of a wrong sample's error in the metric's domain: of what its channels have in common (where
+  /// that is a logarithm, 1.7 is a factor of 5), and of each channel beside.
+  double common_error = 1.7, channel_error = 0.3;
+  double least_probability = 0.75;  ///< of being wrong, for a sample to be left out
+  double largest_share = 0.2;       ///< of the samples are left out at most, and at least one
 };
 
 /// Which of the samples that count were kept, and which were left out, the worst first.
@@ -56,16 +58,15 @@ struct sorted_samples {
 
 namespace detail {
 
-/// A sample that was left out, and its disagreement over that of the bulk when it was.
-struct rejection_step {
+struct wrong_sample {
   Eigen::Index number = 0;
-  double disagreement = 0.0;
+  double probability = 0.0;
 };
 
-/// The worst first: leaves out one sample at a time, while the worst of those that are left disagrees by more than the
-/// threshold. `covariance` is that of all samples.
-[[nodiscard]] std::vector<rejection_step> reject(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
-                                                 const rejection_rule& rule);
+/// The set of wrong samples of the largest probability that a search finds, without those below the rule's least; the
+/// most probable first. `covariance` is that of all samples.
+[[nodiscard]] std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd& covariance,
+                                                           const Eigen::MatrixXd& values, const rejection_rule& rule);
 
 /// A row of predictions for each of some samples from all others than these.
 [[nodiscard]] left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
@@ -73,10 +74,11 @@ struct rejection_step {
 
 }  // namespace detail
 
-/// Sorts samples, one after the other, by whether the rest of them, the prior and its discrepancy can explain them.
-/// Disagreements are told in units of the bulk's (their median, if it is above what is expected): where the model is
-/// poor all samples disagree a little, and none is an outlier. O(n^3 + n^2 (k + rejected n)). Throws gonio::error for
-/// more than 5,000 samples.
+/// Sorts samples by whether the rest of them, the prior and its discrepancy can explain them. A wrong sample has an
+/// error of large variance. Sets of wrong samples are compared by their probability given all samples, the scale of all
+/// variances unknown: where the model is poor all samples disagree a little, and none is an outlier. Mixtures of good
+/// and bad observations: Box and Tiao 1968 (doi:10.1093/biomet/55.1.119). O(n^3 + n^2 (k + left out)). Throws
+/// gonio::error for more than 5,000 samples.
 ///
 /// ```cpp
 /// const auto located = gonio::locate_samples(prior.cells(), samples);
@@ -92,28 +94,28 @@ template <error_metric Metric>
   const auto& metric = estimator.prior().metric();
   const Eigen::MatrixXd covariance = estimator.covariance(samples);
   const Eigen::MatrixXd values = estimator.mapped_values(samples);
-  const std::vector<detail::rejection_step> steps = detail::reject(covariance, values, rule);
+  const std::vector<detail::wrong_sample> wrong = detail::find_wrong_samples(covariance, values, rule);
 
   // Say what those that were kept make of those that were not.
   std::vector<bool> rejected(samples.size(), false);
   std::vector<Eigen::Index> numbers;
-  for (const detail::rejection_step& step : steps) {
-    rejected[step.number] = true;
-    numbers.push_back(step.number);
+  for (const detail::wrong_sample& sample : wrong) {
+    rejected[sample.number] = true;
+    numbers.push_back(sample.number);
   }
   const left_out_predictions others = detail::predict_from_others(covariance, values, numbers);
   sorted_samples sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i)
     if (!rejected[i]) sorted.kept.push_back(i);
-  for (Eigen::Index i = 0; i < std::ssize(steps); ++i) {
-    const Eigen::Index number = steps[i].number;
+  for (Eigen::Index i = 0; i < std::ssize(wrong); ++i) {
+    const Eigen::Index number = wrong[i].number;
     const location& at = samples.locations[number];
     const double offset = offset_at(estimator.prior(), at);
     outlying_sample out{.number = number,
                         .measured = samples.values.row(number).head<3>().transpose().array(),
                         .predicted = rgb::Zero(),
                         .deviation = others.deviation[i],
-                        .disagreement = steps[i].disagreement};
+                        .probability = wrong[i].probability};
     for (Eigen::Index c = 0; c < 3; ++c)
       out.predicted[c] = std::max(metric.inverse(others.mean(i, c) + offset, at), 0.0);
     sorted.left_out.push_back(out);

@@ -23,12 +23,19 @@ struct reflectance_interval {
   rgb low, high;
 };
 
-/// Probabilities that intervals are offered for, and how many deviations they reach to either side: found on measured
-/// materials, whose errors have heavier tails than normal ones.
+/// Probabilities that intervals are offered for.
 enum class confidence_level { sixty_eight_percent, ninety_five_percent };
 
-[[nodiscard]] constexpr double deviations_of(confidence_level level) noexcept {
-  return level == confidence_level::sixty_eight_percent ? 0.7 : 1.96;
+/// To how many of the model's deviations an interval reaches, given the number of samples: a curve through the
+/// conformal factors of measured materials, the quantiles of their errors in such deviations (Lee, Barber and Willett
+/// 2023, doi:10.48550/arXiv.2306.06342). With the factors of other families than its own, a material's intervals hold
+/// 67 to 68 and 94 to 95 % of its values in the mean. A promise for materials like those, in the mean over directions.
+[[nodiscard]] inline double deviations_of(confidence_level level, Eigen::Index samples) noexcept {
+  const auto n = static_cast<double>(std::max<Eigen::Index>(samples, 1));
+  const double few = std::exp(-n / 10.0);
+  // Of more than 500 samples the posterior knows 500; what the estimate gains by the others was measured to 20,000.
+  const double many = std::pow(std::clamp(500.0 / n, 1.0 / 40.0, 1.0), 1.0 / 7.0);
+  return many * (level == confidence_level::sixty_eight_percent ? 0.56 + 0.5 * few : 1.97 + 0.75 * few);
 }
 
 /// The deviations of an estimate, given where was measured and what. A value type whose copies share what they hold.
@@ -44,7 +51,9 @@ class posterior {
 
   /// O(n^2 (n + k)) for n samples and k components. Throws gonio::error for samples that cannot be.
   posterior(discrepancy_decomposition<Metric> estimator, const located_samples& samples)
-      : estimator_(std::move(estimator)), shared_(std::make_shared<const stored>(estimator_, some_of(samples))) {}
+      : estimator_(std::move(estimator)),
+        samples_(samples.size()),
+        shared_(std::make_shared<const stored>(estimator_, some_of(samples))) {}
 
   /// Of all mapped values relative to what the prior, the discrepancy and the errors were expected to be.
   [[nodiscard]] double scale() const noexcept { return shared_->scale; }
@@ -61,6 +70,11 @@ class posterior {
         row.squaredNorm() / observations + estimator_.model().variance + estimator_.model().error_variance;
     shared_->factors.solve_lower_in_place(with.data());
     return std::sqrt(shared_->scale * std::max(before - with.squaredNorm(), 0.0));
+  }
+
+  /// To how many deviations an interval reaches to either side.
+  [[nodiscard]] double deviations_of(confidence_level level) const noexcept {
+    return gonio::deviations_of(level, samples_);
   }
 
   /// Around an estimate, each channel on its own; never below zero.
@@ -120,6 +134,7 @@ class posterior {
   }
 
   discrepancy_decomposition<Metric> estimator_;
+  Eigen::Index samples_;
   std::shared_ptr<const stored> shared_;
 };
 

@@ -95,6 +95,15 @@ GONIO_INLINE void discrepancy_functions::read(const half_difference& angles, dou
   shared_->factors.solve_lower_in_place(out);
 }
 
+GONIO_INLINE void discrepancy_functions::read(std::span<const half_difference> angles, row_block out) const {
+  Eigen::MatrixXd columns(size(), std::ssize(angles));
+  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+    const Eigen::Vector4d here = detail::discrepancy_place(angles[i], shared_->lengths);
+    columns.col(i) = (-0.5 * (shared_->places.colwise() - here).colwise().squaredNorm().array()).exp().transpose();
+  }
+  out = std::sqrt(shared_->amplitude) * shared_->factors.solve_lower(columns).transpose();
+}
+
 GONIO_INLINE double discrepancy_functions::unexplained(std::span<const double> row) const noexcept {
   return std::max(shared_->amplitude - dot(row.data(), row.data(), std::ssize(row)), 0.0);
 }

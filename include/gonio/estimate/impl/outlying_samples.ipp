@@ -3,13 +3,14 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/core/statistics.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -58,42 +59,160 @@ namespace detail {
   return all;
 }
 
-/// The disagreement of the bulk: the median over what it is expected to be, at least 1. Of three independent channels
-/// the mean square of three standard normal numbers has the median 0.789.
-[[nodiscard]] inline double bulk_disagreement(const Eigen::VectorXd& disagreement) {
-  constexpr double expected_median = 0.789;
-  std::vector<double> all(disagreement.data(), disagreement.data() + disagreement.size());
-  return std::max(median(all) / expected_median, 1.0);
+/// A set of wrong samples, and the logarithm of its probability up to a constant. The mean of the three channels and
+/// their two contrasts are apart: the error of a wrong sample has other variances in these. The scale of all variances
+/// has an inverse gamma distribution of ten degrees of freedom, which makes the likelihood Student's. The channels of a
+/// material are alike: the mean of their likelihoods counts, not the product.
+class wrong_sample_set {
+ public:
+  wrong_sample_set(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values, const rejection_rule& rule)
+      : mean_{3.0 * std::pow(rule.common_error, 2) + std::pow(rule.channel_error, 2), inverse_of(covariance), {}},
+        contrasts_{std::pow(rule.channel_error, 2), mean_.inverse, {}},
+        is_wrong_(covariance.rows(), false),
+        log_odds_(log_odds_of_one(rule, covariance.rows())) {
+    const Eigen::MatrixXd dual = product(mean_.inverse, values);
+    mean_.dual = dual.rowwise().sum() / std::sqrt(3.0);
+    contrasts_.dual.resize(dual.rows(), 2);
+    contrasts_.dual.col(0) = (dual.col(0) - dual.col(1)) / std::sqrt(2.0);
+    contrasts_.dual.col(1) = (dual.col(0) + dual.col(1) - 2.0 * dual.col(2)) / std::sqrt(6.0);
+    squares_ = (dual.array() * values.array()).sum();
+  }
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return std::ranges::count(is_wrong_, true); }
+  [[nodiscard]] bool contains(Eigen::Index i) const { return is_wrong_[i]; }
+
+  /// By how much the logarithm grows if a sample changes sides. O(1).
+  [[nodiscard]] double gain(Eigen::Index i) const {
+    const double sign = is_wrong_[i] ? -1.0 : 1.0;
+    const change mean = mean_.change_by(i, sign), contrasts = contrasts_.change_by(i, sign);
+    constexpr double degrees = 10.0, channels = 3.0;
+    const auto n = static_cast<double>(is_wrong_.size());
+    const double before = degrees + squares_ / channels;
+    const double after = before - (mean.squares + contrasts.squares) / channels;
+    return -0.5 * (degrees + n) * std::log(after / before) -
+           0.5 * (mean.log_determinant + contrasts.log_determinant) / channels + sign * log_odds_;
+  }
+
+  /// That a sample of the set is wrong, if all others are as the set says.
+  [[nodiscard]] double probability(Eigen::Index i) const { return 1.0 / (1.0 + std::exp(gain(i))); }
+
+  /// Moves a sample to the other side. O(n^2).
+  void change_side(Eigen::Index i) {
+    const double sign = is_wrong_[i] ? -1.0 : 1.0;
+    squares_ -= mean_.change_by(i, sign).squares + contrasts_.change_by(i, sign).squares;
+    mean_.update(i, sign);
+    contrasts_.update(i, sign);
+    is_wrong_[i] = !is_wrong_[i];
+  }
+
+  /// The sample of the largest gain, of those that may change sides.
+  [[nodiscard]] Eigen::Index best_change(bool may_grow) const {
+    Eigen::Index best = -1;
+    for (Eigen::Index i = 0; i < std::ssize(is_wrong_); ++i)
+      if ((may_grow || is_wrong_[i]) && (best < 0 || gain(i) > gain(best))) best = i;
+    return best;
+  }
+
+ private:
+  [[nodiscard]] static double log_odds_of_one(const rejection_rule& rule, Eigen::Index samples) {
+    const double probability = std::min(rule.expected_number / static_cast<double>(samples), 0.5);
+    return std::log(probability / (1.0 - probability));
+  }
+
+  struct change {
+    double squares, log_determinant;
+  };
+
+  /// Channels that are treated alike: the inverse of their covariance, and that times their values.
+  struct channel_group {
+    double error_variance;
+    Eigen::MatrixXd inverse, dual;
+
+    /// The matrix determinant lemma, for the covariance with or without a sample's error variance.
+    [[nodiscard]] change change_by(Eigen::Index i, double sign) const {
+      const double error = sign * error_variance, growth = 1.0 + error * inverse(i, i);
+      return {error * dual.row(i).squaredNorm() / growth, static_cast<double>(dual.cols()) * std::log(growth)};
+    }
+
+    /// The formula of Sherman and Morrison.
+    void update(Eigen::Index i, double sign) {
+      const double error = sign * error_variance;
+      const Eigen::VectorXd column = inverse.col(i);
+      const Eigen::VectorXd scaled = error / (1.0 + error * column[i]) * column;
+      for (Eigen::Index c = 0; c < dual.cols(); ++c) dual.col(c) -= dual(i, c) * scaled;
+      for (Eigen::Index j = 0; j < inverse.cols(); ++j) inverse.col(j) -= column[j] * scaled;
+    }
+  };
+
+  channel_group mean_, contrasts_;
+  std::vector<bool> is_wrong_;
+  double squares_ = 0.0, log_odds_;
+};
+
+/// Adds the pair of samples whose gain is the largest, if it is positive: two wrong samples may hide each other.
+[[nodiscard]] inline bool add_pair(wrong_sample_set& wrong, Eigen::Index samples) {
+  constexpr Eigen::Index candidates = 12;
+  std::vector<Eigen::Index> first = numbers_up_to(samples);
+  std::erase_if(first, [&](Eigen::Index i) { return wrong.contains(i); });
+  std::ranges::stable_sort(first, std::greater{}, [&](Eigen::Index i) { return wrong.gain(i); });
+  double best_gain = 0.0;
+  std::array<Eigen::Index, 2> best{};
+  for (Eigen::Index i = 0; i < std::min(candidates, std::ssize(first)); ++i) {
+    wrong_sample_set with = wrong;
+    with.change_side(first[i]);
+    const Eigen::Index second = with.best_change(true);
+    const double gain = wrong.gain(first[i]) + with.gain(second);
+    if (second == first[i] || with.contains(second) || !(gain > best_gain)) continue;
+    best_gain = gain;
+    best = {first[i], second};
+  }
+  if (!(best_gain > 0.0)) return false;
+  for (const Eigen::Index i : best) wrong.change_side(i);
+  return true;
 }
 
-GONIO_INLINE std::vector<rejection_step> reject(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
-                                                const rejection_rule& rule) {
-  if (!(rule.threshold > 0.0) || !(rule.largest_share >= 0.0 && rule.largest_share < 1.0))
-    refuse({"the rule by which samples are left out needs a positive threshold and a share from 0 up to 1, not ",
-            rule.threshold, " and ", rule.largest_share});
-  std::vector<Eigen::Index> kept = numbers_up_to(covariance.rows());
-  const std::vector<Eigen::Index> channels = numbers_up_to(values.cols());
-  const auto most =
-      std::max<Eigen::Index>(static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(kept.size())), 1);
-  const double threshold = rule.threshold * std::sqrt(std::max(static_cast<double>(kept.size()) / 20.0, 1.0));
-  Eigen::MatrixXd inverse = inverse_of(covariance);
-  std::vector<rejection_step> steps;
-  while (std::ssize(steps) < most && kept.size() > 2) {
-    const Eigen::VectorXd disagreement = predict_by_inverse(inverse, part_of(values, kept, channels)).disagreement();
-    Eigen::Index worst = 0;
-    const double largest = disagreement.maxCoeff(&worst) / bulk_disagreement(disagreement);
-    if (!(largest > threshold)) break;
-    steps.push_back({kept[worst], largest});
-    // The inverse of the covariance without a row and column is the Schur complement of the whole inverse.
-    std::vector<Eigen::Index> others = numbers_up_to(inverse.rows());
-    others.erase(others.begin() + worst);
-    const Eigen::VectorXd scaled = inverse.col(worst) / inverse(worst, worst);
-    for (Eigen::Index j = 0; j < inverse.cols(); ++j)
-      if (j != worst) inverse.col(j) -= inverse(worst, j) * scaled;
-    inverse = part_of(inverse, others, others);
-    kept.erase(kept.begin() + worst);
+inline void require_possible(const rejection_rule& rule) {
+  if (!(rule.least_probability > 0.0 && rule.least_probability < 1.0) ||
+      !(rule.largest_share >= 0.0 && rule.largest_share < 1.0))
+    refuse({"the rule by which samples are left out needs a probability and a share below 1, not ",
+            rule.least_probability, " and ", rule.largest_share});
+  if (!(rule.expected_number > 0.0 && std::isfinite(rule.expected_number)))
+    refuse({"the expected number of wrong samples must be positive and finite, not ", rule.expected_number});
+  if (!(rule.common_error > 0.0 && std::isfinite(rule.common_error)) ||
+      !(rule.channel_error > 0.0 && std::isfinite(rule.channel_error)))
+    refuse({"the errors of wrong samples need positive and finite deviations, not ", rule.common_error, " and ",
+            rule.channel_error});
+}
+
+GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd& covariance,
+                                                          const Eigen::MatrixXd& values, const rejection_rule& rule) {
+  require_possible(rule);
+  const Eigen::Index n = covariance.rows();
+  if (n < 3) return {};
+  const auto most = std::max<Eigen::Index>(static_cast<Eigen::Index>(rule.largest_share * static_cast<double>(n)), 1);
+  wrong_sample_set wrong(covariance, values, rule);
+  // Change sides while that makes the set more probable; in pairs where no single change does.
+  for (bool improves = true; improves;) {
+    const Eigen::Index i = wrong.best_change(wrong.size() < most);
+    improves = i >= 0 && wrong.gain(i) > 0.0;
+    if (improves)
+      wrong.change_side(i);
+    else if (wrong.size() + 2 <= most)
+      improves = add_pair(wrong, n);
   }
-  return steps;
+  // Keep the samples about which there is doubt, the most doubtful first.
+  std::vector<Eigen::Index> members = numbers_up_to(n);
+  std::erase_if(members, [&](Eigen::Index i) { return !wrong.contains(i); });
+  while (!members.empty()) {
+    const auto doubtful = std::ranges::min_element(members, {}, [&](Eigen::Index i) { return wrong.probability(i); });
+    if (wrong.probability(*doubtful) >= rule.least_probability) break;
+    wrong.change_side(*doubtful);
+    members.erase(doubtful);
+  }
+  std::vector<wrong_sample> found;
+  for (const Eigen::Index i : members) found.push_back({i, wrong.probability(i)});
+  std::ranges::stable_sort(found, std::greater{}, &wrong_sample::probability);
+  return found;
 }
 
 GONIO_INLINE left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,

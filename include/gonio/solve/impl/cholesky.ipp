@@ -3,10 +3,12 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/product.hpp>
 #include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gonio {
@@ -25,8 +27,7 @@ GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_defi
   positive_definite_ = in_place.info() == Eigen::Success;
 }
 
-// Substitution column by column rather than Eigen's, which generates a blocked kernel for each triangle: there are few
-// right-hand sides as a rule, and one at a time reads L once.
+// Substitution by our own loops rather than Eigen's, which generates a blocked kernel for each triangle.
 
 GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
   const Eigen::Index k = lower_.rows();
@@ -37,8 +38,21 @@ GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
 }
 
 GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
+  // Solve for some unknowns of all columns, then take them from the other equations by a matrix product.
+  constexpr Eigen::Index panel = 64;
+  const Eigen::Index k = lower_.rows();
   Eigen::MatrixXd x = b;
-  for (Eigen::Index column = 0; column < x.cols(); ++column) solve_lower_in_place(x.data() + column * x.rows());
+  for (Eigen::Index begin = 0; begin < k; begin += panel) {
+    const Eigen::Index end = std::min(begin + panel, k);
+    for (Eigen::Index column = 0; column < x.cols(); ++column)
+      for (Eigen::Index j = begin; j < end; ++j) {
+        const double known = x(j, column) /= lower_(j, j);
+        add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, end - j - 1);
+      }
+    if (end < k)
+      x.bottomRows(k - end) -=
+          product(lower_.block(end, begin, k - end, end - begin), x.middleRows(begin, end - begin));
+  }
   return x;
 }
 
