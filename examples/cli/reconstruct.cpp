@@ -9,6 +9,7 @@
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "images.hpp"
+#include "uncertainty_image.hpp"
 #include <gonio/core/finite.hpp>
 #include <gonio/io/file.hpp>
 
@@ -40,8 +41,8 @@ const std::vector<method>& methods() {
        "principal components (Nielsen et al. 2015)",
        reconstruct_by_components,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
-        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject",
-        "--residuals"}},  // refuses some of them itself, and says why
+        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
+        "--uncertainty-image"}},  // refuses some of them itself, and says why
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,
@@ -104,8 +105,7 @@ void print(const reconstruction& result, std::size_t samples, bool as_json) {
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
-            << '\n';
+  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
 }
 
 void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
@@ -133,6 +133,10 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);
+  if (!options.uncertainty.empty()) write_table(options.uncertainty, *result.uncertainty);
+  if (!options.uncertainty_image.empty())
+    gonio::io::write_png(options.uncertainty_image,
+                         uncertainty_image(result.table, *result.uncertainty, how.size, options.threads));
   if (!options.history.empty()) write_history(options.history, result.history);
   if (result.iteration_figure) {
     gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
@@ -201,6 +205,9 @@ void add_reconstruct(command& app) {
                      "What all other samples say of each sample, to write (.csv)");
   command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
                      "Table to write of how well each direction is known: 0.06 is to 6 % in 68 of 100 cases");
+  command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
+                     "Image of a sphere to write (.png), coloured by how well its brightness is known: blue to 1 %, "
+                     "cyan to 5 %, yellow to 22 %, red to 100 % and worse");
   // Declare the corrections.
   add_correction_options(command, *options);
   command

@@ -1,7 +1,6 @@
 /// gonio reconstruct --method pca: components and a discrepancy, and samples that the others contradict.
 
 #include "fixed.hpp"
-#include "measurement_files.hpp"
 #include "measures_as_json.hpp"
 #include "reconstruct_methods.hpp"
 #include <gonio/core/statistics.hpp>
@@ -169,7 +168,8 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   result.warnings = std::move(warnings);
   const gonio::posterior known(estimator, located);
   describe(known, options, result);
-  if (!options.uncertainty.empty()) write_table(options.uncertainty, uncertainty_table(known, options.threads));
+  if (!options.uncertainty.empty() || !options.uncertainty_image.empty())
+    result.uncertainty = uncertainty_table(known, options.threads);
   return result;
 }
 

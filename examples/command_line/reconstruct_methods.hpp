@@ -23,7 +23,7 @@ struct reconstruct_options {
   std::optional<double> noise;
   double discrepancy = 0.02;
   bool keeps_all = false;
-  std::filesystem::path residuals, uncertainty;
+  std::filesystem::path residuals, uncertainty, uncertainty_image;
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;
@@ -38,6 +38,7 @@ struct reconstruction {
   json details = json::object();  ///< what --json prints beside the number of samples
   std::string sentence{};         ///< the same for people
   std::vector<std::string> warnings{};  ///< sentences, for people: on standard error
+  std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
 };

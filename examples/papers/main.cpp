@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
   papers::add_model_recovery(app);
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
+  papers::add_measured_intervals(app);
   papers::add_real_materials(app);
   papers::add_run(app);
   return app.run(argc, argv);

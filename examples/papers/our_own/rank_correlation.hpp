@@ -1,0 +1,31 @@
+#pragma once
+/// Do two figures of the same things grow together?
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace papers {
+
+/// The rank of each value, from 0.
+[[nodiscard]] inline Eigen::ArrayXd ranks_of(std::span<const double> values) {
+  std::vector<Eigen::Index> order(values.size());
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return values[i]; });
+  Eigen::ArrayXd ranks(std::ssize(values));
+  for (Eigen::Index rank = 0; rank < ranks.size(); ++rank) ranks[order[rank]] = static_cast<double>(rank);
+  return ranks;
+}
+
+/// Spearman's rank correlation of two figures of at least two things: 1 if the one grows with the other, 0 if it says
+/// nothing of it. Ties keep their order.
+[[nodiscard]] inline double rank_correlation(std::span<const double> a, std::span<const double> b) {
+  const Eigen::ArrayXd left = ranks_of(a) - 0.5 * static_cast<double>(a.size() - 1);
+  const Eigen::ArrayXd right = ranks_of(b) - 0.5 * static_cast<double>(b.size() - 1);
+  return (left * right).sum() / left.square().sum();
+}
+
+}  // namespace papers
