@@ -87,8 +87,7 @@ least_squares_problem basis_equations<Basis>::problem(Eigen::Index system) const
                           const std::span<const location> all = measured->locations;
                           read_rows_at(functions, all.subspan(range.begin, range.size()), out);
                         }};
-  const Eigen::Index first = system;
-  return {rows, mapped(functions, first), measured->weights_of(first), threads_};
+  return {rows, mapped(functions, system), measured->weights_of(system), threads_};
 }
 
 template <colour_basis Basis>

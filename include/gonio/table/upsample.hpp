@@ -87,14 +87,13 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
               thread_count threads = {}) {
   const grid& source = from.grid();
   const grid& target = to.grid();
-  const auto index = [](int i) { return i; };
-  const Eigen::Index theta_d_count = index(target.extents().theta_d), phi_d_count = index(target.extents().phi_d);
+  const Eigen::Index theta_d_count = target.extents().theta_d, phi_d_count = target.extents().phi_d;
   const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields);
   const detail::phi_d_nodes nodes(source, target);
 
   // Visit the target's rows in parallel.
   for_each_block(
-      index(target.extents().theta_h) * theta_d_count, theta_d_count,
+      target.extents().theta_h * theta_d_count, theta_d_count,
       [&](block range) {
         cell_fields<Fields> line(Fields, source.extents().phi_d), values(Fields, target.extents().phi_d);
         std::vector<int> phi_d(phi_d_count);
