@@ -56,14 +56,6 @@ struct check_result {
   bool conforms = true;
 };
 
-/// Two estimates of one noise, pooled.
-gonio::measurement_noise pooled(const gonio::measurement_noise& a, const gonio::measurement_noise& b) {
-  const double freedom = a.degrees_of_freedom + b.degrees_of_freedom;
-  const double squares =
-      a.degrees_of_freedom * a.relative * a.relative + b.degrees_of_freedom * b.relative * b.relative;
-  return {.relative = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0, .degrees_of_freedom = freedom};
-}
-
 /// The noise as it is stated, or as repeated measurements tell.
 gonio::conformity_options options_of(const check_options& given, const gonio::log_relative& metric,
                                      const measured_surface& part, const measured_surface& reference) {
@@ -74,8 +66,8 @@ gonio::conformity_options options_of(const check_options& given, const gonio::lo
     options.reference.relative = given.reference_noise.value_or(*given.noise);
   } else {
     if (given.reference_noise) gonio::refuse("--reference-noise needs --noise");
-    options.part = options.reference = pooled(gonio::noise_of_repeats(metric, part.located, options),
-                                              gonio::noise_of_repeats(metric, reference.located, options));
+    options.part = options.reference = gonio::pooled_noise(gonio::noise_of_repeats(metric, part.located, options),
+                                                           gonio::noise_of_repeats(metric, reference.located, options));
     if (options.part.degrees_of_freedom == 0.0)
       gonio::refuse(
           "check needs --noise, the relative deviation of the measurements (0.02 is 2 %), or directions that " +

@@ -8,9 +8,12 @@
 #include <gonio/io/networks.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/table/material_set.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -18,6 +21,22 @@ namespace papers {
 
 /// Materials of one maker: names before the first underscore are alike.
 inline std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
+
+/// Values of a function of a direction_pair in some directions, each channel with noise relative to it.
+template <class Reflectance>
+[[nodiscard]] gonio::sample_set measure(const Reflectance& reflectance,
+                                        const std::vector<gonio::half_difference>& directions, double noise,
+                                        std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  gonio::sample_set samples;
+  for (const gonio::half_difference& angles : directions) {
+    gonio::rgb value = reflectance(gonio::to_directions(angles));
+    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
+    samples.push_back({angles, value, 1.0});
+  }
+  return samples;
+}
 
 /// Materials that are judged, or learned from, as tables.
 class material_library {

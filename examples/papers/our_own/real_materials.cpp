@@ -83,20 +83,6 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   return all;
 }
 
-/// Values in some directions, each channel with noise relative to it.
-gonio::sample_set measure(const judged_material& material, const std::vector<gonio::half_difference>& directions,
-                          double noise, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  gonio::sample_set samples;
-  for (const gonio::half_difference& angles : directions) {
-    gonio::rgb value = material.measured(gonio::to_directions(angles));
-    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
-    samples.push_back({angles, value, 1.0});
-  }
-  return samples;
-}
-
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
 std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
@@ -228,7 +214,7 @@ class experiment {
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       const std::uint64_t seed = 1000 * material.number + r;
-      gonio::sample_set samples = measure(material, where.sets[r], given_.noise, seed);
+      gonio::sample_set samples = measure(material.measured, where.sets[r], given_.noise, seed);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
       const estimated found = estimate(method, samples, material);
       const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);

@@ -78,7 +78,9 @@ struct conformity {
 struct familiarity {
   /// y' K^-1 y / n of n samples, the mean over channels: about 1 for the materials of the prior.
   double scale = 1.0;
-  double p_value = 1.0;  ///< chi-square of n degrees of freedom: channels are taken to be fully correlated
+  /// F of n and 4 degrees of freedom: channels are taken to be fully correlated, and materials to differ in scale as
+  /// those of docs/results/conformity.md do.
+  double p_value = 1.0;
   /// Of y' K^-1 y: m |c|^2 of the components, the discrepancy's part, and that of the errors; together 1.
   double components = 0.0, discrepancy = 0.0, errors = 0.0;
 };
@@ -208,6 +210,9 @@ template <error_metric Metric>
   return {.relative = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0, .degrees_of_freedom = freedom};
 }
 
+/// Two estimates of the same noise as one, each with as much weight as it has degrees of freedom.
+[[nodiscard]] measurement_noise pooled_noise(const measurement_noise& a, const measurement_noise& b);
+
 /// Are these samples of a material like those that a prior was learned from? Noise is that of the estimator's model.
 /// O(n^2 (n + k)). Throws gonio::error if the covariance of the samples is not positive definite.
 template <error_metric Metric>
@@ -231,7 +236,7 @@ template <error_metric Metric>
   const double discrepancy = estimator.model().variance * product(smooth, dual).cwiseProduct(dual).sum();
   const auto channels = static_cast<double>(values.cols());
   return {.scale = all / channels / static_cast<double>(n),
-          .p_value = chi_square_tail(all / channels, static_cast<double>(n)),
+          .p_value = f_tail(all / channels / static_cast<double>(n), static_cast<double>(n), 4.0),
           .components = all > 0.0 ? components / all : 0.0,
           .discrepancy = all > 0.0 ? discrepancy / all : 0.0,
           .errors = all > 0.0 ? 1.0 - (components + discrepancy) / all : 1.0};

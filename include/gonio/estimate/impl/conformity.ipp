@@ -270,3 +270,14 @@ GONIO_INLINE conformity compare_samples(conformity_samples samples, const confor
 }
 
 }  // namespace gonio::detail
+
+namespace gonio {
+
+GONIO_INLINE measurement_noise pooled_noise(const measurement_noise& a, const measurement_noise& b) {
+  const double freedom = a.degrees_of_freedom + b.degrees_of_freedom;
+  const double squares =
+      a.degrees_of_freedom * a.relative * a.relative + b.degrees_of_freedom * b.relative * b.relative;
+  return {.relative = freedom > 0.0 ? std::sqrt(squares / freedom) : 0.0, .degrees_of_freedom = freedom};
+}
+
+}  // namespace gonio
