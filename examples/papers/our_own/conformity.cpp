@@ -6,6 +6,7 @@
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/colour_shift.hpp"
 #include "papers/our_own/detection_rates.hpp"
 #include "papers/our_own/families_left_out.hpp"
 #include <gonio/basis/learn_pca.hpp>
@@ -16,7 +17,6 @@
 #include <gonio/evaluate/simulated_measurement.hpp>
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -55,21 +55,6 @@ struct known_surface {
 };
 
 constexpr std::array shift_names{"lighter", "redder", "bluer"};
-
-/// A factor for the channels by which a table looks so much different, by the secant method.
-gonio::rgb factor_of(const gonio::appearance_metric& judge, const gonio::brdf_table& table, const gonio::rgb& towards,
-                     double wanted, gonio::thread_count threads) {
-  const gonio::appearance seen = judge.look(table, threads);
-  double step = 0.02 * wanted;
-  for (int round = 0; round < 6; ++round) {
-    gonio::brdf_table shifted = table;
-    for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
-      shifted.set(cell, table.at(cell) * (1.0 + step * towards));
-    const double found = gonio::appearance_metric::difference(judge.look(shifted, threads), seen).environment;
-    step *= std::clamp(wanted / std::max(found, 1e-6), 0.2, 5.0);
-  }
-  return 1.0 + step * towards;
-}
 
 class conformity_experiment {
  public:
@@ -359,7 +344,6 @@ void conformity_experiment::print_other_directions() const {
 }
 
 void conformity_experiment::print_familiarity() const {
-  const auto median_of = [](std::vector<double> values) { return gonio::median(values); };
   std::cout << "\nIs it a known material? By a prior that has not seen its family, by one that has, and of values in "
                "another order.\n\n| directions | material | p below 1 %, per cent | scale, median | of it components, "
                "median, per cent |\n|---|---|---|---|---|\n";
@@ -367,8 +351,8 @@ void conformity_experiment::print_familiarity() const {
     for (const char* what : {"seen", "unseen", "shuffled"}) {
       const std::string row = std::to_string(count) + what;
       std::cout << "| " << count << " | " << what << " | " << percent(p_values::below(results_.all(row), 0.01)) << " | "
-                << fixed(median_of(results_.all(row + " scale")), 2) << " | "
-                << fixed(100.0 * median_of(results_.all(row + " components")), 0) << " |\n";
+                << fixed(gonio::median(results_.all(row + " scale")), 2) << " | "
+                << fixed(100.0 * gonio::median(results_.all(row + " components")), 0) << " |\n";
     }
 }
 

@@ -51,7 +51,7 @@ class p_values {
   const auto n = static_cast<double>(values.size());
   const double share = p_values::below(values, level), centre = (share + 0.5 * z * z / n) / (1.0 + z * z / n);
   const double reach = z / (1.0 + z * z / n) * std::sqrt(share * (1.0 - share) / n + 0.25 * z * z / (n * n));
-  return fixed(100.0 * share, 2) + " (" + fixed(100.0 * (centre - reach), 2) + " to " +
+  return fixed(100.0 * share, 2) + " (" + fixed(100.0 * std::max(centre - reach, 0.0), 2) + " to " +
          fixed(100.0 * (centre + reach), 2) + ")";
 }
 

@@ -124,10 +124,8 @@ struct difference_operator {
   return all;
 }
 
-/// The least (r - x)' M (r - x) of all x that are off zero by no more than the tolerance, M positive semidefinite:
-/// coordinate descent, which ends where no x moves by a relative 1e-9 any more.
-[[nodiscard]] inline double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
-                                         const Eigen::VectorXd& tolerance) {
+GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& residuals,
+                                 const Eigen::VectorXd& tolerance) {
   Eigen::VectorXd gradient = product(matrix, residuals), left = residuals;
   if (tolerance.maxCoeff() == 0.0) return left.dot(gradient);
   constexpr int most_sweeps = 2000;
