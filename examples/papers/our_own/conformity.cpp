@@ -33,7 +33,7 @@ struct conformity_experiment_options {
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 20}, random{5, 20, 100};
   std::vector<double> noise{0.01, 0.02, 0.05};
-  Eigen::Index components = 100, repetitions = 200;
+  Eigen::Index components = 100, repetitions = 100;
   thinning thin{{3, 5}};
   gonio::thread_count threads;
 };

@@ -114,14 +114,20 @@ void require_possible(const conformity_options& options);
 [[nodiscard]] std::vector<Eigen::Index> same_directions(const std::vector<location>& locations,
                                                         const half_difference& place, double limit);
 
-/// The standard deviation of a mapped value. Where the map flattens, near zero, at least half of the relative noise:
-/// differences that are invisible there are no evidence.
+/// The standard deviation of a value's noise, mapped.
+template <error_metric Metric>
+[[nodiscard]] double mapped_noise_of(const Metric& metric, double value, const location& at,
+                                     const measurement_noise& noise) {
+  const double centre = std::max(value, 0.0), reach = std::hypot(noise.relative * centre, noise.dark);
+  return 0.5 * (metric.forward(centre + reach, at) - metric.forward(std::max(centre - reach, 0.0), at));
+}
+
+/// The same; but where the map flattens, near zero, at least half of the relative noise: differences that are invisible
+/// there are no evidence.
 template <error_metric Metric>
 [[nodiscard]] double mapped_deviation(const Metric& metric, double value, const location& at,
                                       const measurement_noise& noise) {
-  const double centre = std::max(value, 0.0), reach = std::hypot(noise.relative * centre, noise.dark);
-  const double mapped = 0.5 * (metric.forward(centre + reach, at) - metric.forward(std::max(centre - reach, 0.0), at));
-  return std::max(mapped, 0.5 * noise.relative);
+  return std::max(mapped_noise_of(metric, value, at, noise), 0.5 * noise.relative);
 }
 
 }  // namespace detail
@@ -130,12 +136,13 @@ template <error_metric Metric>
 /// known from others; where all directions are shared they do not matter. Its noise is not used.
 ///
 /// If part and reference reflect alike (within the tolerance) and have the stated noise, `conforms(a)` is false with a
-/// probability of at most a: exactly so where all directions are shared, as measured in docs/results/conformity.md
-/// where they are predicted. With a tolerance each statistic is the least that any allowed difference leaves.
+/// probability of at most a where all directions are shared. Where they are predicted, that was found of the mean of
+/// measured materials, not of each: docs/results/conformity.md. Noise that channels or directions have in common, as of
+/// a lamp that drifts, is not counted: a tolerance allows for it. With a tolerance each statistic is the least that any
+/// allowed difference leaves. Negative values count as zero; where noise makes them, only dark noise explains them.
 ///
-/// O((n + r)^2 k + r^3 + n^3). Throws gonio::error for impossible options, for negative values without dark noise, for
-/// a part without noise, for repeated directions of a noiseless reference, and beyond 500 samples of the part or 2,000
-/// of both.
+/// O((n + r)^2 k + r^3 + n^3). Throws gonio::error for impossible options, for a part without noise, and beyond 500
+/// samples of the part or 2,000 of both.
 ///
 /// ```cpp
 /// const gonio::discrepancy_decomposition estimator{prior};
@@ -205,10 +212,11 @@ template <error_metric Metric>
         mean += metric.forward(samples.values(j, c), at) / static_cast<double>(same.size());
         value += samples.values(j, c) / static_cast<double>(same.size());
       }
-      // In units of what noise of 1 % becomes there.
-      const double unit = 100.0 * detail::mapped_deviation(metric, value, at, {.relative = 0.01});
+      // In units of what noise of 1 % becomes there. Values near zero, whose noise is another, say nothing of it.
+      const double mapped = detail::mapped_noise_of(metric, value, at, {.relative = 0.01});
+      if (!(mapped > 0.005)) continue;
       for (const Eigen::Index j : same)
-        squares += std::pow((metric.forward(samples.values(j, c), at) - mean) / unit, 2);
+        squares += std::pow(0.01 * (metric.forward(samples.values(j, c), at) - mean) / mapped, 2);
       freedom += static_cast<double>(same.size()) - 1.0;
     }
   }

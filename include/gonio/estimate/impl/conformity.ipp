@@ -94,12 +94,12 @@ struct difference_operator {
   }
   if (!found.predicts) return found;
 
-  // Predict from all of the reference.
+  // Predict from all of the reference. Its noise is at least 0.1 %, so that it may be repeated in a direction.
   Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
-  among.diagonal() += samples.noise.bottomRows(r).rowwise().mean();
+  among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
   const cholesky factors(among);
   if (!factors.positive_definite())
-    refuse("a reference that is repeated in a direction needs noise: its covariance is not positive definite");
+    refuse("the covariance of the reference is not positive definite");
   found.channels = channel_covariance(factors.solve_lower(samples.mapped.bottomRows(r)));
   const Eigen::MatrixXd weights = factors.solve(samples.covariance.bottomLeftCorner(r, n));
   for (Eigen::Index i = 0; i < n; ++i)
@@ -188,9 +188,9 @@ struct freedoms {
 
   freedoms(double noise, Eigen::Index r, bool predicts) : measured(noise), shift(noise), total(noise) {
     const auto samples = static_cast<double>(r);
-    direction = std::min({noise, std::sqrt(samples), 5.0});
+    direction = std::min({noise, std::sqrt(samples), 4.0});
     if (!predicts) return;
-    shift = std::min(noise, 0.5 * samples);
+    shift = std::min(noise, samples / 3.0);
     total = std::min(noise, std::sqrt(samples));
   }
 };
