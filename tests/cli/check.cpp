@@ -83,7 +83,9 @@ TEST_CASE("gonio check: repeats tell the noise, and other directions are predict
   const std::string turned = files.write("turned.csv", 4, gonio::rgb::Ones(), 1, 0.02);
   check_says(turned + " --noise 0.02 --reference " + good, 0,
              {"6 of 6 directions are not in the reference, which predicts them", "the reference predicts "});
-  check_says(turned + " --noise 0.02 --same-within 3 --reference " + good, 0, {"the reference says "});
+  const std::string nudged = files.write("nudged.csv", 5, gonio::rgb::Ones(), 1, 0.0005);
+  check_says(nudged + " --noise 0.02 --reference " + good, 0, {"the reference predicts "});
+  check_says(nudged + " --noise 0.02 --same-within 0.1 --reference " + good, 0, {"the reference says "});
 }
 
 TEST_CASE("gonio check: what is wrong is exit code 2, and a sentence") {
