@@ -306,6 +306,12 @@ TEST_CASE("impossible options and samples are refused") {
       {"at least one sample"});
 }
 
+TEST_CASE("repeats are sought among few samples") {
+  const auto many = noisy(checked_material(), std::vector<Eigen::Index>(5001, 77), 0.0, 0);
+  scratch::check_refused([&] { return gonio::noise_of_repeats(conformity_estimator().prior().metric(), many); },
+                         {"at most 5000", "5001"});
+}
+
 TEST_CASE("a noiseless reference predicts, even if it is repeated in a direction") {
   const auto part = noisy(checked_material(), {300}, 0.0, 0);
   const auto by = [&](const std::vector<Eigen::Index>& cells) {

@@ -2,8 +2,8 @@
 /// Does a part reflect like a reference? Both are measured in a few directions, the same or others.
 /// In a direction that both have, the mapped values differ by their noise alone: a chi-square statistic (F if the noise
 /// was estimated). In any other direction the reference predicts the part, by the prior and its discrepancy: Rasmussen
-/// and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24; the covariance of three channels is
-/// learned as in Anderson, "An Introduction to Multivariate Statistical Analysis", 3rd ed. 2003, section 7.7.
+/// and Williams, "Gaussian Processes for Machine Learning", 2006, Eq. 2.23-2.24. The covariance of its channels is
+/// learned from the reference, as `posterior` learns its scale.
 /// How often it is wrong on measured materials: docs/results/conformity.md.
 
 #include <gonio/core/probability.hpp>
@@ -92,8 +92,8 @@ struct conformity_samples {
   Eigen::Index parts = 0;
   std::vector<half_difference> angles;
   Eigen::MatrixXd mapped;      ///< less the prior's mean, N x 3
-  Eigen::MatrixXd covariance;  ///< of the reflectance by the model, for one channel, N x N; its diagonal has
-  double independent = 0.0;    ///< this, which is independent in each direction
+  Eigen::MatrixXd covariance;  ///< of the mapped reflectance by the model, for one channel, N x N
+  double independent = 0.0;    ///< of its diagonal: what is independent in each direction
   Eigen::MatrixXd noise;       ///< variances of the measurements, N x 3
   Eigen::MatrixXd tolerance;   ///< of the part's mapped values, parts x 3
 };
@@ -195,11 +195,14 @@ template <error_metric Metric>
 }
 
 /// The noise of samples that were measured more than once in a direction, from how they differ there: pooled over
-/// channels and directions, its degrees of freedom 0 if there is no such direction. Throws gonio::error as
-/// `check_conformity` does. O(n^2).
+/// channels and directions, its degrees of freedom 0 if there is no such direction. Values near zero are left out.
+/// O(n^2). Throws gonio::error for more than 5,000 samples.
 template <error_metric Metric>
 [[nodiscard]] measurement_noise noise_of_repeats(const Metric& metric, const located_samples& samples,
                                                  const conformity_options& options = {}) {
+  constexpr Eigen::Index most_samples = 5000;
+  if (samples.size() > most_samples)
+    refuse({"noise is told by repeats of at most ", most_samples, " samples, not of ", samples.size()});
   double squares = 0.0, freedom = 0.0;
   for (Eigen::Index i = 0; i < samples.size(); ++i) {
     const auto same = detail::same_directions(samples.locations, samples.locations[i].angles, options.same_direction);

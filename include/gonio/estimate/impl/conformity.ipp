@@ -67,8 +67,8 @@ struct difference_operator {
   bool predicts = false;
 };
 
-/// How the channels of the reference vary together relative to what the model expects of one of them: the mean of an
-/// inverse Wishart distribution. Ten measurements are what is known before, by materials of many colours.
+/// How the channels of the reference vary together, relative to what the model expects of one of them. Ten measurements
+/// are what is known before, as in `posterior`, of channels that are correlated as those of most materials.
 [[nodiscard]] inline Eigen::Matrix3d channel_covariance(const Eigen::MatrixXd& whitened) {
   constexpr double before = 10.0, correlation = 0.9;
   Eigen::Matrix3d known = Eigen::Matrix3d::Constant(correlation);
@@ -98,8 +98,7 @@ struct difference_operator {
   Eigen::MatrixXd among = samples.covariance.bottomRightCorner(r, r);
   among.diagonal() += samples.noise.bottomRows(r).rowwise().mean().cwiseMax(1e-6);
   const cholesky factors(among);
-  if (!factors.positive_definite())
-    refuse("the covariance of the reference is not positive definite");
+  if (!factors.positive_definite()) refuse("the covariance of the reference is not positive definite");
   found.channels = channel_covariance(factors.solve_lower(samples.mapped.bottomRows(r)));
   const Eigen::MatrixXd weights = factors.solve(samples.covariance.bottomLeftCorner(r, n));
   for (Eigen::Index i = 0; i < n; ++i)
