@@ -6,6 +6,7 @@
 #include <gonio/core/impl/parallel.ipp>
 #include <gonio/core/impl/pinhole_camera.ipp>
 #include <gonio/core/impl/printable.ipp>
+#include <gonio/core/impl/probability.ipp>
 #include <gonio/core/impl/random.ipp>
 
 namespace gonio::detail {

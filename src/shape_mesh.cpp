@@ -2,7 +2,6 @@
 
 #include <gonio/shape/impl/alignment.ipp>
 #include <gonio/shape/impl/assignment.ipp>
-#include <gonio/shape/impl/confidence.ipp>
 #include <gonio/shape/impl/geodesic.ipp>
 #include <gonio/shape/impl/hole_filling.ipp>
 #include <gonio/shape/impl/mesh_image.ipp>

@@ -14,6 +14,7 @@ void add_near_field(command& app);
 void add_reconstruct(command& app);
 void add_fit(command& app);
 void add_compare(command& app);
+void add_check(command& app);
 void add_render(command& app);
 void add_info(command& app);
 void add_lab(command& app);

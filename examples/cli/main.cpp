@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   cli::add_reconstruct(app);
   cli::add_fit(app);
   cli::add_compare(app);
+  cli::add_check(app);
   cli::add_render(app);
   cli::add_info(app);
   cli::add_lab(app);

@@ -1,6 +1,7 @@
 #include "command.hpp"
 
 #include "declared_files.hpp"
+#include "negative_answer.hpp"
 #include "spelling.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr int bad_input = 2;
 constexpr int failure = 1;
+constexpr int no = 1;
 
 /// The number of a word. CLI11 knows an enumeration's values by their numbers and does not print them.
 enum class word_number : int {};
@@ -342,6 +344,8 @@ int program::run(int argc, char** argv) {
   try {
     all_->parse(argc, argv);
     return 0;
+  } catch (const negative_answer&) {
+    return no;
   } catch (const CLI::Success& request) {  // --help and --version
     return all_->exit(request);
   } catch (const CLI::ParseError& error) {

@@ -26,6 +26,7 @@ void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_measured_intervals(command& app);
 void add_real_materials(command& app);
+void add_conformity(command& app);
 void add_run(command& app);
 
 }  // namespace papers

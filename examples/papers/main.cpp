@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
   papers::add_importance_sampling(app);
   papers::add_measured_intervals(app);
   papers::add_real_materials(app);
+  papers::add_conformity(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

@@ -12,6 +12,7 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/core/probability.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/core/rgb.hpp>

@@ -4,6 +4,7 @@
 #include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/completed_table.hpp>
+#include <gonio/estimate/conformity.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/estimate/correction_iteration.hpp>
 #include <gonio/estimate/decomposition.hpp>

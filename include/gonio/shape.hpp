@@ -5,7 +5,6 @@
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/assignment.hpp>
 #include <gonio/shape/bootstrap.hpp>
-#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/fit_to_scan.hpp>

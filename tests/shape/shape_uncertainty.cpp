@@ -1,6 +1,6 @@
 #include "../dense_reference.hpp"
 #include "synthetic_shapes.hpp"
-#include <gonio/shape/confidence.hpp>
+#include <gonio/core/probability.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>
@@ -65,7 +65,7 @@ TEST_CASE("by Tikhonov it is the posterior of the weights") {
 }
 
 TEST_CASE("the true vertex is in the predicted 95 % ellipsoid nineteen times of twenty, from few shapes, too") {
-  const double chi_square = gonio::shape::chi_square_quantile(0.95, 3.0);
+  const double chi_square = gonio::chi_square_quantile(0.95, 3.0);
   for (const Eigen::Index count : {Eigen::Index{30}, Eigen::Index{300}}) {
     std::size_t inside = 0, inside_as_published = 0, all = 0;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {

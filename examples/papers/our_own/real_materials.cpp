@@ -8,6 +8,7 @@
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/families_left_out.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
@@ -48,57 +49,6 @@ struct real_materials_options {
   gonio::thread_count threads;
 };
 
-/// Materials of one maker: names before the first underscore are alike.
-std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
-
-/// Materials that are judged, or learned from, as tables.
-class material_library {
- public:
-  material_library(const real_materials_options& given, const gonio::progress& listener)
-      : cells_(given.thin.of(gonio::valid_cells())), threads_(given.threads) {
-    for (const std::filesystem::path& file : given.networks)
-      sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, given.threads, listener));
-    gonio::material_set measured{cells_, {}, {}};
-    const auto files = gonio::io::list_rgl_directory(given.materials);
-    if (files.empty()) gonio::refuse(given.materials.string() + ": holds no material (*.bsdf)");
-    measured.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
-    for (const auto& [name, path] : files) {
-      const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, given.threads);
-      measured.values.middleCols(3 * std::ssize(measured.names), 3) =
-          Eigen::Map<const gonio::cell_matrix>(table.values().data(), measured.values.rows(), 3);
-      measured.names.push_back(name);
-    }
-    sets_.push_back(std::move(measured));
-  }
-
-  [[nodiscard]] const gonio::valid_cells& cells() const noexcept { return cells_; }
-  [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
-  [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
-
-  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
-  template <class Keep>
-  [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
-    gonio::material_set chosen{cells_, {}, {}};
-    Eigen::Index columns = 0;
-    for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
-    chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
-    for (Eigen::Index s = 0; s < sets; ++s)
-      for (Eigen::Index i = 0; i < std::ssize(sets_[s].names); ++i) {
-        if (!keep(sets_[s].names[i])) continue;
-        chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
-            sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
-        chosen.names.push_back(sets_[s].names[i]);
-      }
-    return chosen;
-  }
-  [[nodiscard]] Eigen::Index all() const noexcept { return sets_.size(); }
-
- private:
-  gonio::valid_cells cells_;
-  gonio::thread_count threads_;
-  std::vector<gonio::material_set> sets_;
-};
-
 /// Which materials are judged, and what is left out of the prior for each.
 struct judged_material {
   std::string name, family;
@@ -133,20 +83,6 @@ std::vector<sampling> samplings(const real_materials_options& given) {
   return all;
 }
 
-/// Values in some directions, each channel with noise relative to it.
-gonio::sample_set measure(const judged_material& material, const std::vector<gonio::half_difference>& directions,
-                          double noise, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  gonio::sample_set samples;
-  for (const gonio::half_difference& angles : directions) {
-    gonio::rgb value = material.measured(gonio::to_directions(angles));
-    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
-    samples.push_back({angles, value, 1.0});
-  }
-  return samples;
-}
-
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
 std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index count, std::uint64_t seed) {
   const std::vector<Eigen::Index> chosen = gonio::random_choice(samples.size(), count, seed);
@@ -159,7 +95,7 @@ class experiment {
   experiment(const real_materials_options& given, progress_bar& bar)
       : given_(given),
         bar_(bar),
-        library_(given, bar.listener()),
+        library_(given.networks, given.materials, given.thin, given.threads, bar.listener()),
         judge_(library_.cells(), 36, given.threads),
         metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
         results_(given.state) {}
@@ -278,7 +214,7 @@ class experiment {
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       const std::uint64_t seed = 1000 * material.number + r;
-      gonio::sample_set samples = measure(material, where.sets[r], given_.noise, seed);
+      gonio::sample_set samples = measure(material.measured, where.sets[r], given_.noise, seed);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
       const estimated found = estimate(method, samples, material);
       const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);

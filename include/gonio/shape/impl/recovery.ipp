@@ -4,8 +4,8 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/probability.hpp>
 #include <gonio/shape/alignment.hpp>
-#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/geodesic.hpp>

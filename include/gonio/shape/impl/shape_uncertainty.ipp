@@ -2,8 +2,8 @@
 /// Bodies of shape/shape_uncertainty.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/probability.hpp>
 #include <gonio/estimate/basis_equations.hpp>
-#include <gonio/shape/confidence.hpp>
 #include <gonio/shape/fitted_shape.hpp>
 #include <gonio/shape/shape_uncertainty.hpp>
 #include <gonio/solve/any_solver.hpp>

@@ -1,0 +1,265 @@
+/// gonio check: does a part reflect like a reference?
+
+#include "command_line/fixed.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/negative_answer.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
+#include <gonio/estimate/conformity.hpp>
+#include <gonio/io/prior.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace cli {
+
+namespace {
+
+struct check_options {
+  std::filesystem::path part, reference, prior;
+  std::optional<double> noise, reference_noise;
+  double dark_noise = 0.0, tolerance = 0.0, false_alarms = 0.01, same_within = 0.01;
+  bool print_json = false;
+  gonio::thread_count threads;
+};
+
+/// The samples of a file that count: where each is in the file, and where it is on the prior's cells.
+struct measured_surface {
+  gonio::sample_set counting;
+  std::vector<Eigen::Index> numbers;  ///< from 1
+  gonio::located_samples located;
+
+  measured_surface(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
+                   gonio::thread_count threads) {
+    const gonio::sample_set all = read_measurements(path);
+    for (Eigen::Index i = 0; i < std::ssize(all); ++i)
+      if (all[i].weight.counts()) {
+        counting.push_back(all[i]);
+        numbers.push_back(i + 1);
+      }
+    located = gonio::locate_samples(prior.cells(), all, threads);
+  }
+};
+
+/// What was asked, what came out of it, and all that is told of it.
+struct check_result {
+  gonio::conformity_options options;
+  gonio::conformity conformity;
+  gonio::familiarity familiarity;
+  bool conforms = true;
+};
+
+/// The noise as it is stated, or as repeated measurements tell.
+gonio::conformity_options options_of(const check_options& given, const gonio::log_relative& metric,
+                                     const measured_surface& part, const measured_surface& reference) {
+  gonio::conformity_options options{
+      .part = {}, .reference = {}, .tolerance = given.tolerance, .same_direction = gonio::radians(given.same_within)};
+  if (given.noise) {
+    options.part.relative = *given.noise;
+    options.reference.relative = given.reference_noise.value_or(*given.noise);
+  } else {
+    if (given.reference_noise) gonio::refuse("--reference-noise needs --noise");
+    options.part = options.reference = gonio::pooled_noise(gonio::noise_of_repeats(metric, part.located, options),
+                                                           gonio::noise_of_repeats(metric, reference.located, options));
+    if (options.part.degrees_of_freedom == 0.0)
+      gonio::refuse(
+          "check needs --noise, the relative deviation of the measurements (0.02 is 2 %), or directions that " +
+          std::string("are measured more than once, from which it is estimated"));
+  }
+  options.part.dark = options.reference.dark = given.dark_noise;
+  return options;
+}
+
+check_result check_part(const check_options& given, const measured_surface& part, const measured_surface& reference,
+                        const gonio::log_relative_pca& prior) {
+  check_result result{options_of(given, prior.metric(), part, reference), {}, {}};
+  const gonio::discrepancy_decomposition estimator{prior, {.noise = result.options.part.relative}, given.threads};
+  result.conformity = gonio::check_conformity(estimator, part.located, reference.located, result.options);
+  result.familiarity = gonio::familiarity_of(estimator, part.located);
+  result.conforms = result.conformity.conforms(given.false_alarms);
+  return result;
+}
+
+/// A probability, in as many digits as matter.
+std::string probability(double value) {
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.2g", value);
+  return digits.data();
+}
+
+/// Of a difference of mapped values, relative: "+4.1 %".
+std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
+
+std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
+
+/// "sample 6 (theta_i 30.0, theta_o 41.2 degrees): measured 0.210, the reference says 0.140 +- 0.020 (red, p =
+/// 0.0003)", of the channel that differs most.
+std::string told(const gonio::compared_direction& each, const measured_surface& part) {
+  Eigen::Index channel = 0;
+  (void)(each.difference / each.deviation).abs().maxCoeff(&channel);
+  const auto [wi, wo] = part.counting[each.number].directions.pair();
+  const double off = each.expected[channel] * std::expm1(each.deviation[channel]);
+  constexpr std::array names{"red", "green", "blue"};
+  return "sample " + std::to_string(part.numbers[each.number]) + " (theta_i " +
+         fixed(gonio::degrees(std::acos(std::min(wi.z(), 1.0))), 1) + ", theta_o " +
+         fixed(gonio::degrees(std::acos(std::min(wo.z(), 1.0))), 1) + " degrees): measured " +
+         reflectance(each.value[channel]) + ", the reference " + (each.measured > 0 ? "says " : "predicts ") +
+         reflectance(each.expected[channel]) + " +- " + reflectance(off) + " (" + names[channel] +
+         ", p = " + probability(each.adjusted_p_value) + ")";
+}
+
+/// What limits the answer.
+void print_limits(const check_result& result, const measured_surface& part, const measured_surface& reference) {
+  const Eigen::Index predicted = result.conformity.predicted(), all = std::ssize(result.conformity.directions);
+  if (predicted > 0)
+    std::cout << predicted << " of " << all << " directions are not in the reference, which predicts them"
+              << (predicted == all ? ": only a shift of all directions, and gross differences, can be seen\n"
+                                   : ": there only gross differences can be seen\n");
+  const auto negative = (part.located.values.array() < 0.0).count() + (reference.located.values.array() < 0.0).count();
+  if (negative > 0 && result.options.part.dark == 0.0)
+    std::cout << negative << " values are negative and count as zero: if that is noise, state --dark-noise\n";
+  if (!std::isinf(result.options.part.degrees_of_freedom))
+    std::cout << "noise of " << fixed(100.0 * result.options.part.relative, 2) << " %, estimated from repeats with "
+              << fixed(result.options.part.degrees_of_freedom, 0) << " degrees of freedom\n";
+}
+
+void print(const check_options& given, const check_result& result, const measured_surface& part,
+           const measured_surface& reference) {
+  const gonio::conformity& found = result.conformity;
+  std::cout << (result.conforms ? "no difference found" : "differs") << " (p = " << probability(found.p_value)
+            << "; false alarms " << probability(100.0 * given.false_alarms) << " %";
+  if (given.tolerance > 0.0) std::cout << ", tolerance " << probability(100.0 * given.tolerance) << " %";
+  std::cout << ")\nin all directions: red " << percent(found.shift[0]) << ", green " << percent(found.shift[1])
+            << ", blue " << percent(found.shift[2]) << " (p = " << probability(found.shift_p_value) << ")\n";
+  std::cout << (result.conforms ? "most " : "differs most ") << "at " << told(found.directions[found.worst()], part)
+            << '\n';
+  for (Eigen::Index i = 0; i < std::ssize(found.directions); ++i)
+    if (i != found.worst() && found.directions[i].adjusted_p_value < given.false_alarms)
+      std::cout << "differs at " << told(found.directions[i], part) << '\n';
+  print_limits(result, part, reference);
+  const gonio::familiarity& known = result.familiarity;
+  std::cout << "known materials explain the part " << (known.p_value < 0.01 ? "badly" : "well")
+            << " (p = " << probability(known.p_value) << "; " << fixed(known.scale, 2)
+            << " times what is expected: components " << fixed(100.0 * known.components, 0) << " %, discrepancy "
+            << fixed(100.0 * known.discrepancy, 0) << " %, errors " << fixed(100.0 * known.errors, 0) << " %)\n";
+}
+
+json directions_as_json(const gonio::conformity& found, const measured_surface& part) {
+  json all = json::array();
+  for (const gonio::compared_direction& each : found.directions)
+    all.push_back({{"sample", part.numbers[each.number]},
+                   {"reference_samples", each.measured},
+                   {"measured", per_channel(each.value)},
+                   {"reference", per_channel(each.expected)},
+                   {"mapped_difference", per_channel(each.difference)},
+                   {"mapped_deviation", per_channel(each.deviation)},
+                   {"p_value", each.p_value},
+                   {"adjusted_p_value", each.adjusted_p_value}});
+  return all;
+}
+
+void print_as_json(const check_options& given, const check_result& result, const measured_surface& part) {
+  const gonio::conformity& found = result.conformity;
+  const gonio::measurement_noise& noise = result.options.part;
+  json all{{"conforms", result.conforms},
+           {"p_value", found.p_value},
+           {"false_alarms", given.false_alarms},
+           {"tolerance", given.tolerance},
+           {"noise", noise.relative},
+           {"reference_noise", result.options.reference.relative},
+           {"shift", per_channel(found.shift.unaryExpr([](double mapped) { return std::expm1(mapped); }))},
+           {"shift_p_value", found.shift_p_value},
+           {"total_p_value", found.total_p_value},
+           {"worst_p_value", found.worst_p_value},
+           {"worst_sample", part.numbers[found.directions[found.worst()].number]},
+           {"predicted", found.predicted()}};
+  all["noise_degrees_of_freedom"] =
+      std::isinf(noise.degrees_of_freedom) ? json(nullptr) : json(noise.degrees_of_freedom);
+  all["familiarity"] = {{"p_value", result.familiarity.p_value},
+                        {"scale", result.familiarity.scale},
+                        {"components", result.familiarity.components},
+                        {"discrepancy", result.familiarity.discrepancy},
+                        {"errors", result.familiarity.errors}};
+  all["directions"] = directions_as_json(found, part);
+  std::cout << all.dump(2) << '\n';
+}
+
+/// Says whether the part conforms.
+bool check_files(const check_options& given) {
+  const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
+  const measured_surface part(given.part, prior, given.threads), reference(given.reference, prior, given.threads);
+  const check_result result = check_part(given, part, reference, prior);
+  if (given.print_json)
+    print_as_json(given, result, part);
+  else
+    print(given, result, part, reference);
+  return result.conforms;
+}
+
+/// The same; what fails is bad input, so that exit code 1 means that the part differs.
+bool check_or_refuse(const check_options& given) {
+  try {
+    return check_files(given);
+  } catch (const gonio::error&) {
+    throw;
+  } catch (const std::exception& failure) {
+    gonio::refuse(std::string("the part could not be checked: ") + failure.what());
+  }
+}
+
+void add_noise_options(command& to, check_options& options) {
+  to.add_option("--noise", options.noise,
+                "Relative deviation of the measured values (0.02 is 2 %), independent in each channel of each sample; "
+                "without it directions that are measured more than once tell it")
+      .check(check::range(1e-6, 0.3));
+  to.add_option("--reference-noise", options.reference_noise, "The same of the reference, if it is another")
+      .check(check::range(0.0, 0.3));
+  to.add_option("--dark-noise", options.dark_noise, "Deviation of values near zero, sr^-1")
+      .check(check::range(0.0, 1e6))
+      .capture_default_str();
+}
+
+}  // namespace
+
+void add_check(command& app) {
+  auto command = app.add_subcommand(
+      "check", "Tell whether a part reflects like a reference: exit code 0 if no difference is found, 1 if it differs");
+  const auto options = std::make_shared<check_options>();
+  command.add_input("part", options->part, "Measurements of the part (.csv, or .brdf in Cornell's text format)")
+      .required();
+  command
+      .add_input("--reference", options->reference,
+                 "Measurements of the reference, in the same directions or in others; what is measured in both is "
+                 "compared with the certainty of the noise")
+      .required();
+  add_noise_options(command, *options);
+  command
+      .add_option("--tolerance", options->tolerance,
+                  "A part differs if values are off by more than this, relative to them (0.05 is 5 %)")
+      .check(check::range(0.0, 10.0))
+      .capture_default_str();
+  command
+      .add_option("--false-alarms", options->false_alarms, "Share of parts like the reference that are said to differ")
+      .check(check::range(1e-9, 0.5))
+      .capture_default_str();
+  command
+      .add_option("--same-within", options->same_within,
+                  "Half and difference angles that differ by no more degrees are the same direction")
+      .check(check::range(0.0, 5.0))
+      .capture_default_str();
+  add_prior_option(command, options->prior);
+  command.add_flag("--json", options->print_json, "Print the answer and all directions as JSON");
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    if (!check_or_refuse(*options)) throw negative_answer{};
+  });
+}
+
+}  // namespace cli

@@ -1,0 +1,25 @@
+#pragma once
+/// By how much a surface's colour has to be changed until it looks different.
+
+#include <gonio/evaluate/appearance_metric.hpp>
+
+#include <algorithm>
+
+namespace papers {
+
+/// A factor for the channels by which a table looks so much different, by the secant method.
+[[nodiscard]] inline gonio::rgb factor_of(const gonio::appearance_metric& judge, const gonio::brdf_table& table,
+                                          const gonio::rgb& towards, double wanted, gonio::thread_count threads) {
+  const gonio::appearance seen = judge.look(table, threads);
+  double step = 0.02 * wanted;
+  for (int round = 0; round < 6; ++round) {
+    gonio::brdf_table shifted = table;
+    for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
+      shifted.set(cell, table.at(cell) * (1.0 + step * towards));
+    const double found = gonio::appearance_metric::difference(judge.look(shifted, threads), seen).environment;
+    step *= std::clamp(wanted / std::max(found, 1e-6), 0.2, 5.0);
+  }
+  return 1.0 + step * towards;
+}
+
+}  // namespace papers
