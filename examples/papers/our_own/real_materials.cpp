@@ -8,6 +8,7 @@
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/left_out_families.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
@@ -17,19 +18,14 @@
 #include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/posterior.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
-#include <gonio/io/rgl.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
-#include <random>
 
 namespace papers {
 
@@ -48,71 +44,6 @@ struct real_materials_options {
   gonio::thread_count threads;
 };
 
-/// Materials of one maker: names before the first underscore are alike.
-std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
-
-/// Materials that are judged, or learned from, as tables.
-class material_library {
- public:
-  material_library(const real_materials_options& given, const gonio::progress& listener)
-      : cells_(given.thin.of(gonio::valid_cells())), threads_(given.threads) {
-    for (const std::filesystem::path& file : given.networks)
-      sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, given.threads, listener));
-    gonio::material_set measured{cells_, {}, {}};
-    const auto files = gonio::io::list_rgl_directory(given.materials);
-    if (files.empty()) gonio::refuse(given.materials.string() + ": holds no material (*.bsdf)");
-    measured.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
-    for (const auto& [name, path] : files) {
-      const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, given.threads);
-      measured.values.middleCols(3 * std::ssize(measured.names), 3) =
-          Eigen::Map<const gonio::cell_matrix>(table.values().data(), measured.values.rows(), 3);
-      measured.names.push_back(name);
-    }
-    sets_.push_back(std::move(measured));
-  }
-
-  [[nodiscard]] const gonio::valid_cells& cells() const noexcept { return cells_; }
-  [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
-  [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
-
-  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
-  template <class Keep>
-  [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
-    gonio::material_set chosen{cells_, {}, {}};
-    Eigen::Index columns = 0;
-    for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
-    chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
-    for (Eigen::Index s = 0; s < sets; ++s)
-      for (Eigen::Index i = 0; i < std::ssize(sets_[s].names); ++i) {
-        if (!keep(sets_[s].names[i])) continue;
-        chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
-            sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
-        chosen.names.push_back(sets_[s].names[i]);
-      }
-    return chosen;
-  }
-  [[nodiscard]] Eigen::Index all() const noexcept { return sets_.size(); }
-
- private:
-  gonio::valid_cells cells_;
-  gonio::thread_count threads_;
-  std::vector<gonio::material_set> sets_;
-};
-
-/// Which materials are judged, and what is left out of the prior for each.
-struct judged_material {
-  std::string name, family;
-  gonio::brdf_table truth;
-  std::function<gonio::rgb(const gonio::direction_pair&)> measured;
-  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
-};
-
-/// Where is measured: its name, and a set of directions for each repetition.
-struct sampling {
-  std::string name;
-  std::vector<std::vector<gonio::half_difference>> sets;
-};
-
 std::vector<sampling> samplings(const real_materials_options& given) {
   std::vector<sampling> all;
   for (const Eigen::Index count : given.designed) {
@@ -120,31 +51,8 @@ std::vector<sampling> samplings(const real_materials_options& given) {
     if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
     all.push_back({std::to_string(count) + " designed", {*points}});
   }
-  const gonio::valid_cells cells;
-  for (const Eigen::Index count : given.random) {
-    sampling drawn{std::to_string(count) + " random", {}};
-    for (Eigen::Index r = 0; r < given.repetitions; ++r) {
-      std::vector<gonio::half_difference> directions;
-      for (const Eigen::Index cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
-      drawn.sets.push_back(std::move(directions));
-    }
-    all.push_back(std::move(drawn));
-  }
+  for (const Eigen::Index count : given.random) all.push_back(random_sampling(count, given.repetitions));
   return all;
-}
-
-/// Values in some directions, each channel with noise relative to it.
-gonio::sample_set measure(const judged_material& material, const std::vector<gonio::half_difference>& directions,
-                          double noise, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  std::normal_distribution<double> normal;
-  gonio::sample_set samples;
-  for (const gonio::half_difference& angles : directions) {
-    gonio::rgb value = material.measured(gonio::to_directions(angles));
-    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
-    samples.push_back({angles, value, 1.0});
-  }
-  return samples;
 }
 
 /// Makes some samples, chosen at random, ten times too bright and too dark by turns. Returns which.
@@ -159,7 +67,7 @@ class experiment {
   experiment(const real_materials_options& given, progress_bar& bar)
       : given_(given),
         bar_(bar),
-        library_(given, bar.listener()),
+        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
         judge_(library_.cells(), 36, given.threads),
         metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
         results_(given.state) {}
@@ -188,22 +96,13 @@ class experiment {
 
  private:
   [[nodiscard]] std::vector<judged_material> judged() const {
+    if (!given_.surrogates) return measured_materials(given_.materials, library_);
     std::vector<judged_material> all;
-    const auto measured_by = [](auto f) {
-      return [f](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
-    };
-    if (given_.surrogates) {
-      const auto known = gonio::io::read_networks(given_.networks.front());
-      for (const std::string& name : gonio::nielsen_test_materials()) {
-        const Eigen::Index i = library_.first().find(name);
-        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i]), all.size()});
-      }
-      return all;
-    }
-    for (const auto& [name, path] : gonio::io::list_rgl_directory(given_.materials)) {
-      const gonio::material_set& set = library_.measured();
-      all.push_back({name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material),
-                     all.size()});
+    const auto known = gonio::io::read_networks(given_.networks.front());
+    for (const std::string& name : gonio::nielsen_test_materials()) {
+      const Eigen::Index i = library_.first().find(name);
+      const auto measured = [f = known.networks[i]](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
+      all.push_back({name, "", library_.first().table(i), measured, all.size()});
     }
     return all;
   }

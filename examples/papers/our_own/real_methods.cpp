@@ -1,0 +1,324 @@
+/// gonio-papers real-methods: every method of gonio reconstruct on measured materials whose families were left out.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/our_own/left_out_families.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/outlying_samples.hpp>
+#include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_reconstruction.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/metric/log.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace papers {
+
+namespace {
+
+struct real_methods_options {
+  std::vector<std::filesystem::path> networks;
+  std::filesystem::path materials, state;
+  std::vector<Eigen::Index> random{1, 5, 20, 100, 500, 2000};
+  std::vector<double> wrong{0.0};
+  std::vector<std::string> methods{"median", "pca", "linear", "correction", "rbf", "pull-push"};
+  Eigen::Index components = 100, repetitions = 2;
+  thinning thin{{3, 5}};
+  gonio::thread_count threads;
+};
+
+/// What is learned without one family, the parts that not all methods need on demand.
+class learned {
+ public:
+  learned(const material_library& library, const std::string& family, Eigen::Index components,
+          gonio::thread_count threads)
+      : threads_(threads), prior_(learn(library, family, components, threads)) {}
+
+  [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return prior_; }
+
+  /// The materials as the prior remembers them: what `gonio reconstruct` has.
+  [[nodiscard]] const gonio::measured<gonio::log>& materials() {
+    if (!materials_) materials_.emplace(gonio::expand(prior_, threads_), gonio::log{}, threads_);
+    return *materials_;
+  }
+
+  [[nodiscard]] const gonio::correction& corrections() {
+    if (!corrections_) corrections_.emplace(materials(), gonio::correction_rule{}, gonio::nnls{}, threads_);
+    return *corrections_;
+  }
+
+ private:
+  [[nodiscard]] static gonio::log_relative_pca learn(const material_library& library, const std::string& family,
+                                                     Eigen::Index components, gonio::thread_count threads) {
+    auto set = library.materials(library.all(), [&](const std::string& name) { return family_of(name) != family; });
+    const auto metric = gonio::log_relative::to_median_of(set, threads);
+    return gonio::learn_pca(std::move(set), metric, components, threads);
+  }
+
+  gonio::thread_count threads_;
+  gonio::log_relative_pca prior_;
+  std::optional<gonio::measured<gonio::log>> materials_;
+  std::optional<gonio::correction> corrections_;
+};
+
+gonio::located_samples weighed(gonio::located_samples located, const gonio::channel_values& weights) {
+  located.weights.array() *= weights.row(0).transpose().cast<double>().array();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < located.size(); ++i)
+    if (located.weights(i, 0) > 1e-4) kept.push_back(i);
+  return located.subset(kept);
+}
+
+/// The tool's estimates.
+class tool_methods {
+ public:
+  tool_methods(learned& known, gonio::thread_count threads) : known_(known), threads_(threads) {}
+
+  [[nodiscard]] gonio::brdf_table estimate(const std::string& method, const gonio::sample_set& samples) const {
+    const gonio::valid_cells& cells = known_.prior().cells();
+    if (method == "median") return median();
+    if (method == "pca" || method == "keeping") return components(samples, method == "pca");
+    if (method == "linear")
+      return gonio::decomposition{known_.materials(), gonio::nnls{}, threads_}.fit(samples).tabulate(cells, threads_);
+    if (method == "rbf") {
+      const gonio::valid_cells all;
+      const gonio::rbf functions{all, gonio::log{},
+                                 gonio::farthest_point_centres(all, gonio::published_centre_count, 0)};
+      return gonio::decomposition{functions, gonio::tikhonov{1e-6}, threads_}.fit(samples).tabulate(cells, threads_);
+    }
+    if (method == "pull-push") return gonio::pull_push{gonio::valid_cells(), threads_}.fit(samples).table();
+    if (method == "correction")
+      return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
+          .fit(samples)
+          .tabulate(cells, threads_);
+    return trial(method, samples);
+  }
+
+ private:
+  [[nodiscard]] gonio::brdf_table median() const {
+    gonio::brdf_table table(known_.prior().cells());
+    for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell)
+      table.set(cell, gonio::rgb::Constant(known_.prior().metric().inverse(0.0, cell)));
+    return table;
+  }
+
+  [[nodiscard]] gonio::brdf_table components(const gonio::sample_set& samples, bool rejecting) const {
+    const gonio::discrepancy_decomposition both{known_.prior(), {}, threads_};
+    gonio::located_samples located = gonio::locate_samples(known_.prior().cells(), samples);
+    if (rejecting && located.size() <= 1000) located = located.subset(gonio::reject_outlying(both, located).kept);
+    return both.fit_located(std::move(located)).tabulate(known_.prior().cells(), threads_);
+  }
+
+  // TRIALS: to be removed
+  [[nodiscard]] gonio::brdf_table trial(const std::string& method, const gonio::sample_set& samples) const {
+    const auto& prior = known_.prior();
+    const gonio::valid_cells& cells = prior.cells();
+    const gonio::discrepancy_decomposition both{prior, {}, threads_};
+    const gonio::located_samples located = gonio::locate_samples(cells, samples);
+    const gonio::channel_values measured = located.channels();
+    const bool regions = method.find("reg") != std::string::npos;
+    gonio::automatic_weights weighting{};
+    if (method.find("notail") != std::string::npos) weighting.down_weight_tail = false;
+    if (regions) weighting.regions = std::make_shared<const gonio::sample_regions>(located.locations);
+    gonio::channel_values weights;
+    gonio::channel_values estimates;
+    if (method.starts_with("guided")) {
+      const auto fit =
+          gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}.fit(samples);
+      estimates = gonio::values_at(fit, cells, located.locations, threads_);
+    } else {
+      const gonio::nearest_material<gonio::log> nearest(known_.materials(), 0, threads_);
+      estimates = nearest.values(nearest.choose(located), located.locations);
+    }
+    weights = weighting.weigh(measured, estimates);
+    const double eta = both.observations() * both.model().error_variance;
+    const bool gp = method.find("gp") != std::string::npos && located.size() <= 1000;
+    if (method.find("irls") != std::string::npos)
+      for (int i = 0; i < 8; ++i) {
+        if (gp)
+          estimates = gonio::values_at(both.fit_located(weighed(located, weights)), cells, located.locations, threads_);
+        else
+          estimates = gonio::values_at(
+              gonio::fitted_brdf{
+                  prior,
+                  gonio::basis_equations(prior, weighed(located, weights), threads_).solve(gonio::tikhonov(eta))},
+              cells, located.locations, threads_);
+        weights = weighting.weigh(measured, estimates);
+      }
+    const auto fit = both.fit_located(weighed(located, weights));
+    if (method.find("corrected") == std::string::npos) return fit.tabulate(cells, threads_);
+    gonio::automatic_weights regional{.regions = std::make_shared<const gonio::sample_regions>(located.locations)};
+    gonio::correction_run run{fit, known_.corrections(), located, regional, gonio::nnls{}, {}, threads_};
+    for (int i = 0; i < 3; ++i) gonio::detail::damped_step(run, weights);
+    return run.result().tabulate(cells, threads_);
+  }
+
+  learned& known_;
+  gonio::thread_count threads_;
+};
+
+class methods_experiment {
+ public:
+  methods_experiment(const real_methods_options& given, progress_bar& bar)
+      : given_(given),
+        bar_(bar),
+        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
+        judge_(library_.cells(), 36, given.threads),
+        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
+        results_(given.state) {}
+
+  /// A row for each number of samples, share of wrong ones and method, with the errors of each material: means over
+  /// the repetitions.
+  [[nodiscard]] json run() {
+    std::map<std::string, json> errors;  // by the row's name
+    for (const judged_material& material : measured_materials(given_.materials, library_))
+      for (const Eigen::Index count : given_.random)
+        for (const double wrong : given_.wrong)
+          for (const std::string& method : given_.methods) {
+            const json key{method, count, wrong, material.name, given_.components, given_.repetitions};
+            if (!results_.find(key)) {
+              bar_.draw(material.name + " " + std::to_string(count) + " " + method, 0.0);
+              results_.add(key, errors_of(material, count, wrong, method));
+            }
+            errors[row_name(count, wrong, method)][material.name] = *results_.find(key);
+          }
+    json rows = json::array();
+    for (const Eigen::Index count : given_.random)
+      for (const double wrong : given_.wrong)
+        for (const std::string& method : given_.methods)
+          rows.push_back({{"samples", count},
+                          {"wrong", wrong},
+                          {"method", method},
+                          {"materials", errors.at(row_name(count, wrong, method))}});
+    return rows;
+  }
+
+ private:
+  [[nodiscard]] static std::string row_name(Eigen::Index count, double wrong, const std::string& method) {
+    return json{count, wrong, method}.dump();
+  }
+
+  /// The families come one after the other: what was learned last is kept.
+  [[nodiscard]] learned& without(const std::string& family) {
+    if (!known_ || family_ != family) {
+      known_.reset();
+      known_.emplace(library_, family, given_.components, given_.threads);
+      family_ = family;
+    }
+    return *known_;
+  }
+
+  [[nodiscard]] json errors_of(const judged_material& material, Eigen::Index count, double wrong,
+                               const std::string& method) {
+    const sampling where = random_sampling(count, given_.repetitions);
+    const auto times = static_cast<double>(where.sets.size());
+    const tool_methods tool(without(material.family), given_.threads);
+    double rms = 0.0, environment = 0.0, lights = 0.0;
+    for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
+      const std::uint64_t seed = 1000 * material.number + r;
+      const gonio::brdf_table& truth = material.truth;
+      const gonio::sample_set samples =
+          gonio::corrupt(measure(material, where.sets[r], 0.0, seed), {.outlier_ratio = wrong}, seed + 100,
+                         [&](std::mt19937_64& generator) {
+                           std::uniform_int_distribution<Eigen::Index> any(0, truth.cells().size() - 1);
+                           return truth.at(any(generator));
+                         });
+      const gonio::comparison errors =
+          gonio::compare(tool.estimate(method, samples), truth, metric_, judge_, given_.threads);
+      rms += errors.mapped_rms.mean() / times;
+      environment += errors.delta_e_env / times;
+      lights += errors.delta_e_lights / times;
+    }
+    return {{"mapped_rms", rms}, {"delta_e_env", environment}, {"delta_e_lights", lights}};
+  }
+
+  const real_methods_options& given_;
+  progress_bar& bar_;
+  material_library library_;
+  gonio::appearance_metric judge_;
+  gonio::log_relative metric_;
+  std::string family_;
+  std::optional<learned> known_;
+  resumable_results results_;
+};
+
+void print(const real_methods_options& given, const json& rows) {
+  std::cout
+      << "Errors of " << rows[0]["materials"].size() << " materials, " << given.repetitions
+      << " random sets each.\n\n| samples | wrong | method | mapped rms, mean | Delta E env, mean | median | worst "
+         "| Delta E lights, mean | of pca's Delta E env, median | more than twice pca's | less than pca's "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::map<std::string, json> reference;  // pca's rows
+  for (const json& row : rows.elements())
+    if (row["method"] == "pca") reference[json{row["samples"], row["wrong"]}.dump()] = row["materials"];
+  for (const json& row : rows.elements()) {
+    std::vector<double> rms, environment, lights, ratios;
+    const json& pca = reference[json{row["samples"], row["wrong"]}.dump()];
+    for (const auto& [name, errors] : row["materials"].items()) {
+      rms.push_back(errors["mapped_rms"].number());
+      environment.push_back(errors["delta_e_env"].number());
+      lights.push_back(errors["delta_e_lights"].number());
+      if (pca.is_object()) ratios.push_back(environment.back() / pca[name]["delta_e_env"].number());
+    }
+    const distribution seen(environment);
+    std::cout << "| " << row["samples"] << " | " << fixed(100.0 * row["wrong"].number(), 0) << " % | "
+              << row["method"].text() << " | " << fixed(distribution(rms).mean, 3) << " | " << fixed(seen.mean, 2)
+              << " | " << fixed(seen.median, 2) << " | " << fixed(seen.worst, 1) << " | "
+              << fixed(distribution(lights).mean, 2) << " | ";
+    if (ratios.empty() || row["method"] == "pca")
+      std::cout << "- | - | - |\n";
+    else
+      std::cout << fixed(distribution(ratios).median, 2) << " | "
+                << std::ranges::count_if(ratios, [](double ratio) { return ratio > 2.0; }) << " | "
+                << std::ranges::count_if(ratios, [](double ratio) { return ratio < 1.0; }) << " |\n";
+  }
+}
+
+}  // namespace
+
+void add_real_methods(command& app) {
+  auto command = app.add_subcommand("real-methods",
+                                    "Reconstruct measured materials by every method, with their families left out");
+  const auto options = std::make_shared<real_methods_options>();
+  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
+  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
+      .required();
+  command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
+  command
+      .add_option("--wrong", options->wrong,
+                  "Shares of the samples that have the value of another direction (Noell et al. 2014, section 3.1)")
+      .capture_default_str();
+  command.add_option("--methods", options->methods, "Methods").capture_default_str();
+  command.add_option("--components", options->components, "Components of the priors")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  add_thin_option(command, options->thin);
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    progress_bar bar;
+    methods_experiment work(*options, bar);
+    const json rows = work.run();
+    bar.wipe();
+    print(*options, rows);
+  });
+}
+
+}  // namespace papers
