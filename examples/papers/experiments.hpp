@@ -25,6 +25,7 @@ void add_model_recovery(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_real_materials(command& app);
+void add_real_fits(command& app);
 void add_real_methods(command& app);
 void add_run(command& app);
 

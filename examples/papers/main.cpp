@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
   papers::add_real_materials(app);
+  papers::add_real_fits(app);
   papers::add_real_methods(app);
   papers::add_run(app);
   return app.run(argc, argv);

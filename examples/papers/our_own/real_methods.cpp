@@ -16,6 +16,7 @@
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -75,14 +76,6 @@ class learned {
   std::optional<gonio::correction> corrections_;
 };
 
-gonio::located_samples weighed(gonio::located_samples located, const gonio::channel_values& weights) {
-  located.weights.array() *= weights.row(0).transpose().cast<double>().array();
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < located.size(); ++i)
-    if (located.weights(i, 0) > 1e-4) kept.push_back(i);
-  return located.subset(kept);
-}
-
 /// The tool's estimates.
 class tool_methods {
  public:
@@ -105,7 +98,9 @@ class tool_methods {
       return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
           .fit(samples)
           .tabulate(cells, threads_);
-    return trial(method, samples);
+    return gonio::robust_decomposition{gonio::discrepancy_decomposition{known_.prior(), {}, threads_}, {}, threads_}
+        .fit(samples)
+        .tabulate(cells, threads_);
   }
 
  private:
@@ -121,50 +116,6 @@ class tool_methods {
     gonio::located_samples located = gonio::locate_samples(known_.prior().cells(), samples);
     if (rejecting && located.size() <= 1000) located = located.subset(gonio::reject_outlying(both, located).kept);
     return both.fit_located(std::move(located)).tabulate(known_.prior().cells(), threads_);
-  }
-
-  // TRIALS: to be removed
-  [[nodiscard]] gonio::brdf_table trial(const std::string& method, const gonio::sample_set& samples) const {
-    const auto& prior = known_.prior();
-    const gonio::valid_cells& cells = prior.cells();
-    const gonio::discrepancy_decomposition both{prior, {}, threads_};
-    const gonio::located_samples located = gonio::locate_samples(cells, samples);
-    const gonio::channel_values measured = located.channels();
-    const bool regions = method.find("reg") != std::string::npos;
-    gonio::automatic_weights weighting{};
-    if (method.find("notail") != std::string::npos) weighting.down_weight_tail = false;
-    if (regions) weighting.regions = std::make_shared<const gonio::sample_regions>(located.locations);
-    gonio::channel_values weights;
-    gonio::channel_values estimates;
-    if (method.starts_with("guided")) {
-      const auto fit =
-          gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}.fit(samples);
-      estimates = gonio::values_at(fit, cells, located.locations, threads_);
-    } else {
-      const gonio::nearest_material<gonio::log> nearest(known_.materials(), 0, threads_);
-      estimates = nearest.values(nearest.choose(located), located.locations);
-    }
-    weights = weighting.weigh(measured, estimates);
-    const double eta = both.observations() * both.model().error_variance;
-    const bool gp = method.find("gp") != std::string::npos && located.size() <= 1000;
-    if (method.find("irls") != std::string::npos)
-      for (int i = 0; i < 8; ++i) {
-        if (gp)
-          estimates = gonio::values_at(both.fit_located(weighed(located, weights)), cells, located.locations, threads_);
-        else
-          estimates = gonio::values_at(
-              gonio::fitted_brdf{
-                  prior,
-                  gonio::basis_equations(prior, weighed(located, weights), threads_).solve(gonio::tikhonov(eta))},
-              cells, located.locations, threads_);
-        weights = weighting.weigh(measured, estimates);
-      }
-    const auto fit = both.fit_located(weighed(located, weights));
-    if (method.find("corrected") == std::string::npos) return fit.tabulate(cells, threads_);
-    gonio::automatic_weights regional{.regions = std::make_shared<const gonio::sample_regions>(located.locations)};
-    gonio::correction_run run{fit, known_.corrections(), located, regional, gonio::nnls{}, {}, threads_};
-    for (int i = 0; i < 3; ++i) gonio::detail::damped_step(run, weights);
-    return run.result().tabulate(cells, threads_);
   }
 
   learned& known_;
