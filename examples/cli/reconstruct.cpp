@@ -3,6 +3,7 @@
 #include "command_line/json.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/measurement_files.hpp"
+#include "command_line/method_record.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/reconstruct_methods.hpp"
 #include "command_line/threads_option.hpp"
@@ -40,13 +41,18 @@ const std::vector<method>& methods() {
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
         "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject",
         "--residuals"}},  // refuses some of them itself, and says why
+      {"robust",
+       "principal components of the samples that are no outliers, for many samples of which some are wrong",
+       reconstruct_robustly,
+       {"--prior", "--noise", "--discrepancy", "--seed"}},
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
         "--variance"}},
       {"correction",
-       "such a combination, corrected again and again, for samples with outliers (Noell et al. 2014)",
+       "such a combination, corrected again and again (Noell et al. 2014); robust instead for fewer than 2000 samples, "
+       "unless an option is given that robust does not take",
        reconstruct_by_corrections,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--iterations", "--history",
         "--iteration-figure", "--truth", "--seed"}},
@@ -61,6 +67,8 @@ const std::vector<method>& methods() {
 const method& method_named(const std::string& name) {
   return *std::ranges::find(methods(), name, [](const method& m) { return std::string_view(m.name); });
 }
+
+bool robust_takes(std::string_view option) { return std::ranges::count(method_named("robust").takes, option) > 0; }
 
 /// Refuses options that the method would ignore, naming the methods that would not.
 void require_taken(const command& given, const method& chosen) {
@@ -95,6 +103,7 @@ void write_history(const std::filesystem::path& path, std::span<const gonio::cor
 }
 
 void print(const reconstruction& result, std::size_t samples, bool as_json) {
+  std::cerr << result.cautions;
   if (as_json) {
     json all{{"samples", samples}};
     all.update(result.details);
@@ -125,7 +134,10 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
 
 void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {
   const auto samples = read_measurements(options.samples);
-  const reconstruction result = chosen.reconstruct(options, samples);
+  reconstruction result = chosen.reconstruct(options, samples);
+  if (result.cautions.empty())
+    result.cautions = warning_of(options.method,
+                                 std::ranges::count_if(samples, [](const auto& each) { return each.weight.counts(); }));
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);
@@ -159,7 +171,8 @@ void add_correction_options(command& to, reconstruct_options& options) {
   to.add_output_folder("--iteration-figure", options.iteration_figure, {"iterations.png", "history.csv"},
                        "Folder for an image of the first rounds of correction and the last, and their history");
   to.add_input("--truth", options.truth, "Table that --iteration-figure compares with (.binary or .binary.gz)");
-  to.add_option("--seed", options.seed, "Seed of the centres of rbf, and of the samples from which correction starts")
+  to.add_option("--seed", options.seed,
+                "Seed of the centres of rbf, and of the samples from which robust and correction start")
       .capture_default_str();
 }
 
@@ -214,6 +227,9 @@ void add_reconstruct(command& app) {
   command.callback([command, options, how] {
     const method& chosen = method_named(options->method);
     require_taken(command, chosen);
+    options->corrects_few = std::ranges::any_of(chosen.takes, [&](std::string_view option) {
+      return command.count(std::string(option)) > 0 && !robust_takes(option);
+    });
     reconstruct(*options, *how, chosen);
   });
 }

@@ -23,6 +23,7 @@ struct reconstruct_options {
   std::optional<double> noise;
   double discrepancy = 0.02;
   bool keeps_all = false;
+  bool corrects_few = false;  ///< correction was asked for something that no other method has
   std::filesystem::path residuals, uncertainty;
   int iterations = 10;
   std::uint64_t seed = 0;
@@ -38,6 +39,7 @@ struct reconstruction {
   json details = json::object();  ///< what --json prints beside the number of samples
   std::string sentence{};         ///< the same for people
   std::string warnings{};         ///< whole lines, for people
+  std::string cautions{};         ///< whole lines for standard error, with --json as well
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
 };
@@ -59,6 +61,9 @@ struct reconstruction {
 /// section 2.4).
 [[nodiscard]] reconstruction reconstruct_by_corrections(const reconstruct_options& options,
                                                         const gonio::sample_set& samples);
+
+/// The components and the discrepancy of the samples that are no outliers.
+[[nodiscard]] reconstruction reconstruct_robustly(const reconstruct_options& options, const gonio::sample_set& samples);
 
 /// Radial basis functions under any metric (Noell et al. 2014, section 3.1).
 [[nodiscard]] reconstruction reconstruct_by_radial_functions(const reconstruct_options& options,

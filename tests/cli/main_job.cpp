@@ -243,7 +243,7 @@ class corrected_plastic {
     const auto result =
         gonio_tool("reconstruct " + at("samples.csv") + " " + options + " --json -o " + at("out.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    return parse_json(result.output);
+    return parse_json(result.output.substr(result.output.find('{')));  // after the warnings
   }
 
   [[nodiscard]] double error() const {

@@ -89,8 +89,8 @@ class tool_methods {
       return gonio::decomposition{known_.materials(), gonio::nnls{}, threads_}.fit(samples).tabulate(cells, threads_);
     if (method == "rbf") {
       const gonio::valid_cells all;
-      const gonio::rbf functions{all, gonio::log{},
-                                 gonio::farthest_point_centres(all, gonio::published_centre_count, 0)};
+      static const auto centres = gonio::farthest_point_centres(all, gonio::published_centre_count, 0);
+      const gonio::rbf functions{all, gonio::log{}, centres};
       return gonio::decomposition{functions, gonio::tikhonov{1e-6}, threads_}.fit(samples).tabulate(cells, threads_);
     }
     if (method == "pull-push") return gonio::pull_push{gonio::valid_cells(), threads_}.fit(samples).table();
@@ -207,35 +207,55 @@ class methods_experiment {
   resumable_results results_;
 };
 
+/// The Delta E of each material under the environment.
+std::map<std::string, double> environment_of(const json& materials) {
+  std::map<std::string, double> found;
+  if (materials.is_object())
+    for (const auto& [name, errors] : materials.items()) found[name] = errors["delta_e_env"].number();
+  return found;
+}
+
+/// How many times the errors of others these are, material by material; nothing if there are no others.
+std::vector<double> ratios_of(const std::map<std::string, double>& errors,
+                              const std::map<std::string, double>& others) {
+  std::vector<double> ratios;
+  for (const auto& [name, error] : others) ratios.push_back(errors.at(name) / error);
+  return ratios;
+}
+
+std::string beyond(const std::vector<double>& ratios, double limit) {
+  if (ratios.empty()) return "-";
+  return std::to_string(std::ranges::count_if(ratios, [limit](double ratio) { return ratio > limit; }));
+}
+
 void print(const real_methods_options& given, const json& rows) {
-  std::cout
-      << "Errors of " << rows[0]["materials"].size() << " materials, " << given.repetitions
-      << " random sets each.\n\n| samples | wrong | method | mapped rms, mean | Delta E env, mean | median | worst "
-         "| Delta E lights, mean | of pca's Delta E env, median | more than twice pca's | less than pca's "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
-  std::map<std::string, json> reference;  // pca's rows
-  for (const json& row : rows.elements())
-    if (row["method"] == "pca") reference[json{row["samples"], row["wrong"]}.dump()] = row["materials"];
+  std::cout << "Errors of " << rows[0]["materials"].size() << " materials, random sets of each: " << given.repetitions
+            << ".\n\n| samples | wrong | method | mapped rms, mean | Delta E env, mean | median | worst | Delta E "
+               "lights, mean | Delta E env over pca's, median | beyond pca's | beyond twice pca's | beyond the median "
+               "material's |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::map<std::string, std::map<std::string, double>> pca, median;  // by what was sampled
+  const auto sampled = [](const json& row) { return json{row["samples"], row["wrong"]}.dump(); };
   for (const json& row : rows.elements()) {
-    std::vector<double> rms, environment, lights, ratios;
-    const json& pca = reference[json{row["samples"], row["wrong"]}.dump()];
+    if (row["method"] == "pca") pca[sampled(row)] = environment_of(row["materials"]);
+    if (row["method"] == "median") median[sampled(row)] = environment_of(row["materials"]);
+  }
+  for (const json& row : rows.elements()) {
+    std::vector<double> rms, environment, lights;
     for (const auto& [name, errors] : row["materials"].items()) {
       rms.push_back(errors["mapped_rms"].number());
       environment.push_back(errors["delta_e_env"].number());
       lights.push_back(errors["delta_e_lights"].number());
-      if (pca.is_object()) ratios.push_back(environment.back() / pca[name]["delta_e_env"].number());
     }
     const distribution seen(environment);
+    const auto errors = environment_of(row["materials"]);
+    const std::vector<double> of_pca = ratios_of(errors, pca[sampled(row)]),
+                              of_median = ratios_of(errors, median[sampled(row)]);
     std::cout << "| " << row["samples"] << " | " << fixed(100.0 * row["wrong"].number(), 0) << " % | "
               << row["method"].text() << " | " << fixed(distribution(rms).mean, 3) << " | " << fixed(seen.mean, 2)
               << " | " << fixed(seen.median, 2) << " | " << fixed(seen.worst, 1) << " | "
-              << fixed(distribution(lights).mean, 2) << " | ";
-    if (ratios.empty() || row["method"] == "pca")
-      std::cout << "- | - | - |\n";
-    else
-      std::cout << fixed(distribution(ratios).median, 2) << " | "
-                << std::ranges::count_if(ratios, [](double ratio) { return ratio > 2.0; }) << " | "
-                << std::ranges::count_if(ratios, [](double ratio) { return ratio < 1.0; }) << " |\n";
+              << fixed(distribution(lights).mean, 2) << " | "
+              << (of_pca.empty() ? "-" : fixed(distribution(of_pca).median, 2)) << " | " << beyond(of_pca, 1.0) << " | "
+              << beyond(of_pca, 2.0) << " | " << beyond(of_median, 1.0) << " |\n";
   }
 }
 

@@ -9,6 +9,7 @@
 #include <gonio/estimate/nearest_material.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/values_at.hpp>
+#include <gonio/solve/product.hpp>
 
 #include <Eigen/Core>
 
