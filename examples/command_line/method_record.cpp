@@ -18,11 +18,11 @@ struct record {
 };
 
 constexpr std::array records{record{"pca", 1, 1.0, 0, 3},
-                             record{"pca", 5, 1.0, 0, 1},
-                             record{"pca", 20, 1.0, 0, 0},
+                             record{"pca", 3, 1.0, 0, 1},
+                             record{"pca", 10, 1.0, 0, 0},
                              record{"robust", 1, 1.0, 0, 3},
-                             record{"robust", 5, 1.0, 0, 1},
-                             record{"robust", 20, 1.0, 0, 0},
+                             record{"robust", 3, 1.0, 0, 1},
+                             record{"robust", 10, 1.0, 0, 0},
                              record{"linear", 1, 1.01, 0, 8},
                              record{"linear", 5, 0.97, 2, 2},
                              record{"linear", 20, 2.82, 15, 3},
