@@ -36,7 +36,7 @@ struct real_methods_options {
   std::filesystem::path materials, state;
   std::vector<Eigen::Index> random{1, 5, 20, 100, 500, 2000};
   std::vector<double> wrong{0.0};
-  std::vector<std::string> methods{"median", "pca", "linear", "correction", "rbf", "pull-push"};
+  std::vector<std::string> methods{"median", "pca", "robust", "linear", "correction", "rbf", "pull-push"};
   Eigen::Index components = 100, repetitions = 2;
   thinning thin{{3, 5}};
   gonio::thread_count threads;
@@ -273,7 +273,12 @@ void add_real_methods(command& app) {
       .add_option("--wrong", options->wrong,
                   "Shares of the samples that have the value of another direction (Noell et al. 2014, section 3.1)")
       .capture_default_str();
-  command.add_option("--methods", options->methods, "Methods").capture_default_str();
+  command
+      .add_option("--methods", options->methods,
+                  "Those of gonio reconstruct; keeping: pca without looking for wrong samples; median: the median of "
+                  "all materials, whatever the samples")
+      .check(check::one_of({"median", "pca", "keeping", "robust", "linear", "correction", "rbf", "pull-push"}))
+      .capture_default_str();
   command.add_option("--components", options->components, "Components of the priors")
       .check(check::positive_number())
       .capture_default_str();
