@@ -13,6 +13,7 @@
 #include <gonio/estimate/impl/outlier_weights.ipp>
 #include <gonio/estimate/impl/outlying_samples.ipp>
 #include <gonio/estimate/impl/pull_push.ipp>
+#include <gonio/estimate/impl/robust_decomposition.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
 
 namespace gonio {

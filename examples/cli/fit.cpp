@@ -21,11 +21,12 @@ namespace {
 
 struct fit_command_options {
   std::filesystem::path measurements, output, image, pbrt, mitsuba;
-  std::string model = "ggx", metric = "lin";
+  std::string model = "ggx", metric = "log";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
-  bool fresnel = false, print_json = false;
+  bool fresnel = false, print_json = false, no_cosine_weight = false;
   image_options how;
-  gonio::model::model_fit_options fit;
+  /// Those that are nearest on measured materials: docs/results/models.md.
+  gonio::model::model_fit_options fit{.norm = gonio::model::fit_norm::huber};
 };
 
 bool is_table(const std::filesystem::path& path) { return path.extension() == ".binary" || path.extension() == ".gz"; }
@@ -104,12 +105,15 @@ void add_fit(command& app) {
       .capture_default_str();
   // Declare how they are compared.
   command
-      .add_option("--metric", options->metric, "Reflectance is compared as it is (lin), log (ln(1 + x)) or cubic root")
+      .add_option("--metric", options->metric,
+                  "Reflectance is compared as it is (lin), as log (ln(1 + x)) or as cubic root")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
   command.add_flag("--fresnel", options->fresnel,
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
   add_fit_options(command, options->fit);
+  command.add_flag("--no-cosine-weight", options->no_cosine_weight,
+                   "Compare reflectance without the cosine of the light");
   add_cell_weights_option(command, options->cell_weights);
   // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"},
@@ -121,7 +125,12 @@ void add_fit(command& app) {
   command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->fit.threads);
-  command.callback([options] { fit(*options); });
+  command.callback([options] {
+    if (options->fit.cosine_weighted && options->no_cosine_weight)
+      gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
+    options->fit.cosine_weighted = !options->no_cosine_weight;
+    fit(*options);
+  });
 }
 
 }  // namespace cli

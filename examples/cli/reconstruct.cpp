@@ -3,6 +3,7 @@
 #include "command_line/json.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/measurement_files.hpp"
+#include "command_line/method_record.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/reconstruct_methods.hpp"
 #include "command_line/sample_warnings.hpp"
@@ -49,7 +50,9 @@ const std::vector<method>& methods() {
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
         "--variance"}},
       {"correction",
-       "such a combination, corrected again and again, for samples with outliers (Noell et al. 2014)",
+       "such a combination, corrected again and again (Noell et al. 2014), from 2000 samples on, or if an option of "
+       "its "
+       "own is given; else what pca does",
        reconstruct_by_corrections,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--iterations", "--history",
         "--iteration-figure", "--truth", "--seed"}},
@@ -97,6 +100,10 @@ void write_history(const std::filesystem::path& path, std::span<const gonio::cor
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
+Eigen::Index counting(const gonio::sample_set& samples) {
+  return std::ranges::count_if(samples, [](const gonio::sample& each) { return each.weight.counts(); });
+}
+
 void print(const reconstruction& result, std::size_t samples, bool as_json) {
   for (const std::string& sentence : result.warnings) std::cerr << "gonio: warning: " << sentence << '\n';
   if (as_json) {
@@ -130,6 +137,8 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
   const auto samples = read_measurements(options.samples);
   reconstruction result = chosen.reconstruct(options, samples);
   std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
+  if (std::string sentence = warning_of(options.method, counting(samples)); !sentence.empty())
+    result.warnings.push_back(std::move(sentence));
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);
@@ -200,7 +209,8 @@ void add_reconstruct(command& app) {
       .check(check::range(0.0, 10.0))
       .capture_default_str();
   command.add_flag("--no-reject", options->keeps_all,
-                   "Keep samples that all others contradict (of up to 1,000, pca leaves them out and names them)");
+                   "Let all samples count in full: of fewer than 100, pca leaves out and names those that the others "
+                   "contradict; of more, outliers count less");
   command.add_output("--residuals", options->residuals, {".csv"},
                      "What all other samples say of each sample, to write (.csv)");
   command.add_output("--uncertainty", options->uncertainty, {".binary", ".npy"},
@@ -225,6 +235,9 @@ void add_reconstruct(command& app) {
   command.callback([command, options, how] {
     const method& chosen = method_named(options->method);
     require_taken(command, chosen);
+    options->has_own_options = std::ranges::any_of(chosen.takes, [&](std::string_view option) {
+      return option != "--prior" && option != "--seed" && command.count(std::string(option)) > 0;
+    });
     reconstruct(*options, *how, chosen);
   });
 }

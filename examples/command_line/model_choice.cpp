@@ -38,9 +38,10 @@ void add_fit_options(command& to, gonio::model::model_fit_options& options) {
         {{"l1", static_cast<int>(gonio::model::fit_norm::l1)},
          {"l2", static_cast<int>(gonio::model::fit_norm::l2)},
          {"huber", static_cast<int>(gonio::model::fit_norm::huber)}},
-        "How residuals add up: l1 (the base of highlights), l2 (their tops), huber")
-      .default_str("l2");
-  to.add_flag("--cosine-weighted", options.cosine_weighted, "Compare reflectance times the cosine of the light");
+        "How residuals add up: l1 (the base of highlights), l2 (their tops), huber (both)")
+      .default_str(options.norm == gonio::model::fit_norm::huber ? "huber" : "l2");
+  to.add_flag("--cosine-weighted", options.cosine_weighted,
+              "Compare reflectance times the cosine of the light (the default)");
   to.add_option("--starts", options.random_starts, "Random starts beside the consecutive scheme")
       .check(check::range(0, 10'000))
       .capture_default_str();

@@ -3,12 +3,16 @@
 #include "fixed.hpp"
 #include "iteration_figure.hpp"
 #include "materials.hpp"
+#include "method_record.hpp"
 #include "progress_bar.hpp"
 #include "reconstruct_methods.hpp"
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/robust_decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/prior.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -48,7 +52,10 @@ void describe(const Run& run, bool converged, bool automatic, reconstruction& re
                     ", relative error before the last " + fixed(last.error, 3) + ", " +
                     fixed(100.0 * last.down_weighted, 1) + " % down-weighted";
   if (!automatic) return;
-  const double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
+  // Few samples do not support any share.
+  const Eigen::Index samples = run.measured().cols();
+  double outliers = 1.0 - gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
+  if (samples < fewest_corrected_samples) outliers = std::min(outliers, gonio::largest_outlier_share(samples));
   result.details["outliers"] = outliers;
   result.sentence += ", about " + fixed(100.0 * outliers, 1) + " % outliers";
 }
@@ -113,6 +120,15 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 
 reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
   static_cast<void>(gamma_of(options));  // refused before the work
+  const Eigen::Index counting =
+      std::ranges::count_if(samples, [](const gonio::sample& each) { return each.weight.counts(); });
+  if (counting < fewest_corrected_samples && !options.has_own_options) {
+    reconstruction result =
+        reconstruct_with_discrepancy(options, gonio::io::read_prior(options.materials.prior), samples);
+    result.warnings.push_back("--method correction needs at least " + std::to_string(fewest_corrected_samples) +
+                              " samples, not " + std::to_string(counting) + ": --method pca was taken");
+    return result;
+  }
   std::optional<gonio::brdf_table> truth;
   if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   progress_bar bar;

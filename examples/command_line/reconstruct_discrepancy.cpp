@@ -7,6 +7,7 @@
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/robust_decomposition.hpp>
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
@@ -18,9 +19,11 @@ namespace cli {
 
 namespace {
 
-/// Samples are looked through for wrong ones up to here: beyond, a few wrong ones hardly matter, and many are
-/// --method correction's.
-constexpr Eigen::Index most_looked_through = 1000;
+/// From so many samples on outliers count less, and are not named: docs/results/real-methods.md.
+constexpr Eigen::Index fewest_weighed = 100;
+
+/// What all others say of each sample is told of so many.
+constexpr Eigen::Index most_residuals = 1000;
 
 /// Which samples of the file count, by their positions.
 std::vector<Eigen::Index> counting(const gonio::sample_set& samples) {
@@ -75,21 +78,9 @@ double known_to(const known_values& known, double deviation) {
   return std::expm1(known.deviations_of(gonio::confidence_level::sixty_eight_percent) * deviation);
 }
 
-/// To which factor the highlight of mirror-like directions up to 70 degrees is known, with a probability of 95 %: in
-/// the median of a grid's cells.
-double highlight_factor(const known_values& known, const gonio::valid_cells& cells,
-                        const std::vector<double>& deviations) {
-  std::vector<double> highlight;
-  for (Eigen::Index cell = 0; cell < std::ssize(deviations); ++cell) {
-    const gonio::half_difference angles = cells.angles(cell);
-    if (angles.theta_h < gonio::radians(5.0) && angles.theta_d < gonio::radians(70.0))
-      highlight.push_back(deviations[cell]);
-  }
-  return std::exp(known.deviations_of(gonio::confidence_level::ninety_five_percent) * gonio::median(highlight));
-}
-
 /// "half of all directions are known to 6 %, half of those beyond 80 degrees to 40 %".
-void describe(const known_values& known, const reconstruct_options& options, reconstruction& result) {
+void describe(const known_values& known, const gonio::log_relative_pca& prior, const reconstruct_options& options,
+              reconstruction& result) {
   const gonio::valid_cells coarse(gonio::grid({15, 9, 12}));
   const std::vector<double> all = known.deviations(coarse, options.threads);
   std::vector<double> grazing;
@@ -99,7 +90,7 @@ void describe(const known_values& known, const reconstruct_options& options, rec
     if (std::min(cosine.i, cosine.o) < limit) grazing.push_back(all[cell]);
   }
   // A highlight that may be four times too bright or too dark is no result.
-  const double factor = highlight_factor(known, coarse, all);
+  const double factor = gonio::highlight_factor(known, prior.cells());
   result.details["highlight_known_to_factor"] = factor;
   if (factor > 4.0)
     result.warnings.push_back("the highlight is known to a factor of " + fixed(factor, factor < 10.0 ? 1 : 0) +
@@ -121,53 +112,91 @@ gonio::brdf_table uncertainty_table(const known_values& known, gonio::thread_cou
   return gonio::resample(coarse, gonio::valid_cells(), threads);
 }
 
-}  // namespace
+using discrepancy_estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
 
-reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
-                                            const gonio::sample_set& samples) {
-  const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
-  const gonio::discrepancy_decomposition estimator{prior, model, options.threads};
-  gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
-  const std::vector<Eigen::Index> numbers = counting(samples);
-  const bool looks = located.size() <= most_looked_through;
-  if (!options.residuals.empty() && !looks)
-    gonio::refuse("--residuals needs at most " + std::to_string(most_looked_through) + " samples, not " +
-                  std::to_string(located.size()));
+/// Samples that count as much as the others allow, and what is told of those that count less.
+struct accepted_samples {
+  gonio::located_samples located;
+  std::vector<bool> is_left_out;  ///< of those that were given
+  json details = json::object();
+  std::string sentence{};
+  std::vector<std::string> warnings{};
+};
 
-  // Leave out what the others contradict.
-  gonio::sorted_samples sorted;
-  std::vector<std::string> warnings;
+/// Of few samples: those that the others contradict are named and left out. `numbers` are their positions in the file.
+accepted_samples without_contradicted(const discrepancy_estimator& estimator, const gonio::located_samples& located,
+                                      const std::vector<Eigen::Index>& numbers) {
+  const gonio::sorted_samples sorted = gonio::reject_outlying(estimator, located);
+  accepted_samples result{located.subset(sorted.kept), std::vector<bool>(located.size(), false)};
   json left_out = json::array();
-  std::vector<bool> is_left_out(located.size(), false);
-  if (looks && !options.keeps_all) sorted = gonio::reject_outlying(estimator, located);
   for (const gonio::outlying_sample& out : sorted.left_out) {
-    is_left_out[out.number] = true;
-    warnings.push_back(told(out, numbers[out.number]));
+    result.is_left_out[out.number] = true;
+    result.warnings.push_back(told(out, numbers[out.number]));
     left_out.push_back({{"sample", numbers[out.number] + 1},
                         {"measured", per_channel(out.measured)},
                         {"others", per_channel(out.predicted)},
                         {"mapped_deviation", out.deviation},
                         {"probability_wrong", out.probability}});
   }
+  result.details["left_out"] = left_out;
+  return result;
+}
+
+/// Of many samples: outliers count less.
+accepted_samples weighed_by_inliers(const discrepancy_estimator& estimator, const gonio::located_samples& located,
+                                    gonio::thread_count threads) {
+  const gonio::robust_decomposition robust{estimator, {}, threads};
+  const Eigen::VectorXd weights = robust.inlier_weights(located);
+  accepted_samples result{robust.weighted(located, weights), std::vector<bool>(located.size(), false)};
+  for (Eigen::Index i = 0; i < weights.size(); ++i) result.is_left_out[i] = weights[i] < 0.5;
+  const auto n = static_cast<double>(located.size());
+  const double outliers = 1.0 - weights.sum() / n;
+  result.details = {{"outliers", outliers},
+                    {"down_weighted", static_cast<double>((weights.array() < 0.5).count()) / n}};
+  result.sentence = ", about " + fixed(100.0 * outliers, 1) + " % outliers";
+  return result;
+}
+
+accepted_samples accept(const reconstruct_options& options, const discrepancy_estimator& estimator,
+                        const gonio::located_samples& located, const std::vector<Eigen::Index>& numbers) {
+  if (options.keeps_all) return {located, std::vector<bool>(located.size(), false)};
+  if (located.size() < fewest_weighed) return without_contradicted(estimator, located, numbers);
+  return weighed_by_inliers(estimator, located, options.threads);
+}
+
+}  // namespace
+
+reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                            const gonio::sample_set& samples) {
+  const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
+  const discrepancy_estimator estimator{prior, model, options.threads};
+  const gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
+  const std::vector<Eigen::Index> numbers = counting(samples);
+  if (!options.residuals.empty() && located.size() > most_residuals)
+    gonio::refuse("--residuals needs at most " + std::to_string(most_residuals) + " samples, not " +
+                  std::to_string(located.size()));
+
+  // Find out which samples the others contradict.
+  accepted_samples accepted = accept(options, estimator, located, numbers);
   if (!options.residuals.empty())
     write_residuals(options.residuals, prior, located,
                     gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)), numbers,
-                    is_left_out);
-  if (!sorted.left_out.empty()) located = located.subset(sorted.kept);
+                    accepted.is_left_out);
 
   // Fit the rest.
-  const auto fitted = estimator.fit_located(located);
+  const auto fitted = estimator.fit_located(accepted.located);
   reconstruction result{fitted.tabulate(gonio::valid_cells(), options.threads)};
-  const gonio::rgb residual = fitted.report()->residual.array() / std::sqrt(static_cast<double>(located.size()));
+  const gonio::rgb residual =
+      fitted.report()->residual.array() / std::sqrt(static_cast<double>(accepted.located.size()));
   result.details = {{"mapped_residual_rms", per_channel(residual)},
                     {"kkt_residual", per_channel(fitted.report()->kkt_residual.array())},
-                    {"discrepancy", options.discrepancy},
-                    {"left_out", left_out}};
+                    {"discrepancy", options.discrepancy}};
+  result.details.update(accepted.details);
   result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
-                    ' ' + fixed(residual.z(), 3);
-  result.warnings = std::move(warnings);
-  const gonio::posterior known(estimator, located);
-  describe(known, options, result);
+                    ' ' + fixed(residual.z(), 3) + accepted.sentence;
+  result.warnings = std::move(accepted.warnings);
+  const gonio::posterior known(estimator, accepted.located);
+  describe(known, prior, options, result);
   if (!options.uncertainty.empty() || !options.uncertainty_image.empty())
     result.uncertainty = uncertainty_table(known, options.threads);
   return result;

@@ -24,6 +24,7 @@ struct reconstruct_options {
   double discrepancy = 0.02;
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
+  bool has_own_options = false;  ///< the method was asked for something beside what all methods have
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;
@@ -35,9 +36,9 @@ struct reconstruct_options {
 /// A fit on its way to the user.
 struct reconstruction {
   gonio::brdf_table table;
-  json details = json::object();  ///< what --json prints beside the number of samples
-  std::string sentence{};         ///< the same for people
-  std::vector<std::string> warnings{};  ///< sentences, for people: on standard error
+  json details = json::object();                   ///< what --json prints beside the number of samples
+  std::string sentence{};                          ///< the same for people
+  std::vector<std::string> warnings{};             ///< sentences, for people: on standard error
   std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
@@ -47,7 +48,8 @@ struct reconstruction {
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// The same components and a discrepancy beside them, without samples that the others contradict.
+/// The same components and a discrepancy beside them, without samples that the others contradict; of 100 samples and
+/// more, outliers count less.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);

@@ -27,6 +27,8 @@ void add_importance_sampling(command& app);
 void add_measured_intervals(command& app);
 void add_real_materials(command& app);
 void add_conformity(command& app);
+void add_real_fits(command& app);
+void add_real_methods(command& app);
 void add_run(command& app);
 
 }  // namespace papers

@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
   papers::add_measured_intervals(app);
   papers::add_real_materials(app);
   papers::add_conformity(app);
+  papers::add_real_fits(app);
+  papers::add_real_methods(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

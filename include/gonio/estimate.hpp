@@ -27,6 +27,7 @@
 #include <gonio/estimate/pose_refinement.hpp>
 #include <gonio/estimate/posterior.hpp>
 #include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/robust_decomposition.hpp>
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>

@@ -57,7 +57,8 @@ TEST_CASE("samples of a model give its parameters back") {
   // The colour and f0 of the model are those of its Fresnel factor, which is f0 + (1 - f0) (1 - cosine)^5.
   CHECK(fit["lobes"][1]["parameters"]["f0"].get<double>() == doctest::Approx(0.04).epsilon(1e-3));
   CHECK(fit["lobes"][1]["colour"][2].get<double>() == doctest::Approx(1.0).epsilon(1e-3));
-  for (const char* other : {"--loss l1", "--loss huber --metric log", "--metric cubic --cosine-weighted"}) {
+  for (const char* other :
+       {"--loss l1", "--loss l2 --metric lin --no-cosine-weight", "--metric cubic --cosine-weighted"}) {
     CAPTURE(other);
     CHECK(fitted(samples + " --model ggx " + other)["lobes"][1]["parameters"]["alpha"].get<double>() ==
           doctest::Approx(0.15).epsilon(1e-3));
@@ -109,6 +110,7 @@ TEST_CASE("what cannot be fitted is refused in one line, and nothing is written"
   refuses(samples + " --model sum:lambert+", "no lobe named ''");
   refuses(samples + " --model ward --fresnel", "ward takes no --fresnel");
   refuses(samples + " --loss l3", "--loss");
+  refuses(samples + " --cosine-weighted --no-cosine-weight", "--no-cosine-weight");
   refuses(samples + " --model phong --pbrt " + (folder / "x.pbrt").string(), "not phong");
   CHECK(!std::filesystem::exists(folder / "x.pbrt"));
   scratch::put((folder / "two.csv").string(), "theta_h,theta_d,phi_d,r,g,b\n1,2,3,.1,.1,.1\n4,5,6,.1,.1,.1\n");

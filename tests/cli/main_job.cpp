@@ -73,7 +73,8 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
     CHECK(kind(at("samples.csv")) == "samples");
     scratch::put(at("spectra.brdf"), "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n");
     CHECK(kind(at("spectra.brdf")) == "samples");
-    CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output.starts_with("2 samples,"));
+    CHECK(gonio_tool("reconstruct " + at("spectra.brdf") + " -o " + at("red.binary")).output.find("\n2 samples,") !=
+          std::string::npos);
     CHECK(kind(std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior") == "prior");
   }
   SUBCASE("the prior expands to the materials it was learned from") {
@@ -204,7 +205,7 @@ TEST_CASE("every metric and solver of the linear method reconstructs, and says h
     const auto result = gonio_tool("reconstruct " + at("samples.csv") + " --method linear --exclude red-plastic " +
                                    options + " --json -o " + at("estimate.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    const auto fit = parse_json(result.output);
+    const auto fit = parse_json(result.output.substr(result.output.find('{')));  // after the warning
     for (const double kkt_residual : fit["kkt_residual"]) CHECK(kkt_residual <= 1e-9);
     return fit;
   };
@@ -255,7 +256,7 @@ class corrected_plastic {
     const auto result =
         gonio_tool("reconstruct " + at("samples.csv") + " " + options + " --json -o " + at("out.binary"));
     REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
-    return parse_json(result.output);
+    return parse_json(result.output.substr(result.output.find('{')));  // after the warnings
   }
 
   [[nodiscard]] double error() const {

@@ -8,13 +8,14 @@
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/colour_shift.hpp"
 #include "papers/our_own/detection_rates.hpp"
-#include "papers/our_own/families_left_out.hpp"
+#include "papers/our_own/left_out_families.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/conformity.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/rgl.hpp>
 
 #include <array>
 #include <functional>
@@ -39,7 +40,6 @@ struct conformity_experiment_options {
 };
 
 using directions = std::vector<gonio::half_difference>;
-using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
 using estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
 
 /// A surface that is measured; what lies beyond the gamut is black there.
@@ -61,7 +61,7 @@ class conformity_experiment {
   conformity_experiment(const conformity_experiment_options& given, progress_bar& bar)
       : given_(given),
         bar_(bar),
-        library_(given.networks, given.materials, given.thin, given.threads, bar.listener()),
+        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
         judge_(library_.cells(), 36, given.threads) {
     for (const auto& [name, path] : gonio::io::list_rgl_directory(given.materials))
       surfaces_.push_back({name, [f = gonio::io::read_rgl(path).material](const gonio::direction_pair& pair) {

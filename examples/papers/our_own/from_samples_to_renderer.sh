@@ -19,7 +19,7 @@ errors() {
 
 # fit WHAT LABEL
 fit() {
-  "$tool" fit "$1" --model ggx --metric "${METRIC:-cubic}" --loss l1 -o "$folder/model.binary" > /dev/null
+  "$tool" fit "$1" --model ggx --metric "${METRIC:-cubic}" --loss l1 --no-cosine-weight -o "$folder/model.binary" > /dev/null
   printf '| | %s | %s\n' "$2" "$(errors "$folder/model.binary")"
 }
 

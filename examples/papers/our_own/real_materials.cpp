@@ -8,7 +8,8 @@
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
-#include "papers/our_own/families_left_out.hpp"
+#include "papers/our_own/left_out_families.hpp"
+#include "papers/our_own/rank_correlation.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
@@ -17,20 +18,16 @@
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/posterior.hpp>
+#include <gonio/estimate/robust_decomposition.hpp>
 #include <gonio/evaluate/comparison.hpp>
-#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
-#include <gonio/io/rgl.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <numeric>
-#include <optional>
-#include <random>
 
 namespace papers {
 
@@ -41,26 +38,12 @@ struct real_materials_options {
   std::filesystem::path materials, folder = shipped_directions(), state;
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
-  std::vector<std::string> methods{"first", "all", "discrepancy", "rejecting"};
+  std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
   Eigen::Index components = 100, first_components = 60, repetitions = 2, wrong = 0;
   double noise = 0.0;
   bool surrogates = false;
   thinning thin{{3, 5}};
   gonio::thread_count threads;
-};
-
-/// Which materials are judged, and what is left out of the prior for each.
-struct judged_material {
-  std::string name, family;
-  gonio::brdf_table truth;
-  std::function<gonio::rgb(const gonio::direction_pair&)> measured;
-  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
-};
-
-/// Where is measured: its name, and a set of directions for each repetition.
-struct sampling {
-  std::string name;
-  std::vector<std::vector<gonio::half_difference>> sets;
 };
 
 std::vector<sampling> samplings(const real_materials_options& given) {
@@ -70,16 +53,7 @@ std::vector<sampling> samplings(const real_materials_options& given) {
     if (!points) gonio::refuse("there is no set by " + given.set + " of " + std::to_string(count) + " directions");
     all.push_back({std::to_string(count) + " designed", {*points}});
   }
-  const gonio::valid_cells cells;
-  for (const Eigen::Index count : given.random) {
-    sampling drawn{std::to_string(count) + " random", {}};
-    for (Eigen::Index r = 0; r < given.repetitions; ++r) {
-      std::vector<gonio::half_difference> directions;
-      for (const Eigen::Index cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
-      drawn.sets.push_back(std::move(directions));
-    }
-    all.push_back(std::move(drawn));
-  }
+  for (const Eigen::Index count : given.random) all.push_back(random_sampling(count, given.repetitions));
   return all;
 }
 
@@ -95,7 +69,7 @@ class experiment {
   experiment(const real_materials_options& given, progress_bar& bar)
       : given_(given),
         bar_(bar),
-        library_(given.networks, given.materials, given.thin, given.threads, bar.listener()),
+        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
         judge_(library_.cells(), 36, given.threads),
         metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
         results_(given.state) {}
@@ -124,22 +98,13 @@ class experiment {
 
  private:
   [[nodiscard]] std::vector<judged_material> judged() const {
+    if (!given_.surrogates) return measured_materials(given_.materials, library_);
     std::vector<judged_material> all;
-    const auto measured_by = [](auto f) {
-      return [f](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
-    };
-    if (given_.surrogates) {
-      const auto known = gonio::io::read_networks(given_.networks.front());
-      for (const std::string& name : gonio::nielsen_test_materials()) {
-        const Eigen::Index i = library_.first().find(name);
-        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i]), all.size()});
-      }
-      return all;
-    }
-    for (const auto& [name, path] : gonio::io::list_rgl_directory(given_.materials)) {
-      const gonio::material_set& set = library_.measured();
-      all.push_back({name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material),
-                     all.size()});
+    const auto known = gonio::io::read_networks(given_.networks.front());
+    for (const std::string& name : gonio::nielsen_test_materials()) {
+      const Eigen::Index i = library_.first().find(name);
+      const auto measured = [f = known.networks[i]](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
+      all.push_back({name, "", library_.first().table(i), measured, all.size()});
     }
     return all;
   }
@@ -163,11 +128,14 @@ class experiment {
     std::vector<Eigen::Index> left_out = {};
     /// Values of cells in each of eight regions, and how many of them are within the intervals of 68 and 95 %.
     std::vector<double> values = std::vector<double>(8, 0.0), within_68 = values, within_95 = values;
+    double rank = 0.0;    ///< correlation of deviations and errors
+    bool warned = false;  ///< that the highlight is known to a factor of 4 or worse
   };
 
   /// Of every 37th cell; regions by theta_h (2, 10 and 30 degrees) and theta_d (45).
   void count_within(estimated& found, const gonio::posterior<gonio::log_relative>& known,
                     const gonio::brdf_table& truth) const {
+    std::vector<double> deviations, errors;
     for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
       const gonio::location at = gonio::locate_cell(library_.cells(), cell);
       const double theta_h = gonio::degrees(at.angles.theta_h);
@@ -184,7 +152,23 @@ class experiment {
       found.values[region] += 3.0;
       found.within_68[region] += holds(gonio::confidence_level::sixty_eight_percent);
       found.within_95[region] += holds(gonio::confidence_level::ninety_five_percent);
+      double error = 0.0;
+      for (Eigen::Index c = 0; c < 3; ++c)
+        error += std::abs(metric_.forward(value[c], at) - metric_.forward(estimate[c], at));
+      deviations.push_back(known.deviation(at));
+      errors.push_back(error);
     }
+    found.rank = rank_correlation(deviations, errors);
+  }
+
+  /// Is the highlight of a channel within the gamut, where a ratio of peaks says something?
+  [[nodiscard]] static std::array<bool, 3> in_gamut(const judged_material& material) {
+    std::array<bool, 3> inside{true, true, true};
+    for (const double theta_d : {5.0, 25.0, 45.0, 65.0}) {
+      const gonio::rgb value = material.measured(gonio::to_directions({0.0, gonio::radians(theta_d), 1.0}));
+      for (Eigen::Index c = 0; c < 3; ++c) inside[c] = inside[c] && value[c] > 0.0;
+    }
+    return inside;
   }
 
   estimated estimate(const std::string& method, const gonio::sample_set& samples, const judged_material& material) {
@@ -198,19 +182,30 @@ class experiment {
     const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
     gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
     std::vector<Eigen::Index> left_out;
-    if (method == "rejecting" && located.size() <= 1000) {
+    if (method == "default" && located.size() < 100) {
       const gonio::sorted_samples sorted = gonio::reject_outlying(both, located);
       for (const gonio::outlying_sample& out : sorted.left_out) left_out.push_back(out.number);
       located = located.subset(sorted.kept);
+    } else if (method == "default") {
+      const gonio::robust_decomposition robust{both, {}, given_.threads};
+      const Eigen::VectorXd weights = robust.inlier_weights(located);
+      for (Eigen::Index i = 0; i < weights.size(); ++i)
+        if (weights[i] < 0.5) left_out.push_back(i);
+      std::ranges::stable_sort(left_out, {}, [&](Eigen::Index i) { return weights[i]; });
+      located = robust.weighted(located, weights);
     }
     estimated found{both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
-    count_within(found, gonio::posterior(both, located), material.truth);
+    const gonio::posterior known_to(both, located);
+    count_within(found, known_to, material.truth);
+    found.warned = gonio::highlight_factor(known_to, library_.cells()) > 4.0;
     return found;
   }
 
   json errors_of(const judged_material& material, const sampling& where, const std::string& method) {
     std::vector<double> values(8, 0.0), within_68 = values, within_95 = values;
     double rms = 0.0, environment = 0.0, lights = 0.0, low = 1e300, high = 0.0, named = 0.0, left_out = 0.0;
+    double rank = 0.0, peaks_off = 0.0, peaks_off_warned = 0.0, warned = 0.0;
+    const std::array<bool, 3> inside = in_gamut(material);
     const auto times = static_cast<double>(where.sets.size());
     for (Eigen::Index r = 0; r < std::ssize(where.sets); ++r) {
       const std::uint64_t seed = 1000 * material.number + r;
@@ -221,8 +216,18 @@ class experiment {
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
       lights += errors.delta_e_lights / times;
-      low = std::min(low, errors.peak_ratio.minCoeff());
-      high = std::max(high, errors.peak_ratio.maxCoeff());
+      bool off = false;
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        const double ratio = errors.peak_ratio[c];
+        if (!inside[c]) continue;
+        low = std::min(low, ratio);
+        high = std::max(high, ratio);
+        off = off || ratio < 0.25 || ratio > 4.0;
+      }
+      peaks_off += off ? 1.0 : 0.0;
+      peaks_off_warned += off && found.warned ? 1.0 : 0.0;
+      warned += found.warned ? 1.0 : 0.0;
+      rank += found.rank / times;
       for (int region = 0; region < 8; ++region) {
         values[region] += found.values[region];
         within_68[region] += found.within_68[region];
@@ -235,10 +240,20 @@ class experiment {
       };
       named += std::ranges::all_of(wrong, is_first) ? 1.0 / times : 0.0;
     }
-    return {{"mapped_rms", rms},     {"delta_e_env", environment}, {"delta_e_lights", lights},
-            {"least_peak", low},     {"largest_peak", high},       {"named", named},
-            {"left_out", left_out},  {"values", values},           {"within_68", within_68},
-            {"within_95", within_95}};
+    return {{"mapped_rms", rms},
+            {"delta_e_env", environment},
+            {"delta_e_lights", lights},
+            {"least_peak", low},
+            {"largest_peak", high},
+            {"named", named},
+            {"left_out", left_out},
+            {"values", values},
+            {"within_68", within_68},
+            {"within_95", within_95},
+            {"rank", rank},
+            {"peaks_off", peaks_off},
+            {"warned", warned},
+            {"peaks_off_warned", peaks_off_warned}};
   }
 
   const real_materials_options& given_;
@@ -273,8 +288,10 @@ void print(const real_materials_options& given, const json& rows) {
   if (given.noise > 0.0) std::cout << ", noise of " << fixed(100.0 * given.noise, 0) << " %";
   if (given.wrong > 0) std::cout << ", " << given.wrong << " samples ten times too bright or too dark";
   std::cout
-      << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | left out | "
-         "wrong ones first | within 68 % | within 95 % (worst region) |\n|---|---|---|---|---|---|---|---|---|---|\n";
+      << ".\n\n| samples | method | mapped rms | Delta E env | Delta E lights | peak, least to largest | peaks beyond "
+         "4 times (warned), warned in all | left out | wrong ones first | within 68 % | within 95 % (worst region) | "
+         "rank "
+         "correlation |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const json& row : rows.elements()) {
     std::map<std::string, std::vector<double>> values;
     for (const auto& [name, errors] : row["materials"].items())
@@ -284,13 +301,15 @@ void print(const real_materials_options& given, const json& rows) {
       const auto found = distribution(values[key]);
       return fixed(found.mean, digits) + " (" + fixed(found.median, digits) + ")";
     };
+    const auto total = [&](const char* key) { return std::accumulate(values[key].begin(), values[key].end(), 0.0); };
     std::cout << "| " << row["sampling"].text() << " | " << row["method"].text() << " | "
               << mean_and_median("mapped_rms", 3) << " | " << mean_and_median("delta_e_env", 2) << " | "
               << mean_and_median("delta_e_lights", 2) << " | " << fixed(std::ranges::min(values["least_peak"]), 2)
-              << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " | "
+              << " to " << fixed(std::ranges::max(values["largest_peak"]), 2) << " | " << fixed(total("peaks_off"), 0)
+              << " (" << fixed(total("peaks_off_warned"), 0) << "), " << fixed(total("warned"), 0) << " | "
               << fixed(distribution(values["left_out"]).mean, 2) << " | "
               << (given.wrong == 0 ? "-" : fixed(100.0 * distribution(values["named"]).mean, 0) + " %") << " | "
-              << coverage(row["materials"]) << " |\n";
+              << coverage(row["materials"]) << " | " << fixed(distribution(values["rank"]).mean, 2) << " |\n";
   }
 }
 
@@ -311,9 +330,9 @@ void add_real_materials(command& app) {
   command
       .add_option("--methods", options->methods,
                   "first: components of the first file of networks; all: of all networks and the other measured "
-                  "materials; discrepancy: the same and a discrepancy; rejecting: and without samples that the others "
-                  "contradict, which is gonio reconstruct's default")
-      .check(check::one_of({"first", "all", "discrepancy", "rejecting"}))
+                  "materials; discrepancy: the same and a discrepancy; default: and without samples that the others "
+                  "contradict, as gonio reconstruct does")
+      .check(check::one_of({"first", "all", "discrepancy", "default"}))
       .capture_default_str();
   command.add_option("--components", options->components, "Components of the priors of all materials")
       .check(check::positive_number())

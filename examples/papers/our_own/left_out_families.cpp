@@ -1,0 +1,68 @@
+#include "left_out_families.hpp"
+
+#include <gonio/evaluate/simulated_measurement.hpp>
+#include <gonio/io/networks.hpp>
+#include <gonio/io/rgl.hpp>
+
+#include <random>
+
+namespace papers {
+
+std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
+
+material_library::material_library(const std::vector<std::filesystem::path>& networks,
+                                   const std::filesystem::path& measured, const cli::thinning& thin,
+                                   const gonio::progress& listener, gonio::thread_count threads)
+    : cells_(thin.of(gonio::valid_cells())) {
+  for (const std::filesystem::path& file : networks)
+    sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, threads, listener));
+  gonio::material_set set{cells_, {}, {}};
+  const auto files = gonio::io::list_rgl_directory(measured);
+  if (files.empty()) gonio::refuse(measured.string() + ": holds no material (*.bsdf)");
+  set.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
+  for (const auto& [name, path] : files) {
+    const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, threads);
+    set.values.middleCols(3 * std::ssize(set.names), 3) =
+        Eigen::Map<const gonio::cell_matrix>(table.values().data(), set.values.rows(), 3);
+    set.names.push_back(name);
+  }
+  sets_.push_back(std::move(set));
+}
+
+std::vector<judged_material> measured_materials(const std::filesystem::path& folder, const material_library& library) {
+  std::vector<judged_material> all;
+  const gonio::material_set& set = library.measured();
+  for (const auto& [name, path] : gonio::io::list_rgl_directory(folder)) {
+    auto measured = [f = gonio::io::read_rgl(path).material](const gonio::direction_pair& pair) {
+      return f(pair.wi, pair.wo);
+    };
+    all.push_back({name, family_of(name), set.table(set.find(name)), std::move(measured), all.size()});
+  }
+  return all;
+}
+
+sampling random_sampling(Eigen::Index count, Eigen::Index repetitions) {
+  const gonio::valid_cells cells;
+  sampling drawn{std::to_string(count) + " random", {}};
+  for (Eigen::Index r = 0; r < repetitions; ++r) {
+    std::vector<gonio::half_difference> directions;
+    for (const Eigen::Index cell : gonio::random_cells(cells, count, r)) directions.push_back(cells.angles(cell));
+    drawn.sets.push_back(std::move(directions));
+  }
+  return drawn;
+}
+
+gonio::sample_set measure(const reflectance& of, const std::vector<gonio::half_difference>& directions, double noise,
+                          std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  gonio::sample_set samples;
+  for (const gonio::half_difference& angles : directions) {
+    gonio::rgb value = of(gonio::to_directions(angles));
+    for (Eigen::Index c = 0; c < 3; ++c) value[c] *= 1.0 + noise * normal(random);
+    samples.push_back({angles, value, 1.0});
+  }
+  return samples;
+}
+
+}  // namespace papers

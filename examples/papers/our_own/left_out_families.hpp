@@ -1,0 +1,87 @@
+#pragma once
+/// Measured materials, each judged by what is learned without its family: the protocol of
+/// docs/results/real-materials.md and real-methods.md.
+
+#include "command_line/thinning.hpp"
+#include <gonio/core/progress.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/material_set.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace papers {
+
+/// Materials of one maker: names before the first underscore are alike.
+[[nodiscard]] std::string family_of(const std::string& name);
+
+/// Materials that are judged, or learned from, as tables.
+class material_library {
+ public:
+  /// From files of networks (.npy), and a folder of measured materials (.bsdf). Throws gonio::error if it holds none.
+  material_library(const std::vector<std::filesystem::path>& networks, const std::filesystem::path& measured,
+                   const cli::thinning& thin, const gonio::progress& listener, gonio::thread_count threads);
+
+  [[nodiscard]] const gonio::valid_cells& cells() const noexcept { return cells_; }
+  [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
+  [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
+
+  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
+  template <class Keep>
+  [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
+    gonio::material_set chosen{cells_, {}, {}};
+    Eigen::Index columns = 0;
+    for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
+    chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
+    for (Eigen::Index s = 0; s < sets; ++s)
+      for (Eigen::Index i = 0; i < std::ssize(sets_[s].names); ++i) {
+        if (!keep(sets_[s].names[i])) continue;
+        chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
+            sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
+        chosen.names.push_back(sets_[s].names[i]);
+      }
+    return chosen;
+  }
+  [[nodiscard]] Eigen::Index all() const noexcept { return std::ssize(sets_); }
+
+ private:
+  gonio::valid_cells cells_;
+  std::vector<gonio::material_set> sets_;
+};
+
+/// What is measured: reflectance in a pair of directions, sr^-1.
+using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
+
+/// Which materials are judged, and what is left out of the prior for each.
+struct judged_material {
+  std::string name, family;
+  gonio::brdf_table truth;
+  reflectance measured;
+  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
+};
+
+/// The measured materials of a library that was made from the same folder.
+[[nodiscard]] std::vector<judged_material> measured_materials(const std::filesystem::path& folder,
+                                                              const material_library& library);
+
+/// Where is measured: its name, and a set of directions for each repetition.
+struct sampling {
+  std::string name;
+  std::vector<std::vector<gonio::half_difference>> sets;
+};
+
+/// "20 random": cells of MERL's grid at random, others each time.
+[[nodiscard]] sampling random_sampling(Eigen::Index count, Eigen::Index repetitions);
+
+/// Values in some directions, each channel with noise relative to it.
+[[nodiscard]] gonio::sample_set measure(const reflectance& of, const std::vector<gonio::half_difference>& directions,
+                                        double noise, std::uint64_t seed);
+
+}  // namespace papers

@@ -1,0 +1,193 @@
+/// gonio-papers real-fits: analytic models fitted to measured materials, by every way to add up errors.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/model_choice.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/our_own/left_out_families.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/evaluate/appearance_metric.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+
+namespace papers {
+
+namespace {
+
+struct real_fits_options {
+  std::filesystem::path materials, state;
+  std::vector<std::string> models{"ggx", "torrance-sparrow", "ward-bounded", "phong-fresnel", "sum:lambert+ggx+ggx"};
+  std::vector<std::string> metrics{"lin", "log", "cubic"}, losses{"l1", "l2", "huber"}, weightings{"none", "cosine"},
+      cell_weights{"equal", "cosine"};
+  std::vector<Eigen::Index> random{100, 2000};
+  Eigen::Index repetitions = 2;
+  bool tables = false;
+  thinning thin{{3, 5}};
+  gonio::thread_count threads;
+};
+
+/// How errors add up, as the options of gonio fit say it.
+struct error_choice {
+  std::string metric, loss;
+  bool cosine_weighted = false;
+  std::string cell_weights = "equal";  ///< of a table
+
+  [[nodiscard]] gonio::model::model_fit_options options(gonio::thread_count threads) const {
+    using gonio::model::fit_norm;
+    return {.norm = loss == "l1"      ? fit_norm::l1
+                    : loss == "huber" ? fit_norm::huber
+                                      : fit_norm::l2,
+            .cosine_weighted = cosine_weighted,
+            .threads = threads};
+  }
+  [[nodiscard]] gonio::model::cell_weighting weighting() const {
+    return cell_weights == "cosine" ? gonio::model::cell_weighting::cosine : gonio::model::cell_weighting::equal;
+  }
+  [[nodiscard]] json key() const { return {metric, loss, cosine_weighted, cell_weights}; }
+};
+
+/// All ways to add up errors of samples, or of tables.
+std::vector<error_choice> choices(const real_fits_options& given, bool of_tables) {
+  std::vector<error_choice> all;
+  for (const std::string& metric : given.metrics)
+    for (const std::string& weighting : given.weightings)
+      for (const std::string& loss : given.losses)
+        for (const std::string& cells : of_tables ? given.cell_weights : std::vector<std::string>{"equal"})
+          all.push_back({metric, loss, weighting == "cosine", cells});
+  return all;
+}
+
+class fits_experiment {
+ public:
+  fits_experiment(const real_fits_options& given, progress_bar& bar)
+      : given_(given),
+        bar_(bar),
+        library_({}, given.materials, given.thin, bar.listener(), given.threads),
+        judge_(library_.cells(), 36, given.threads),
+        results_(given.state) {}
+
+  /// A row for each way to add up errors, model and number of samples (0: a table), with the Delta E of each material.
+  [[nodiscard]] json run() {
+    const std::vector<judged_material> materials = measured_materials(given_.materials, library_);
+    json rows = json::array();
+    if (given_.tables) add_rows(materials, 0, rows);
+    for (const Eigen::Index count : given_.random)
+      if (!given_.tables) add_rows(materials, count, rows);
+    return rows;
+  }
+
+ private:
+  void add_rows(const std::vector<judged_material>& materials, Eigen::Index count, json& rows) {
+    for (const error_choice& choice : choices(given_, count == 0))
+      for (const std::string& model : given_.models) {
+        std::vector<double> errors;
+        for (const judged_material& material : materials) {
+          const json key{choice.key(), model, count, material.name, given_.repetitions};
+          if (!results_.find(key)) {
+            bar_.draw(material.name + " " + model, 0.0);
+            results_.add(key, error_of(material, count, choice, model));
+          }
+          errors.push_back(results_.find(key)->number());
+        }
+        const distribution seen(errors);
+        rows.push_back({{"choice", choice.key()},
+                        {"model", model},
+                        {"samples", count},
+                        {"mean", seen.mean},
+                        {"median", seen.median},
+                        {"worst", seen.worst}});
+      }
+  }
+
+  /// Delta E under the environment, the mean of the repetitions.
+  [[nodiscard]] double error_of(const judged_material& material, Eigen::Index count, const error_choice& choice,
+                                const std::string& model) const {
+    if (count == 0)
+      return error_of(material, gonio::model::fit_observations(material.truth, given_.threads, choice.weighting()),
+                      choice, model);
+    const sampling where = random_sampling(count, given_.repetitions);
+    double sum = 0.0;
+    for (const std::vector<gonio::half_difference>& directions : where.sets)
+      sum += error_of(material, gonio::model::fit_observations(measure(material.measured, directions, 0.0, 0)), choice,
+                      model);
+    return sum / static_cast<double>(where.sets.size());
+  }
+
+  [[nodiscard]] double error_of(const judged_material& material,
+                                const std::vector<gonio::model::fit_observation>& observations,
+                                const error_choice& choice, const std::string& model) const {
+    const auto fit = fit_by_metric(choice.metric, lobes_named(model), observations, choice.options(given_.threads));
+    const gonio::brdf_table table = gonio::tabulate(fit.model, library_.cells(), given_.threads);
+    return judge_.difference(table, material.truth, given_.threads).environment;
+  }
+
+  const real_fits_options& given_;
+  progress_bar& bar_;
+  material_library library_;
+  gonio::appearance_metric judge_;
+  resumable_results results_;
+};
+
+void print(const real_fits_options& given, const json& rows) {
+  std::cout << "Delta E env: mean (median, worst) over the materials"
+            << (given.tables ? ", of fits to all cells"
+                             : ", means of " + std::to_string(given.repetitions) + " random sets each")
+            << ".\n\n| samples | metric | cosine-weighted | loss |" << (given.tables ? " cell weights |" : "");
+  for (const std::string& model : given.models) std::cout << ' ' << model << " |";
+  std::cout << "\n|---|---|---|---|" << (given.tables ? "---|" : "");
+  for (std::size_t i = 0; i < given.models.size(); ++i) std::cout << "---|";
+  std::string last;
+  for (const json& row : rows.elements()) {
+    const std::vector<json>& choice = row["choice"].elements();
+    const std::string name = json{row["choice"], row["samples"]}.dump();
+    if (name != last) {
+      std::cout << "\n| " << (given.tables ? "all" : row["samples"].dump()) << " | " << choice[0].text() << " | "
+                << (choice[2].truth() ? "yes" : "no") << " | " << choice[1].text() << " |";
+      if (given.tables) std::cout << ' ' << choice[3].text() << " |";
+    }
+    last = name;
+    std::cout << ' ' << fixed(row["mean"].number(), 2) << " (" << fixed(row["median"].number(), 2) << ", "
+              << fixed(row["worst"].number(), 1) << ") |";
+  }
+  std::cout << '\n';
+}
+
+}  // namespace
+
+void add_real_fits(command& app) {
+  auto command =
+      app.add_subcommand("real-fits", "Fit analytic models to measured materials, by every way to add up errors");
+  const auto options = std::make_shared<real_fits_options>();
+  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
+      .required();
+  command.add_option("--models", options->models, "Models as gonio fit names them").capture_default_str();
+  command.add_option("--metrics", options->metrics, "Metrics")
+      .check(check::one_of({"lin", "log", "cubic"}))
+      .capture_default_str();
+  command.add_option("--losses", options->losses, "How residuals add up")
+      .check(check::one_of({"l1", "l2", "huber"}))
+      .capture_default_str();
+  command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_flag("--tables", options->tables, "Fit all cells, with each of the weights that a cell may have");
+  add_thin_option(command, options->thin);
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    progress_bar bar;
+    fits_experiment work(*options, bar);
+    const json rows = work.run();
+    bar.wipe();
+    print(*options, rows);
+  });
+}
+
+}  // namespace papers

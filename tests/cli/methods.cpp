@@ -1,0 +1,78 @@
+/// What gonio reconstruct does with fewer samples than a method needs, and what it warns of.
+
+#include "../io/scratch.hpp"
+#include "../json.hpp"
+#include "tool.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace {
+
+/// Samples of red paint and a place for tables.
+class sampled_paint {
+ public:
+  explicit sampled_paint(int count) {
+    REQUIRE(gonio_tool("expand --formula red-paint -o " + at("truth.binary")).exit_code == 0);
+    REQUIRE(gonio_tool("sample " + at("truth.binary") + " --count " + std::to_string(count) + " --seed 3 -o " +
+                       at("samples.csv"))
+                .exit_code == 0);
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+  /// What is printed, errors too.
+  [[nodiscard]] std::string reconstruct(const std::string& options, const char* table = "out.binary") const {
+    const auto result = gonio_tool("reconstruct " + at("samples.csv") + " " + options + " -o " + at(table));
+    REQUIRE_MESSAGE(result.exit_code == 0, options, ": ", result.output);
+    return result.output;
+  }
+
+ private:
+  scratch::folder folder_;
+};
+
+bool contains(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("few samples are not corrected: what pca does is done, with a warning") {
+  const sampled_paint forty(40);
+  CHECK(contains(forty.reconstruct("--method correction"),
+                 "warning: --method correction needs at least 2000 samples, not 40: --method pca was taken"));
+  CHECK_FALSE(contains(forty.reconstruct("--method pca", "pca.binary"), "warning"));
+  CHECK(scratch::get(forty.at("out.binary")) == scratch::get(forty.at("pca.binary")));
+
+  // Who asks for rounds gets them, and is warned.
+  const std::string asked = forty.reconstruct("--method correction --iterations 1");
+  CHECK(contains(asked, "1 round"));
+  CHECK(
+      contains(asked, "warning: --method correction from 40 samples is usually 2.0 times as far off as --method pca"));
+}
+
+TEST_CASE("methods that lose on measured materials say so on standard error") {
+  const sampled_paint forty(40);
+  for (const char* method : {"rbf", "pull-push"})
+    CHECK(contains(forty.reconstruct(std::string("--json --method ") + method),
+                   "times as far off as --method pca, more than twice for"));
+  CHECK(contains(sampled_paint(1).reconstruct("--method pca"), "further off than the median material for 3 of 20"));
+}
+
+TEST_CASE("of many samples outliers count less, unless all are to be kept") {
+  const sampled_paint paint(400);
+  REQUIRE(gonio_tool("sample " + paint.at("truth.binary") + " --count 400 --outliers 0.3 --seed 3 -o " +
+                     paint.at("samples.csv"))
+              .exit_code == 0);
+  const auto error = [&](const std::string& options) {
+    static_cast<void>(paint.reconstruct(options));
+    return parse_json(gonio_tool("compare --json " + paint.at("out.binary") + ' ' + paint.at("truth.binary"))
+                          .output)["mapped_rms"]
+        .get<double>();
+  };
+  CHECK(error("") < 0.3 * error("--no-reject"));
+  const auto fit = parse_json(paint.reconstruct("--json"));
+  CHECK(fit["outliers"].get<double>() > 0.1);
+  CHECK(fit["outliers"].get<double>() < 0.35);
+  CHECK(fit["down_weighted"].get<double>() > 0.1);
+}
