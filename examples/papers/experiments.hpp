@@ -25,6 +25,8 @@ void add_model_recovery(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_real_materials(command& app);
+void add_adaptive_design(command& app);
+void add_in_plane(command& app);
 void add_run(command& app);
 
 }  // namespace papers

@@ -26,6 +26,8 @@ int main(int argc, char** argv) {
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
   papers::add_real_materials(app);
+  papers::add_adaptive_design(app);
+  papers::add_in_plane(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

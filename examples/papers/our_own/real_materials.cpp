@@ -8,6 +8,7 @@
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include "papers/our_own/material_library.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
@@ -20,10 +21,8 @@
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
-#include <gonio/io/rgl.hpp>
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -48,63 +47,9 @@ struct real_materials_options {
   gonio::thread_count threads;
 };
 
-/// Materials of one maker: names before the first underscore are alike.
-std::string family_of(const std::string& name) { return name.substr(0, name.find('_')); }
-
-/// Materials that are judged, or learned from, as tables.
-class material_library {
- public:
-  material_library(const real_materials_options& given, const gonio::progress& listener)
-      : cells_(given.thin.of(gonio::valid_cells())), threads_(given.threads) {
-    for (const std::filesystem::path& file : given.networks)
-      sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, given.threads, listener));
-    gonio::material_set measured{cells_, {}, {}};
-    const auto files = gonio::io::list_rgl_directory(given.materials);
-    if (files.empty()) gonio::refuse(given.materials.string() + ": holds no material (*.bsdf)");
-    measured.values.resize(static_cast<Eigen::Index>(cells_.size()), 3 * std::ssize(files));
-    for (const auto& [name, path] : files) {
-      const gonio::brdf_table table = gonio::tabulate(gonio::io::read_rgl(path).material, cells_, given.threads);
-      measured.values.middleCols(3 * std::ssize(measured.names), 3) =
-          Eigen::Map<const gonio::cell_matrix>(table.values().data(), measured.values.rows(), 3);
-      measured.names.push_back(name);
-    }
-    sets_.push_back(std::move(measured));
-  }
-
-  [[nodiscard]] const gonio::valid_cells& cells() const noexcept { return cells_; }
-  [[nodiscard]] const gonio::material_set& measured() const noexcept { return sets_.back(); }
-  [[nodiscard]] const gonio::material_set& first() const noexcept { return sets_.front(); }
-
-  /// Of the first `sets` files of networks, or of everything, the materials that `keep` does not refuse.
-  template <class Keep>
-  [[nodiscard]] gonio::material_set materials(Eigen::Index sets, const Keep& keep) const {
-    gonio::material_set chosen{cells_, {}, {}};
-    Eigen::Index columns = 0;
-    for (Eigen::Index s = 0; s < sets; ++s) columns += 3 * std::ranges::count_if(sets_[s].names, keep);
-    chosen.values.resize(static_cast<Eigen::Index>(cells_.size()), columns);
-    for (Eigen::Index s = 0; s < sets; ++s)
-      for (Eigen::Index i = 0; i < std::ssize(sets_[s].names); ++i) {
-        if (!keep(sets_[s].names[i])) continue;
-        chosen.values.middleCols(3 * std::ssize(chosen.names), 3) =
-            sets_[s].values.middleCols(3 * static_cast<Eigen::Index>(i), 3);
-        chosen.names.push_back(sets_[s].names[i]);
-      }
-    return chosen;
-  }
-  [[nodiscard]] Eigen::Index all() const noexcept { return sets_.size(); }
-
- private:
-  gonio::valid_cells cells_;
-  gonio::thread_count threads_;
-  std::vector<gonio::material_set> sets_;
-};
-
-/// Which materials are judged, and what is left out of the prior for each.
-struct judged_material {
-  std::string name, family;
-  gonio::brdf_table truth;
-  std::function<gonio::rgb(const gonio::direction_pair&)> measured;
-  std::uint64_t number = 0;  ///< its position: each has noise and wrong samples of its own
+/// A material that is judged, and its position: each has noise and wrong samples of its own.
+struct judged_material : real_material {
+  std::uint64_t number = 0;
 };
 
 /// Where is measured: its name, and a set of directions for each repetition.
@@ -159,7 +104,7 @@ class experiment {
   experiment(const real_materials_options& given, progress_bar& bar)
       : given_(given),
         bar_(bar),
-        library_(given, bar.listener()),
+        library_(given.networks, given.materials, given.thin.of(gonio::valid_cells()), given.threads, bar.listener()),
         judge_(library_.cells(), 36, given.threads),
         metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
         results_(given.state) {}
@@ -189,22 +134,18 @@ class experiment {
  private:
   [[nodiscard]] std::vector<judged_material> judged() const {
     std::vector<judged_material> all;
-    const auto measured_by = [](auto f) {
-      return [f](const gonio::direction_pair& pair) { return f(pair.wi, pair.wo); };
-    };
     if (given_.surrogates) {
       const auto known = gonio::io::read_networks(given_.networks.front());
       for (const std::string& name : gonio::nielsen_test_materials()) {
         const Eigen::Index i = library_.first().find(name);
-        all.push_back({name, "", library_.first().table(i), measured_by(known.networks[i]), all.size()});
+        const auto measured = [f = known.networks[i]](const gonio::direction_pair& pair) -> gonio::rgb {
+          return f(pair.wi, pair.wo);
+        };
+        all.push_back({{name, "", library_.first().table(i), measured}, all.size()});
       }
       return all;
     }
-    for (const auto& [name, path] : gonio::io::list_rgl_directory(given_.materials)) {
-      const gonio::material_set& set = library_.measured();
-      all.push_back({name, family_of(name), set.table(set.find(name)), measured_by(gonio::io::read_rgl(path).material),
-                     all.size()});
-    }
+    for (real_material& material : library_.real_materials()) all.push_back({std::move(material), all.size()});
     return all;
   }
 
@@ -212,6 +153,8 @@ class experiment {
   const gonio::log_relative_pca& prior(bool everything, const std::string& family) {
     const std::string key = everything ? "all " + family : "first";
     if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
+    if (everything && !given_.surrogates)
+      return priors_.emplace(key, library_.prior_without(family, given_.components)).first->second;
     const auto& tests = gonio::nielsen_test_materials();
     auto set = library_.materials(everything ? library_.all() : 1, [&](const std::string& name) {
       return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;
