@@ -27,7 +27,7 @@ TEST_CASE("what is no rule is refused with its file and line") {
                          gonio::error);
   };
   refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
-  refused("light 0\n", "'light' takes 2 numbers, not 1");
+  refused("light 0\n", "'light' takes 2 or 3 numbers, not 1");
   refused("light 80 20\n", "the smaller one first");
   refused("viewer 0 120\n", "from 0 to 90");
   refused("separation wide\n", "'wide' is not a number");

@@ -59,7 +59,9 @@ class adaptive_experiment {
     std::map<std::pair<Eigen::Index, std::string>, json> found;
     for (const real_material& material : materials)
       for (const std::string& method : given_.methods) {
-        const json key{"adaptive", method, material.name, given_.components};
+        json counts = json::array();
+        for (const Eigen::Index count : given_.counts) counts.push_back(count);
+        const json key{"adaptive", method, material.name, given_.components, counts};
         if (!results_.find(key)) {
           bar_.draw(material.name + " " + method, 0.0);
           results_.add(key, errors_by_count(material, method));
