@@ -138,9 +138,8 @@ class in_plane_experiment {
     json all{{"mapped_rms", errors.mapped_rms.mean()},
              {"delta_e_env", errors.delta_e_env},
              {"delta_e_lights", errors.delta_e_lights}};
-    for (const auto& [name, value] :
-         errors_by_region(table, material.truth, gonio::posterior(with.estimator, located)).items())
-      all[name] = value;
+    const json by_region = errors_by_region(table, material.truth, gonio::posterior(with.estimator, located));
+    for (const auto& [name, value] : by_region.items()) all[name] = value;
     return all;
   }
 
