@@ -28,7 +28,7 @@ struct adaptive_options {
   std::vector<std::filesystem::path> networks;
   std::filesystem::path materials, folder = shipped_directions(), state;
   std::vector<Eigen::Index> counts{5, 6, 8, 10, 12, 15, 20};
-  std::vector<std::string> methods{"perceived", "expected-error", "mean material", "first five", "adaptive"};
+  std::vector<std::string> methods{"perceived", "expected-error", "mean-material", "first-five", "adaptive"};
   Eigen::Index components = 100;
   thinning thin{{3, 5}};
   gonio::thread_count threads;
@@ -106,7 +106,7 @@ class adaptive_experiment {
     std::vector<gonio::next_measurement> planned;
     if (method != "adaptive")
       planned = with.chooser.choose(
-          method == "first five" ? samples : of_mean_material(samples, with.estimator.prior()), most() - 5);
+          method == "first-five" ? samples : of_mean_material(samples, with.estimator.prior()), most() - 5);
     while (true) {
       const Eigen::Index count = samples.size();
       if (std::ranges::find(given_.counts, count) != given_.counts.end())
@@ -170,10 +170,10 @@ void add_adaptive_design(command& app) {
   command
       .add_option(
           "--methods", options->methods,
-          "perceived, expected-error: designed sets; mean material, first five, adaptive: five by the perceived "
+          "perceived, expected-error: designed sets; mean-material, first-five, adaptive: five by the perceived "
           "norm, and further ones as if the prior's mean were measured, from what the five read, or each from "
           "all that was read before")
-      .check(check::one_of({"perceived", "expected-error", "mean material", "first five", "adaptive"}))
+      .check(check::one_of({"perceived", "expected-error", "mean-material", "first-five", "adaptive"}))
       .capture_default_str();
   command.add_option("--components", options->components, "Components of the priors")
       .check(check::positive_number())

@@ -18,7 +18,7 @@ namespace gonio::design::detail {
 
 /// How far a viewer is from the plane of light and normal; 0 if the light is at the normal.
 [[nodiscard]] GONIO_INLINE double angle_from_plane(const direction_pair& pair) {
-  const direction across = direction(0.0, 0.0, 1.0).cross(pair.wi);
+  const direction across(-pair.wi.y(), pair.wi.x(), 0.0);
   const double length = across.norm();
   if (length < 1e-9) return 0.0;
   return std::asin(std::clamp(std::abs(pair.wo.dot(across)) / length, 0.0, 1.0));
