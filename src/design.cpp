@@ -10,6 +10,7 @@
 #include <gonio/design/impl/near_field_geometry.ipp>
 #include <gonio/design/impl/published_directions.ipp>
 #include <gonio/design/impl/search.ipp>
+#include <gonio/design/impl/sequential_design.ipp>
 #include <gonio/design/impl/sphere_geometry.ipp>
 
 namespace gonio::design {

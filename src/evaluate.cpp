@@ -3,6 +3,7 @@
 #include <gonio/evaluate/impl/appearance_metric.ipp>
 #include <gonio/evaluate/impl/comparison.ipp>
 #include <gonio/evaluate/impl/perceived_norm.ipp>
+#include <gonio/evaluate/impl/perceived_sensitivity.ipp>
 #include <gonio/evaluate/impl/simulated_measurement.ipp>
 #include <gonio/evaluate/impl/sphere_delta_e.ipp>
 #include <gonio/evaluate/impl/test_materials.ipp>

@@ -3,10 +3,12 @@
 #include "command_line/design_search.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
@@ -19,20 +21,62 @@ namespace cli {
 namespace {
 
 struct design_command {
-  std::filesystem::path prior, constraint, start, output;
+  std::filesystem::path prior, constraint, start, given, output;
   design_options design;
   double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
   bool print_json = false;
 };
 
+/// --given replaces the criterion and the search.
+void require_given_alone(const design_command& command) {
+  const design_options standard, &design = command.design;
+  if (design.geometry != standard.geometry)
+    gonio::refuse("--given needs --geometry point: samples are measured one by one");
+  if (!command.start.empty())
+    gonio::refuse("--given needs no --start: the directions of its samples are what is measured already");
+  if (design.criterion != standard.criterion || design.search != standard.search || design.eta != standard.eta ||
+      design.in_sample || design.common_shift != 0.0 || command.angular_error != 0.0)
+    gonio::refuse(
+        "--given goes with none of --criterion, --search, --eta, --in-sample, --common-shift and --misplaced: it "
+        "expects the error of the reconstruction from its samples");
+}
+
+/// The next measurements beside samples that were made, by what these read.
+void run_given(const design_command& command) {
+  require_given_alone(command);
+  const gonio::sample_set samples = read_measurements(command.given);
+  const gonio::discrepancy_decomposition estimator{
+      gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
+  const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
+                                           gonio::design::default_candidates(), command.design.threads};
+  const double deviation = chooser.median_deviation(samples);
+  const auto chosen = chooser.choose(samples, command.design.count);
+  std::vector<gonio::direction_pair> poses;
+  for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
+  gonio::io::write_direction_pairs(command.output, poses);
+  if (command.print_json) {
+    std::cout << json{{"measurements", poses.size()},
+                      {"given", samples.size()},
+                      {"median_deviation", deviation},
+                      {"expected_delta_e", chosen.back().expected_delta_e}}
+                     .dump(2)
+              << '\n';
+    return;
+  }
+  std::cout << samples.size() << " samples leave a median deviation of " << fixed(100.0 * deviation, 1) << " %; "
+            << poses.size() << (poses.size() == 1 ? " more leaves" : " more leave") << " an expected Delta E of "
+            << fixed(chosen.back().expected_delta_e, 2) << '\n';
+}
+
 void run(design_command command) {
   progress_bar bar;
+  if (!command.constraint.empty())
+    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
+  if (!command.given.empty()) return run_given(command);
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
   command.design.angular_error = gonio::radians(command.angular_error);
-  if (!command.constraint.empty())
-    command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
   const designed found = design(prior, command.design, bar.listener());
   gonio::io::write_direction_pairs(command.output, found.poses);
@@ -113,6 +157,9 @@ void add_design(command& app) {
   command.add_input("--constraint", options->constraint,
                     "What the apparatus cannot do (a text file, docs/reference/formats.md)");
   command.add_input("--start", options->start, "Directions that are measured anyway: adds to them (.csv)");
+  command.add_input("--given", options->given,
+                    "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
+                    "errs least as seen on spheres");
   // Declare the run and its output.
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", options->print_json, "Print the result as JSON");

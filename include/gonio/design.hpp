@@ -13,4 +13,5 @@
 #include <gonio/design/near_field_geometry.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/design/search.hpp>
+#include <gonio/design/sequential_design.hpp>
 #include <gonio/design/sphere_geometry.hpp>

@@ -132,6 +132,34 @@ TEST_CASE("what the apparatus cannot do is not asked of it") {
   }
 }
 
+TEST_CASE("one angle of the light is met to a tolerance, and all lies in the plane that is asked for") {
+  const drawing_board board;
+  board.put("plane.txt", "light 45 45 10\nin_plane\n");
+  static_cast<void>(board.unknown_after("-n 3 --constraint " + board.at("plane.txt")));
+  for (const auto& [wi, wo] : board.poses("d.csv")) {
+    CHECK(std::abs(gonio::degrees(gonio::polar_angle(wi)) - 45.0) < 10.001);
+    CHECK(std::abs(wi.x() * wo.y() - wi.y() * wo.x()) < 1e-9);
+  }
+}
+
+TEST_CASE("the next measurements by what the given ones read") {
+  const drawing_board board;
+  board.put(
+      "given.csv",
+      "theta_i,phi_i,theta_o,phi_o,r,g,b\n45,0,0,0,0.1,0.1,0.1\n30,0,30,180,1.5,1.5,1.5\n60,0,20,90,0.1,0.1,0.1\n");
+  const auto result = board.design("-n 2 --json --given " + board.at("given.csv"), "next.csv");
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  const auto said = parse_json(result.output);
+  CHECK(said["given"] == 3);
+  CHECK(said["measurements"] == 2);
+  CHECK(said["median_deviation"].get<double>() > 0.0);
+  CHECK(said["expected_delta_e"].get<double>() > 0.0);
+  CHECK(board.poses("next.csv").size() == 2);
+  board.refuses("-n 2 --geometry sphere --given " + board.at("given.csv"), {"--given", "--geometry point"});
+  board.refuses("-n 2 --criterion condition --given " + board.at("given.csv"), {"--given", "--criterion"});
+  board.refuses("-n 2 --start " + board.at("given.csv") + " --given " + board.at("given.csv"), {"--given", "--start"});
+}
+
 TEST_CASE("designs that cannot be made") {
   const drawing_board board;
   board.refuses("-n 0", {"0 of"});
@@ -153,7 +181,7 @@ TEST_CASE("designs that cannot be made") {
   board.put("low.csv", "theta_i,phi_i,theta_o,phi_o\n40,0,95,0\n");
   board.refuses("-n 2 --start " + board.at("low.csv"), {"low.csv", "line 2", "horizon"});
   board.put("none.txt", "light 0 10\nviewer 0 10\nseparation 60\n");
-  board.refuses("-n 1 --constraint " + board.at("none.txt"), {"1 of 0"});
+  board.refuses("-n 1 --constraint " + board.at("none.txt"), {"the rule 'separation'", "larger tolerance"});
   board.refuses("-n 1 --geometry near-field --constraint " + board.at("none.txt"), {"no candidate"});
   board.put("odd.txt", "lamp 3\n");
   board.refuses("-n 1 --constraint " + board.at("odd.txt"), {"odd.txt", "line 1", "lamp"});

@@ -58,3 +58,30 @@ TEST_CASE("a zone is forbidden where both are in it") {
   CHECK(constraint(light_and_viewer(70, 50, 180)));
   CHECK(constraint(light_and_viewer(50, 65, 180)));
 }
+
+TEST_CASE("in the plane of incidence: poses are checked against it, and those next to it are moved into it") {
+  capture_constraint constraint;
+  constraint.plane_tolerance = radians(1);
+  CHECK_FALSE(constraint.is_none());
+  CHECK(constraint(light_and_viewer(30, 60, 180)));
+  CHECK(constraint(light_and_viewer(30, 60)));
+  CHECK(constraint(light_and_viewer(0, 60, 77)));
+  CHECK_FALSE(constraint(light_and_viewer(30, 60, 175)));
+  const auto pose = constraint.pose_of({radians(20), radians(30), radians(8)});
+  REQUIRE(pose);
+  CHECK(gonio::to_half_difference(pose->wi, pose->wo).theta_h == doctest::Approx(radians(20)));
+  CHECK(std::abs(pose->wi.x() * pose->wo.y() - pose->wi.y() * pose->wo.x()) < 1e-12);
+}
+
+TEST_CASE("the rule that leaves nothing is named") {
+  capture_constraint constraint;
+  constraint.light = {radians(45), radians(45)};
+  constraint.smallest_separation = radians(10);
+  const auto light_must_be_a_range = [](const capture_constraint& some) {
+    return some.light.largest > some.light.smallest;
+  };
+  CHECK(constraint.excluding_rule(light_must_be_a_range) == "light");
+  const auto must_be_apart = [](const capture_constraint& some) { return some.smallest_separation < radians(5); };
+  CHECK(constraint.excluding_rule(must_be_apart) == "separation");
+  CHECK(constraint.excluding_rule([](const capture_constraint&) { return true; }).empty());
+}

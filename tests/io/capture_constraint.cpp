@@ -27,7 +27,7 @@ TEST_CASE("what is no rule is refused with its file and line") {
                          gonio::error);
   };
   refused("light 0 75\nlamp 3\n", "arc.txt, line 2: 'lamp' is no rule");
-  refused("light 0\n", "'light' takes 2 numbers, not 1");
+  refused("light 0\n", "'light' takes 2 or 3 numbers, not 1");
   refused("light 80 20\n", "the smaller one first");
   refused("viewer 0 120\n", "from 0 to 90");
   refused("separation wide\n", "'wide' is not a number");
@@ -37,4 +37,20 @@ TEST_CASE("what is no rule is refused with its file and line") {
   refused("light_step 7.5 91\n", "tolerance from 0 to 90 degrees");
   refused("light_step 1 2 3\n", "1 or 2 numbers, not 3");
   refused("forbid 0 90\n", "takes 4 numbers");
+  refused("light 0 90 -1\n", "tolerance from 0 to 90 degrees");
+  refused("in_plane 91\n", "tolerance from 0 to 90 degrees");
+  refused("in_plane 1 2\n", "0 or 1 numbers, not 2");
+}
+
+TEST_CASE("a single angle has a tolerance, a range has one if it is said") {
+  const auto one = parse_capture_constraint("light 45 45\nviewer 10 60\n", "arc.txt");
+  CHECK(degrees(one.light.smallest) == doctest::Approx(44.5));
+  CHECK(degrees(one.light.largest) == doctest::Approx(45.5));
+  CHECK(degrees(one.viewer.largest) == doctest::Approx(60));
+  CHECK_FALSE(one.plane_tolerance);
+  const auto wide = parse_capture_constraint("light 45 45 2\nviewer 10 60 1\nin_plane\n", "arc.txt");
+  CHECK(degrees(wide.light.largest) == doctest::Approx(47));
+  CHECK(degrees(wide.viewer.smallest) == doctest::Approx(9));
+  REQUIRE(wide.plane_tolerance);
+  CHECK(degrees(*wide.plane_tolerance) == doctest::Approx(0.5));
 }

@@ -11,7 +11,7 @@ set(edges
   "metric     -> table"
   "basis      -> metric solve"
   "estimate   -> basis"
-  "design     -> basis"
+  "design     -> estimate"
   "model      -> table solve metric"
   "capture    -> table solve"
   "render     -> table"

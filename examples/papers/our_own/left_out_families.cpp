@@ -1,5 +1,6 @@
 #include "left_out_families.hpp"
 
+#include <gonio/basis/learn_pca.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/rgl.hpp>
@@ -13,7 +14,7 @@ std::string family_of(const std::string& name) { return name.substr(0, name.find
 material_library::material_library(const std::vector<std::filesystem::path>& networks,
                                    const std::filesystem::path& measured, const cli::thinning& thin,
                                    const gonio::progress& listener, gonio::thread_count threads)
-    : cells_(thin.of(gonio::valid_cells())) {
+    : cells_(thin.of(gonio::valid_cells())), threads_(threads) {
   for (const std::filesystem::path& file : networks)
     sets_.push_back(gonio::model::tabulate_networks(gonio::io::read_networks(file), cells_, threads, listener));
   gonio::material_set set{cells_, {}, {}};
@@ -27,6 +28,12 @@ material_library::material_library(const std::vector<std::filesystem::path>& net
     set.names.push_back(name);
   }
   sets_.push_back(std::move(set));
+}
+
+gonio::log_relative_pca material_library::prior_without(const std::string& family, Eigen::Index components) const {
+  auto set = materials(all(), [&](const std::string& name) { return family_of(name) != family; });
+  const auto metric = gonio::log_relative::to_median_of(set, threads_);
+  return gonio::learn_pca(std::move(set), metric, components, threads_);
 }
 
 std::vector<judged_material> measured_materials(const std::filesystem::path& folder, const material_library& library) {
@@ -63,6 +70,16 @@ gonio::sample_set measure(const reflectance& of, const std::vector<gonio::half_d
     samples.push_back({angles, value, 1.0});
   }
   return samples;
+}
+
+gonio::sample_set of_mean_material(const gonio::sample_set& samples, const gonio::log_relative_pca& prior) {
+  gonio::sample_set mean;
+  for (const gonio::sample& s : samples) {
+    const gonio::location at = gonio::locate(prior.cells(), s.angles());
+    const double value = prior.metric().inverse(gonio::offset_at(prior, at), at);
+    mean.push_back({s.angles(), gonio::rgb::Constant(std::max(value, 0.0)), 1.0});
+  }
+  return mean;
 }
 
 }  // namespace papers

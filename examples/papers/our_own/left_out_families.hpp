@@ -3,6 +3,7 @@
 /// docs/results/real-materials.md and real-methods.md.
 
 #include "command_line/thinning.hpp"
+#include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/material_set.hpp>
@@ -51,8 +52,12 @@ class material_library {
   }
   [[nodiscard]] Eigen::Index all() const noexcept { return std::ssize(sets_); }
 
+  /// Components of everything but a family, under log_relative of the median of what is left.
+  [[nodiscard]] gonio::log_relative_pca prior_without(const std::string& family, Eigen::Index components) const;
+
  private:
   gonio::valid_cells cells_;
+  gonio::thread_count threads_;
   std::vector<gonio::material_set> sets_;
 };
 
@@ -83,5 +88,9 @@ struct sampling {
 /// Values in some directions, each channel with noise relative to it.
 [[nodiscard]] gonio::sample_set measure(const reflectance& of, const std::vector<gonio::half_difference>& directions,
                                         double noise, std::uint64_t seed);
+
+/// The same directions as those of some samples, as if a prior's mean material lay there.
+[[nodiscard]] gonio::sample_set of_mean_material(const gonio::sample_set& samples,
+                                                 const gonio::log_relative_pca& prior);
 
 }  // namespace papers

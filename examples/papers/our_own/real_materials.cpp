@@ -113,6 +113,8 @@ class experiment {
   const gonio::log_relative_pca& prior(bool everything, const std::string& family) {
     const std::string key = everything ? "all " + family : "first";
     if (const auto known = priors_.find(key); known != priors_.end()) return known->second;
+    if (everything && !given_.surrogates)
+      return priors_.emplace(key, library_.prior_without(family, given_.components)).first->second;
     const auto& tests = gonio::nielsen_test_materials();
     auto set = library_.materials(everything ? library_.all() : 1, [&](const std::string& name) {
       return given_.surrogates ? std::ranges::find(tests, name) == tests.end() : family_of(name) != family;

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace gonio::design {
@@ -33,14 +35,21 @@ struct capture_constraint {
   double light_step = 0.0;                ///< lights stand at multiples of this polar angle; 0: anywhere
   double light_tolerance = radians(0.5);  ///< by how much one may miss the light that is meant
   std::vector<forbidden_zone> forbidden;
+  /// The viewer stands in the plane of light and normal, or misses it by at most so much.
+  std::optional<double> plane_tolerance;
 
   [[nodiscard]] bool is_none() const noexcept;
 
   [[nodiscard]] bool operator()(const direction_pair& pair) const;
 
   /// Light and viewer with these angles between them where they can be: as the angles have them, or by reciprocity in
-  /// each other's place; nothing if neither can be.
+  /// each other's place; nothing if neither can be. Where only the plane of incidence is allowed, those next to it are
+  /// moved into it.
   [[nodiscard]] std::optional<direction_pair> pose_of(const half_difference& angles) const;
+
+  /// The name of the first rule, of those above in their order, that leaves nothing to measure together with those
+  /// before it, by what `leaves_some` says of constraints; empty if all of them leave something.
+  [[nodiscard]] std::string excluding_rule(const std::function<bool(const capture_constraint&)>& leaves_some) const;
 };
 
 }  // namespace gonio::design

@@ -11,6 +11,7 @@
 #include <array>
 #include <concepts>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -90,9 +91,10 @@ class point_geometry {
 
   [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
   [[nodiscard]] Eigen::Index size() const noexcept { return cells_.size(); }
-  [[nodiscard]] bool allows(Eigen::Index cell) const {
-    return constraint_.is_none() || constraint_.pose_of(cells_.angles(cell)).has_value();
-  }
+  /// Of the cells that are moved into the plane of incidence, those next to it are candidates: each pose once.
+  [[nodiscard]] bool allows(Eigen::Index cell) const;
+  /// The rule that leaves no candidate; empty if there is one. O(cells).
+  [[nodiscard]] std::string excluding_rule() const;
   [[nodiscard]] direction_pair centre(Eigen::Index cell) const;
   [[nodiscard]] Eigen::Index nearest(const direction_pair& pair) const;
   [[nodiscard]] std::vector<half_difference> directions(Eigen::Index cell) const { return {cells_.angles(cell)}; }

@@ -86,6 +86,11 @@ void require_choice(Eigen::Index n, const Geometry& geometry) {
   Eigen::Index allowed = 0;
   for (Eigen::Index candidate = 0; candidate < geometry.size(); ++candidate)
     if (geometry.allows(candidate)) ++allowed;
+  if constexpr (requires { geometry.excluding_rule(); }) {
+    if (allowed == 0)
+      refuse("the rule '" + geometry.excluding_rule() +
+             "' of the constraint leaves no candidate: it needs a wider range or a larger tolerance");
+  }
   if (n < 1 || n > allowed)
     refuse("cannot choose " + std::to_string(n) + " of " + std::to_string(allowed) + " candidates");
 }

@@ -4,10 +4,11 @@
 /// ```
 /// # light and viewer: polar angles that they can have
 /// light 0 75
-/// viewer 0 80
+/// viewer 45 45 1         # one angle, or a range, met to 1; one angle is met to 0.5 if nothing is said
 /// separation 15          # of light and viewer at least
 /// light_step 7.5 0.5     # lights at multiples of 7.5 degrees, met to 0.5
 /// forbid 60 90 60 90     # light in the first range and viewer in the second
+/// in_plane 0.5           # viewer in the plane of light and normal, met to 0.5
 /// ```
 
 #include <gonio/design/capture_constraint.hpp>

@@ -9,10 +9,26 @@
 #include <array>
 #include <concepts>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace gonio::design {
+
+GONIO_INLINE bool point_geometry::allows(Eigen::Index cell) const {
+  if (constraint_.is_none()) return true;
+  if (constraint_.plane_tolerance && cells_.grid().cell(cells_.linear(cell)).phi_d != 0) return false;
+  return constraint_.pose_of(cells_.angles(cell)).has_value();
+}
+
+GONIO_INLINE std::string point_geometry::excluding_rule() const {
+  return constraint_.excluding_rule([&](const capture_constraint& some) {
+    const point_geometry with(cells_, some);
+    for (Eigen::Index cell = 0; cell < with.size(); ++cell)
+      if (with.allows(cell)) return true;
+    return false;
+  });
+}
 
 GONIO_INLINE direction_pair point_geometry::centre(Eigen::Index cell) const {
   const half_difference angles = cells_.angles(cell);

@@ -19,10 +19,24 @@ GONIO_INLINE design::polar_range parse_polar_range(const text_rule& rule, std::s
   return {radians(smallest), radians(largest)};
 }
 
+/// By how much what a rule says may be missed, unless it says so itself.
+inline constexpr double default_tolerance = radians(0.5);
+
+[[nodiscard]] GONIO_INLINE double parse_tolerance(double angle, const text_place& place) {
+  if (!(angle >= 0.0 && angle <= 90.0)) place.refuse("angles are met to a tolerance from 0 to 90 degrees");
+  return radians(angle);
+}
+
 GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& constraint, const text_place& place) {
   if (rule.name == "light" || rule.name == "viewer") {
-    require_numbers(rule, {2}, place);
-    (rule.name == "light" ? constraint.light : constraint.viewer) = parse_polar_range(rule, 0, place);
+    require_numbers(rule, {2, 3}, place);
+    design::polar_range range = parse_polar_range(rule, 0, place);
+    const bool is_single = range.smallest == range.largest;
+    const double tolerance =
+        rule.numbers.size() == 3 ? parse_tolerance(rule.numbers[2], place) : (is_single ? default_tolerance : 0.0);
+    range.smallest -= tolerance;
+    range.largest += tolerance;
+    (rule.name == "light" ? constraint.light : constraint.viewer) = range;
   } else if (rule.name == "separation") {
     require_numbers(rule, {1}, place);
     if (!(rule.numbers[0] >= 0.0 && rule.numbers[0] <= 180.0)) place.refuse("a separation is from 0 to 180 degrees");
@@ -31,16 +45,15 @@ GONIO_INLINE void apply_rule(const text_rule& rule, design::capture_constraint& 
     require_numbers(rule, {1, 2}, place);
     if (!(rule.numbers[0] > 0.0)) place.refuse("a step between lights must be positive");
     constraint.light_step = radians(rule.numbers[0]);
-    if (rule.numbers.size() == 2) {
-      if (!(rule.numbers[1] >= 0.0 && rule.numbers[1] <= 90.0))
-        place.refuse("lights are met to a tolerance from 0 to 90 degrees");
-      constraint.light_tolerance = radians(rule.numbers[1]);
-    }
+    if (rule.numbers.size() == 2) constraint.light_tolerance = parse_tolerance(rule.numbers[1], place);
   } else if (rule.name == "forbid") {
     require_numbers(rule, {4}, place);
     constraint.forbidden.push_back({parse_polar_range(rule, 0, place), parse_polar_range(rule, 2, place)});
+  } else if (rule.name == "in_plane") {
+    require_numbers(rule, {0, 1}, place);
+    constraint.plane_tolerance = rule.numbers.empty() ? default_tolerance : parse_tolerance(rule.numbers[0], place);
   } else {
-    place.refuse(quoted(rule.name) + " is no rule: expected light, viewer, separation, light_step or forbid");
+    place.refuse(quoted(rule.name) + " is no rule: expected light, viewer, separation, light_step, forbid or in_plane");
   }
 }
 

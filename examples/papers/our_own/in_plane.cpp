@@ -1,0 +1,248 @@
+/// gonio-papers in-plane: what scans in the plane of incidence, the most common measurements, say of the rest of a
+/// material, and which further directions repair it.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/thinning.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/distribution.hpp"
+#include "papers/experiments.hpp"
+#include "papers/our_own/left_out_families.hpp"
+#include "papers/resumable_results.hpp"
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/next_measurement.hpp>
+
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace papers {
+
+namespace {
+
+struct in_plane_options {
+  std::vector<std::filesystem::path> networks;
+  std::filesystem::path materials, state;
+  std::vector<double> incidences{0, 30, 60};
+  double step = 5.0;
+  Eigen::Index more = 5, components = 100;
+  thinning thin{{3, 5}};
+  gonio::thread_count threads;
+};
+
+/// The scans alone, and with further directions: in the plane, anywhere as if the mean material lay there, anywhere one
+/// by one.
+const std::vector<std::string> in_plane_methods{"scans", "more in the plane", "the same anywhere", "adaptive anywhere"};
+
+/// Every few degrees of viewing angle on both sides of the normal, but for those at which the viewer hides the light.
+std::vector<gonio::half_difference> scan_directions(const in_plane_options& given) {
+  constexpr double largest = 85.0, hidden = 2.5;
+  std::vector<gonio::half_difference> directions;
+  for (const double incidence : given.incidences)
+    for (double view = incidence > 0.0 ? -largest : given.step; view <= largest + 1e-9; view += given.step) {
+      if (std::abs(view - incidence) < hidden) continue;
+      const gonio::direction wi = gonio::spherical_direction(gonio::radians(incidence), 0.0),
+                             wo = gonio::spherical_direction(gonio::radians(std::abs(view)),
+                                                             view < 0.0 ? std::numbers::pi : 0.0);
+      directions.push_back(gonio::to_half_difference(wi, wo));
+    }
+  return directions;
+}
+
+using chooser_type = gonio::measurement_chooser<gonio::log_relative>;
+
+class in_plane_experiment {
+ public:
+  in_plane_experiment(const in_plane_options& given, progress_bar& bar)
+      : given_(given),
+        bar_(bar),
+        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
+        judge_(library_.cells(), 36, given.threads),
+        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
+        results_(given.state) {}
+
+  /// Errors of each material by method.
+  [[nodiscard]] std::map<std::string, json> run() {
+    std::map<std::string, json> found;
+    for (const judged_material& material : measured_materials(given_.materials, library_))
+      for (const std::string& method : in_plane_methods) {
+        const json key{"in-plane", method, material.name, given_.components, given_.more, scan_.size()};
+        if (!results_.find(key)) {
+          bar_.draw(material.name + " " + method, 0.0);
+          const setup& with = setup_without(material.family);
+          results_.add(key, errors_of(material, measured_by(method, material, with), with));
+        }
+        found[method][material.name] = *results_.find(key);
+      }
+    return found;
+  }
+
+  /// Beside the scans, as if the mean of all materials lay there.
+  [[nodiscard]] std::vector<gonio::next_measurement> recommended() {
+    const setup& with = setup_without("");
+    return with.anywhere.choose(scan_of_mean(with), given_.more);
+  }
+
+  [[nodiscard]] Eigen::Index samples() const { return std::ssize(scan_); }
+
+ private:
+  struct setup {
+    gonio::discrepancy_decomposition<gonio::log_relative> estimator;
+    chooser_type anywhere, within;
+  };
+
+  const setup& setup_without(const std::string& family) {
+    if (setup_ && family_ == family) return *setup_;
+    setup_.reset();
+    const gonio::discrepancy_decomposition estimator{
+        library_.prior_without(family, given_.components), {}, given_.threads};
+    gonio::design::capture_constraint plane;
+    plane.plane_tolerance = gonio::radians(0.5);
+    const auto candidates = gonio::design::default_candidates();
+    setup_.emplace(setup{estimator, chooser_type{estimator, {}, candidates, given_.threads},
+                         chooser_type{estimator, plane, candidates, given_.threads}});
+    family_ = family;
+    return *setup_;
+  }
+
+  [[nodiscard]] gonio::sample_set scan_of_mean(const setup& with) const {
+    gonio::sample_set samples;
+    for (const gonio::half_difference& angles : scan_) samples.push_back({angles, gonio::rgb::Ones(), 1.0});
+    return of_mean_material(samples, with.estimator.prior());
+  }
+
+  [[nodiscard]] gonio::sample_set measured_by(const std::string& method, const judged_material& material,
+                                              const setup& with) const {
+    gonio::sample_set samples = measure(material.measured, scan_, 0.0, 0);
+    if (method == "scans") return samples;
+    const auto add = [&](const gonio::next_measurement& next) {
+      samples.push_back({next.angles, material.measured(gonio::to_directions(next.angles)), 1.0});
+    };
+    if (method == "the same anywhere") {
+      for (const auto& next : with.anywhere.choose(scan_of_mean(with), given_.more)) add(next);
+      return samples;
+    }
+    const chooser_type& chooser = method == "adaptive anywhere" ? with.anywhere : with.within;
+    for (Eigen::Index i = 0; i < given_.more; ++i) add(chooser.choose(samples, 1).front());
+    return samples;
+  }
+
+  json errors_of(const judged_material& material, const gonio::sample_set& samples, const setup& with) const {
+    const auto located = gonio::locate_samples(library_.cells(), samples);
+    const auto table = with.estimator.fit_located(located).tabulate(library_.cells(), given_.threads);
+    const gonio::comparison errors = gonio::compare(table, material.truth, metric_, judge_, given_.threads);
+    json all{{"mapped_rms", errors.mapped_rms.mean()},
+             {"delta_e_env", errors.delta_e_env},
+             {"delta_e_lights", errors.delta_e_lights}};
+    const json by_region = errors_by_region(table, material.truth, gonio::posterior(with.estimator, located));
+    for (const auto& [name, value] : by_region.items()) all[name] = value;
+    return all;
+  }
+
+  /// In the plane and out of it, of every 37th cell: mapped errors, stated deviations, and values within intervals of
+  /// 95 %. A cell next to the plane has phi_d within 10 degrees of 0 or 180, one out of it is 30 degrees away from
+  /// both.
+  [[nodiscard]] json errors_by_region(const gonio::brdf_table& table, const gonio::brdf_table& truth,
+                                      const gonio::posterior<gonio::log_relative>& known) const {
+    struct sums {
+      double squares = 0.0, within = 0.0, count = 0.0;
+      std::vector<double> deviations;
+    } near, far;
+    for (Eigen::Index cell = 0; cell < library_.cells().size(); cell += 37) {
+      const gonio::location at = gonio::locate_cell(library_.cells(), cell);
+      const double phi_d = gonio::degrees(at.angles.phi_d), from_plane = std::min(phi_d, 180.0 - phi_d);
+      if (from_plane > 10.0 && from_plane < 30.0) continue;
+      sums& region = from_plane <= 10.0 ? near : far;
+      const gonio::rgb value = truth.at(cell).max(0.0), estimate = table.at(cell);
+      const auto [low, high] = known.interval(estimate, at, gonio::confidence_level::ninety_five_percent);
+      for (Eigen::Index c = 0; c < 3; ++c) {
+        const double difference = metric_.forward(estimate[c], at) - metric_.forward(value[c], at);
+        region.squares += difference * difference;
+      }
+      region.within += static_cast<double>((value >= low && value <= high).count());
+      region.count += 3.0;
+      region.deviations.push_back(known.deviation(at));
+    }
+    return {{"near_rms", std::sqrt(near.squares / near.count)}, {"far_rms", std::sqrt(far.squares / far.count)},
+            {"near_stated", gonio::median(near.deviations)},    {"far_stated", gonio::median(far.deviations)},
+            {"near_within", 100.0 * near.within / near.count},  {"far_within", 100.0 * far.within / far.count}};
+  }
+
+  const in_plane_options& given_;
+  progress_bar& bar_;
+  material_library library_;
+  gonio::appearance_metric judge_;
+  gonio::log_relative metric_;
+  std::vector<gonio::half_difference> scan_ = scan_directions(given_);
+  std::string family_;
+  std::optional<setup> setup_;
+  resumable_results results_;
+};
+
+void print(const std::map<std::string, json>& found, const std::vector<gonio::next_measurement>& recommended,
+           Eigen::Index samples, Eigen::Index more) {
+  std::cout << "Means (medians) over " << found.begin()->second.size() << " materials, " << samples
+            << " samples in the plane.\n\n| directions | mapped rms | in the plane | out of it | Delta E env | Delta E "
+               "lights | stated deviation in the plane, out of it | within 95 %, in the plane, out of it "
+               "|\n|---|---|---|---|---|---|---|---|\n";
+  for (const std::string& method : in_plane_methods) {
+    std::map<std::string, std::vector<double>> values;
+    for (const auto& [name, errors] : found.at(method).items())
+      for (const auto& [key, value] : errors.items()) values[key].push_back(value.number());
+    const auto mean_and_median = [&](const char* key, int digits) {
+      const distribution of(values[key]);
+      return fixed(of.mean, digits) + " (" + fixed(of.median, digits) + ")";
+    };
+    const auto mean = [&](const char* key, int digits) { return fixed(distribution(values[key]).mean, digits); };
+    std::cout << "| scans" << (method == "scans" ? "" : ", and " + std::to_string(more) + ": " + method) << " | "
+              << mean_and_median("mapped_rms", 3) << " | " << mean_and_median("near_rms", 3) << " | "
+              << mean_and_median("far_rms", 3) << " | " << mean_and_median("delta_e_env", 2) << " | "
+              << mean_and_median("delta_e_lights", 2) << " | " << mean("near_stated", 3) << ", "
+              << mean("far_stated", 3) << " | " << mean("near_within", 1) << ", " << mean("far_within", 1) << " |\n";
+  }
+  std::cout << "\nFor a material that nothing is known of, by the prior of all:\n\n| theta_i | phi_i | theta_o | phi_o "
+               "|\n|---|---|---|---|\n";
+  for (const gonio::next_measurement& next : recommended) {
+    const auto [wi, wo] = next.pose;
+    std::cout << "| " << fixed(gonio::degrees(gonio::polar_angle(wi)), 1) << " | 0 | "
+              << fixed(gonio::degrees(gonio::polar_angle(wo)), 1) << " | "
+              << fixed(std::remainder(gonio::degrees(gonio::azimuth(wo) - gonio::azimuth(wi)), 360.0), 1) << " |\n";
+  }
+}
+
+}  // namespace
+
+void add_in_plane(command& app) {
+  auto command = app.add_subcommand("in-plane", "Scan measured materials in the plane of incidence");
+  const auto options = std::make_shared<in_plane_options>();
+  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
+  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
+      .required();
+  command.add_option("--incidences", options->incidences, "Polar angles of the light in degrees").capture_default_str();
+  command.add_option("--step", options->step, "Degrees of viewing angle between samples")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--more", options->more, "Further directions")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--components", options->components, "Components of the priors")
+      .check(check::positive_number())
+      .capture_default_str();
+  add_thin_option(command, options->thin);
+  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
+  add_threads_option(command, options->threads);
+  command.callback([options] {
+    progress_bar bar;
+    in_plane_experiment work(*options, bar);
+    const auto found = work.run();
+    const auto recommended = work.recommended();
+    bar.wipe();
+    print(found, recommended, work.samples(), options->more);
+  });
+}
+
+}  // namespace papers

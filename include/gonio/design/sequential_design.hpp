@@ -1,0 +1,138 @@
+#pragma once
+/// The next best measurement, given those that were made: sequential experimental design. Each candidate is judged by
+/// what the posterior covariance of the Gaussian process behind `discrepancy_decomposition` becomes with it, as linear
+/// functions of the material see it: Cohn, Ghahramani and Jordan 1996, "Active learning with statistical models"
+/// (doi:10.1613/jair.295); Rasmussen and Williams 2006, Eq. 2.24. Results: docs/results/adaptive-design.md.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/design/capture_geometry.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/solve/cholesky.hpp>
+#include <gonio/solve/product.hpp>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio::design {
+
+/// What somebody sees of a material: by how much each of p points changes when the mapped values at the candidates do.
+struct sensitivity {
+  Eigen::MatrixXd slopes;   ///< 3 p x candidates: row 3 i + c is that of point i and channel c
+  Eigen::VectorXd weights;  ///< p: how much each point counts
+};
+
+/// The mean over the points, by their weights, of the deviation of what is seen: sum_i w_i (sum_c s_ic' P s_ic)^1/2 for
+/// the slopes s and the covariance P of each channel. O(p candidates^2).
+[[nodiscard]] double seen_deviation(const Eigen::MatrixXd& covariance, const sensitivity& seen,
+                                    thread_count threads = {});
+
+/// The same with one more measurement at each of the candidates, in turn, whose error has this variance: a value for
+/// each candidate. P falls by P_x P_x' / (P_xx + error_variance). O(p candidates^2). Same bytes for any number of
+/// threads.
+[[nodiscard]] std::vector<double> seen_deviation_with_each(const Eigen::MatrixXd& covariance, const sensitivity& seen,
+                                                           double error_variance, thread_count threads = {});
+
+/// What is known of the mapped values at all candidates.
+struct candidate_posterior {
+  Eigen::MatrixXd mean;        ///< candidates x 3
+  Eigen::MatrixXd covariance;  ///< candidates x candidates, of each channel
+
+  /// Takes a measurement at a candidate into the covariance, whatever its value. O(candidates^2).
+  void add(Eigen::Index candidate, double error_variance);
+};
+
+/// 3,246 cells: 24 of theta_h, 15 of theta_d and 12 of phi_d.
+[[nodiscard]] valid_cells default_candidates();
+
+/// The cells of a coarse grid as candidates, with the covariance that an estimator expects of a material there before
+/// anything is measured. A value type whose copies share it: 8 bytes for each pair of candidates.
+///
+/// ```cpp
+/// const gonio::design::sequential_design candidates(gonio::discrepancy_decomposition{prior});
+/// const auto known = candidates.posterior_of(gonio::locate_samples(prior.cells(), samples));
+/// ```
+template <error_metric Metric>
+class sequential_design {
+ public:
+  /// O(candidates^2 k) for k components.
+  explicit sequential_design(discrepancy_decomposition<Metric> estimator, capture_constraint constraint = {},
+                             valid_cells candidates = default_candidates())
+      : estimator_(std::move(estimator)),
+        geometry_(std::move(candidates), std::move(constraint)),
+        before_(std::make_shared<const expected>(estimator_, geometry_)) {}
+
+  [[nodiscard]] const discrepancy_decomposition<Metric>& estimator() const noexcept { return estimator_; }
+  [[nodiscard]] const point_geometry& geometry() const noexcept { return geometry_; }
+  /// Of a measurement: the estimator's, noise not included.
+  [[nodiscard]] double error_variance() const noexcept { return estimator_.model().error_variance; }
+
+  /// Where a candidate lies on the prior's cells.
+  [[nodiscard]] const location& location_of(Eigen::Index candidate) const { return before_->locations[candidate]; }
+
+  /// Before anything is measured.
+  [[nodiscard]] candidate_posterior prior() const { return {before_->offsets.replicate(1, 3), before_->covariance}; }
+
+  /// Given n samples, located on the prior's cells: O(candidates^2 n). Throws gonio::error where their covariance is
+  /// not positive definite.
+  [[nodiscard]] candidate_posterior posterior_of(const located_samples& samples) const {
+    const cholesky factors(estimator_.covariance(samples));
+    if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
+    const Eigen::MatrixXd with = covariance_with(samples);
+    const Eigen::MatrixXd gain = factors.solve(with.transpose());
+    candidate_posterior known = prior();
+    known.mean += product(gain.transpose(), estimator_.mapped_values(samples));
+    known.covariance -= product(with, gain);
+    return known;
+  }
+
+ private:
+  struct expected {
+    expected(const discrepancy_decomposition<Metric>& estimator, const point_geometry& geometry)
+        : rows(geometry.size(), estimator.prior().size()), offsets(geometry.size()) {
+      std::vector<half_difference> angles;
+      for (Eigen::Index i = 0; i < geometry.size(); ++i) {
+        angles.push_back(geometry.cells().angles(i));
+        locations.push_back(locate(estimator.prior().cells(), angles.back()));
+        rows.row(i) = row_at(estimator.prior(), locations.back());
+        offsets[i] = offset_at(estimator.prior(), locations.back());
+      }
+      covariance = product_with_transpose(rows) / estimator.observations();
+      covariance += estimator.model().variance * discrepancy_covariance(angles, estimator.model().lengths);
+    }
+
+    Eigen::MatrixXd rows;     ///< the prior's functions at the candidates
+    Eigen::VectorXd offsets;  ///< the prior's mean there
+    std::vector<location> locations;
+    Eigen::MatrixXd covariance;
+  };
+
+  /// Of the candidates with the samples: candidates x n.
+  [[nodiscard]] Eigen::MatrixXd covariance_with(const located_samples& samples) const {
+    Eigen::MatrixXd rows(samples.size(), estimator_.prior().size());
+    std::vector<half_difference> places;
+    for (Eigen::Index i = 0; i < samples.size(); ++i) {
+      rows.row(i) = row_at(estimator_.prior(), samples.locations[i]);
+      places.push_back(samples.locations[i].angles);
+    }
+    Eigen::MatrixXd with = product(before_->rows, rows.transpose()) / estimator_.observations();
+    for (Eigen::Index i = 0; i < with.rows(); ++i)
+      with.row(i) +=
+          estimator_.model().variance *
+          discrepancy_covariance(places, before_->locations[i].angles, estimator_.model().lengths).transpose();
+    return with;
+  }
+
+  discrepancy_decomposition<Metric> estimator_;
+  point_geometry geometry_;
+  std::shared_ptr<const expected> before_;
+};
+
+}  // namespace gonio::design
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/design/impl/sequential_design.ipp>
+#endif

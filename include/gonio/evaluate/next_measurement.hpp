@@ -1,0 +1,120 @@
+#pragma once
+/// Where to measure next, given what was measured: where the expected error of the estimate, as it is seen on spheres,
+/// becomes least. Materials that shine ask for other directions than matte ones. Results on measured materials, with
+/// families left out: docs/results/adaptive-design.md.
+
+#include <gonio/core/statistics.hpp>
+#include <gonio/design/search.hpp>
+#include <gonio/design/sequential_design.hpp>
+#include <gonio/estimate/posterior.hpp>
+#include <gonio/evaluate/perceived_sensitivity.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// A measurement that is worth making.
+struct next_measurement {
+  direction_pair pose;            ///< light and viewer
+  half_difference angles;         ///< the same as a half vector and a difference
+  double expected_delta_e = 0.0;  ///< that remains with it: the deviation of the mean Delta E, linearised
+};
+
+/// Chooses measurements for an estimator. The perceived error is linearised at the estimate from what was measured,
+/// which is why the choice depends on it: a Gaussian process alone is as unsure whatever was read.
+///
+/// ```cpp
+/// const gonio::measurement_chooser chooser{gonio::discrepancy_decomposition{prior}};
+/// const auto next = chooser.choose(samples, 1).front();
+/// ```
+template <error_metric Metric>
+class measurement_chooser {
+ public:
+  /// Throws gonio::error if the constraint leaves no candidate.
+  explicit measurement_chooser(discrepancy_decomposition<Metric> estimator, design::capture_constraint constraint = {},
+                               valid_cells candidates = design::default_candidates(), thread_count threads = {})
+      : design_(std::move(estimator), std::move(constraint), std::move(candidates)),
+        perceived_(design_.geometry().cells(), 14, threads),
+        threads_(threads) {
+    design::detail::require_choice(1, design_.geometry());
+  }
+
+  [[nodiscard]] const design::sequential_design<Metric>& candidates() const noexcept { return design_; }
+
+  /// The best `count` measurements beside some samples, one after the other, without waiting for what they read. No
+  /// cell of the candidates is measured twice. O(count points candidates^2). Throws gonio::error for unusable samples
+  /// and if there are fewer candidates.
+  [[nodiscard]] std::vector<next_measurement> choose(const sample_set& samples, Eigen::Index count) const {
+    const located_samples located = samples.empty() ? located_samples{} : locate(samples);
+    design::candidate_posterior known = samples.empty() ? design_.prior() : design_.posterior_of(located);
+    const design::sensitivity seen = sensitivity_at(known.mean);
+    const double scale = samples.empty() ? 1.0 : posterior(design_.estimator(), located).scale();
+    std::vector<bool> free = free_candidates(samples);
+    std::vector<next_measurement> chosen;
+    while (std::ssize(chosen) < count) {
+      // The best candidate beside those that are chosen.
+      const std::vector<double> deviations =
+          design::seen_deviation_with_each(known.covariance, seen, design_.error_variance(), threads_);
+      const auto value = [&](Eigen::Index i) {
+        return free[i] ? deviations[i] : std::numeric_limits<double>::infinity();
+      };
+      Eigen::Index best = 0;
+      for (Eigen::Index i = 1; i < std::ssize(deviations); ++i)
+        if (value(i) < value(best)) best = i;
+      if (!free[best]) refuse({"there are fewer than ", count, " candidates that were not measured"});
+      free[best] = false;
+      known.add(best, design_.error_variance());
+      const direction_pair pose = design_.geometry().centre(best);
+      chosen.push_back({pose, to_half_difference(pose.wi, pose.wo), std::sqrt(scale) * deviations[best]});
+    }
+    return chosen;
+  }
+
+  /// The median, over the candidates, of the deviation that `posterior` states for the estimate from some samples:
+  /// relative to the values, where the metric is a logarithm. Throws gonio::error for unusable samples.
+  [[nodiscard]] double median_deviation(const sample_set& samples) const {
+    return median(posterior(design_.estimator(), locate(samples)).deviations(design_.geometry().cells(), threads_));
+  }
+
+ private:
+  [[nodiscard]] located_samples locate(const sample_set& samples) const {
+    return locate_samples(design_.estimator().prior().cells(), samples, threads_);
+  }
+
+  /// At an estimate in the metric's domain: candidates x 3.
+  [[nodiscard]] design::sensitivity sensitivity_at(const Eigen::MatrixXd& mapped) const {
+    constexpr double step = 0.05;
+    const auto& metric = design_.estimator().prior().metric();
+    Eigen::MatrixXd reflectance(mapped.rows(), 3), derivative(mapped.rows(), 3);
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index i = 0; i < mapped.rows(); ++i) {
+        const location& at = design_.location_of(i);
+        const double below = metric.inverse(mapped(i, c) - step, at), above = metric.inverse(mapped(i, c) + step, at);
+        reflectance(i, c) = std::max((below + above) / 2.0, 0.0);
+        derivative(i, c) = (above - below) / (2.0 * step);
+      }
+    return perceived_(reflectance, derivative);
+  }
+
+  /// Those that the constraint allows, and whose cell no sample lies in.
+  [[nodiscard]] std::vector<bool> free_candidates(const sample_set& samples) const {
+    const design::point_geometry& geometry = design_.geometry();
+    std::vector<bool> free(geometry.size());
+    for (Eigen::Index i = 0; i < geometry.size(); ++i) free[i] = geometry.allows(i);
+    const valid_cells& cells = geometry.cells();
+    for (const sample& s : samples)
+      free[cells.representative(cells.grid().linear(cells.grid().nearest(s.angles())))] = false;
+    return free;
+  }
+
+  design::sequential_design<Metric> design_;
+  perceived_sensitivity perceived_;
+  thread_count threads_;
+};
+
+}  // namespace gonio

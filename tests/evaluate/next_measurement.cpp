@@ -1,0 +1,69 @@
+#include "../synthetic_materials.hpp"
+#include <gonio/evaluate/next_measurement.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+
+#include <doctest/doctest.h>
+
+namespace {
+
+const gonio::measurement_chooser<gonio::log_relative>& small_chooser() {
+  static const gonio::measurement_chooser chooser{
+      gonio::discrepancy_decomposition{learn(synthetic_materials(small_cells(), 12), 10)}, {}, small_cells()};
+  return chooser;
+}
+
+gonio::sample_set three_samples(unsigned material) {
+  const auto table = synthetic_materials(small_cells(), 1, material).table(0);
+  return gonio::sample_table(table, std::vector<Eigen::Index>{5, 90, 210});
+}
+
+}  // namespace
+
+TEST_CASE("each further measurement leaves less, none is made twice, and one is the first of many") {
+  const auto chosen = small_chooser().choose(three_samples(99), 5);
+  REQUIRE(chosen.size() == 5);
+  for (std::size_t i = 1; i < chosen.size(); ++i) {
+    CHECK(chosen[i].expected_delta_e <= chosen[i - 1].expected_delta_e);
+    for (std::size_t j = 0; j < i; ++j)
+      CHECK(gonio::angle_between(chosen[i].pose.wi, chosen[j].pose.wi) +
+                gonio::angle_between(chosen[i].pose.wo, chosen[j].pose.wo) >
+            1e-3);
+  }
+  const auto first = small_chooser().choose(three_samples(99), 1).front();
+  CHECK(first.expected_delta_e == chosen.front().expected_delta_e);
+  CHECK(first.angles.theta_h == chosen.front().angles.theta_h);
+}
+
+TEST_CASE("the choice depends on what was read; with nothing read there is one, too") {
+  bool differs = false;
+  const auto usual = small_chooser().choose(three_samples(1), 3);
+  for (const unsigned material : {2u, 3u, 4u, 5u}) {
+    const auto other = small_chooser().choose(three_samples(material), 3);
+    for (std::size_t i = 0; i < 3; ++i) differs |= other[i].angles.theta_h != usual[i].angles.theta_h;
+  }
+  CHECK(differs);
+  CHECK(small_chooser().choose({}, 2).size() == 2);
+}
+
+TEST_CASE("measuring makes the stated deviation smaller") {
+  gonio::sample_set samples = three_samples(99);
+  const double before = small_chooser().median_deviation(samples);
+  const auto table = synthetic_materials(small_cells(), 1, 99).table(0);
+  for (const gonio::sample& more : gonio::sample_table(table, std::vector<Eigen::Index>{30, 60, 120, 150, 180, 240}))
+    samples.push_back(more);
+  CHECK(before > 0.0);
+  CHECK(small_chooser().median_deviation(samples) < before);
+}
+
+TEST_CASE("in the plane of incidence all that is chosen lies in it; a rule that leaves nothing is named") {
+  const gonio::discrepancy_decomposition estimator{learn(synthetic_materials(small_cells(), 12), 10)};
+  gonio::design::capture_constraint constraint;
+  constraint.plane_tolerance = gonio::radians(0.5);
+  const gonio::measurement_chooser in_plane{estimator, constraint, small_cells()};
+  for (const auto& next : in_plane.choose(three_samples(99), 4))
+    CHECK(std::abs(next.pose.wi.x() * next.pose.wo.y() - next.pose.wi.y() * next.pose.wo.x()) < 1e-9);
+  constraint.light = {gonio::radians(45), gonio::radians(45)};
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::measurement_chooser{estimator, constraint, small_cells()}),
+                       doctest::Contains("the rule 'light'"), gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(small_chooser().choose(three_samples(99), 100000)), gonio::error);
+}
