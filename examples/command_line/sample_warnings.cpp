@@ -70,7 +70,8 @@ std::vector<std::string> warnings_of(const gonio::sample_set& samples, double no
   if (all_equal(samples)) sentences.emplace_back("all samples have the same value");
   if (all_in_plane(samples))
     sentences.emplace_back(
-        "all samples are in the plane of incidence: what is outside it follows from other materials alone");
+        "all samples are in the plane of incidence: what is outside it follows from other materials alone "
+        "(gonio design --given says which directions help most)");
   return sentences;
 }
 
