@@ -209,7 +209,7 @@ void add_reconstruct(command& app) {
       .check(check::range(0.0, 10.0))
       .capture_default_str();
   command.add_flag("--no-reject", options->keeps_all,
-                   "Let all samples count in full: of fewer than 100, pca leaves out and names those that the others "
+                   "Let all samples count in full: of 13 to 99, pca leaves out and names those that the others "
                    "contradict; of more, outliers count less");
   command.add_output("--residuals", options->residuals, {".csv"},
                      "What all other samples say of each sample, to write (.csv)");

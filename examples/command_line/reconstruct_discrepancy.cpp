@@ -19,8 +19,9 @@ namespace cli {
 
 namespace {
 
-/// From so many samples on outliers count less, and are not named: docs/results/real-methods.md.
-constexpr Eigen::Index fewest_weighed = 100;
+/// Of fewer samples none is left out: one that disagrees may be the only one in the highlight. From `fewest_weighed`
+/// samples on outliers count less, and are not named. docs/results/real-materials.md, real-methods.md.
+constexpr Eigen::Index fewest_left_out = 13, fewest_weighed = 100;
 
 /// What all others say of each sample is told of so many.
 constexpr Eigen::Index most_residuals = 1000;
@@ -38,11 +39,11 @@ std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : va
 
 /// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
-std::string told(const gonio::outlying_sample& out, Eigen::Index number) {
+std::string told(const gonio::outlying_sample& out, Eigen::Index number, const char* what_is_done) {
   const double low = out.predicted.y() * std::exp(-out.deviation), high = out.predicted.y() * std::exp(out.deviation);
-  return "sample " + std::to_string(number + 1) + " disagrees, left out: measured " + reflectance(out.measured.y()) +
-         ", the others say " + reflectance(out.predicted.y()) + " (" + reflectance(low) + " to " + reflectance(high) +
-         ", green)";
+  return "sample " + std::to_string(number + 1) + " disagrees, " + what_is_done + ": measured " +
+         reflectance(out.measured.y()) + ", the others say " + reflectance(out.predicted.y()) + " (" +
+         reflectance(low) + " to " + reflectance(high) + ", green)";
 }
 
 /// Of all samples that count: what was measured, what all others say, and by how much it is off.
@@ -52,7 +53,6 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
   std::string text = "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
   const Eigen::VectorXd disagreement = others.disagreement();
   for (Eigen::Index i = 0; i < located.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
     const gonio::location& at = located.locations[i];
     const double offset = gonio::offset_at(prior, at);
     text += std::to_string(numbers[i] + 1);
@@ -61,11 +61,10 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
       std::snprintf(digits.data(), digits.size(), ",%.6g", value);
       text += digits.data();
     };
-    for (Eigen::Index c = 0; c < 3; ++c) append(located.values(row, c));
-    for (Eigen::Index c = 0; c < 3; ++c)
-      append(std::max(prior.metric().inverse(others.mean(row, c) + offset, at), 0.0));
-    append(std::expm1(others.deviation[row]));
-    append(disagreement[row]);
+    for (Eigen::Index c = 0; c < 3; ++c) append(located.values(i, c));
+    for (Eigen::Index c = 0; c < 3; ++c) append(std::max(prior.metric().inverse(others.mean(i, c) + offset, at), 0.0));
+    append(std::expm1(others.deviation[i]));
+    append(disagreement[i]);
     text += left_out[i] ? ",1\n" : ",0\n";
   }
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
@@ -123,22 +122,24 @@ struct accepted_samples {
   std::vector<std::string> warnings{};
 };
 
-/// Of few samples: those that the others contradict are named and left out. `numbers` are their positions in the file.
+/// Of few samples: those that the others contradict are named, and left out unless samples are very few. `numbers` are
+/// their positions in the file.
 accepted_samples without_contradicted(const discrepancy_estimator& estimator, const gonio::located_samples& located,
                                       const std::vector<Eigen::Index>& numbers) {
   const gonio::sorted_samples sorted = gonio::reject_outlying(estimator, located);
-  accepted_samples result{located.subset(sorted.kept), std::vector<bool>(located.size(), false)};
-  json left_out = json::array();
+  const bool leaves_out = located.size() >= fewest_left_out;
+  accepted_samples result{leaves_out ? located.subset(sorted.kept) : located, std::vector<bool>(located.size(), false)};
+  json disagreeing = json::array();
   for (const gonio::outlying_sample& out : sorted.left_out) {
-    result.is_left_out[out.number] = true;
-    result.warnings.push_back(told(out, numbers[out.number]));
-    left_out.push_back({{"sample", numbers[out.number] + 1},
-                        {"measured", per_channel(out.measured)},
-                        {"others", per_channel(out.predicted)},
-                        {"mapped_deviation", out.deviation},
-                        {"probability_wrong", out.probability}});
+    result.is_left_out[out.number] = leaves_out;
+    result.warnings.push_back(told(out, numbers[out.number], leaves_out ? "left out" : "kept beside so few"));
+    disagreeing.push_back({{"sample", numbers[out.number] + 1},
+                           {"measured", per_channel(out.measured)},
+                           {"others", per_channel(out.predicted)},
+                           {"mapped_deviation", out.deviation},
+                           {"probability_wrong", out.probability}});
   }
-  result.details["left_out"] = left_out;
+  result.details[leaves_out ? "left_out" : "disagreeing"] = disagreeing;
   return result;
 }
 

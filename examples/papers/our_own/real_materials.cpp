@@ -184,11 +184,11 @@ class experiment {
     const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
     gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
     std::vector<Eigen::Index> left_out;
-    if (method == "default" && located.size() < 100) {
+    if (method == "default" && located.size() > 12 && located.size() < 100) {
       const gonio::sorted_samples sorted = gonio::reject_outlying(both, located);
       for (const gonio::outlying_sample& out : sorted.left_out) left_out.push_back(out.number);
       located = located.subset(sorted.kept);
-    } else if (method == "default") {
+    } else if (method == "default" && located.size() >= 100) {
       const gonio::robust_decomposition robust{both, {}, given_.threads};
       const Eigen::VectorXd weights = robust.inlier_weights(located);
       for (Eigen::Index i = 0; i < weights.size(); ++i)
