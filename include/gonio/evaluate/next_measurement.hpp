@@ -50,11 +50,13 @@ class measurement_chooser {
   /// cell of the candidates is measured twice. O(count points candidates^2). Throws gonio::error for unusable samples
   /// and if there are fewer candidates.
   [[nodiscard]] std::vector<next_measurement> choose(const sample_set& samples, Eigen::Index count) const {
+    std::vector<bool> free = free_candidates(samples);
+    if (std::ranges::count(free, true) < count)
+      refuse({"there are fewer than ", count, " candidates that were not measured"});
     const located_samples located = samples.empty() ? located_samples{} : locate(samples);
     design::candidate_posterior known = samples.empty() ? design_.prior() : design_.posterior_of(located);
     const design::sensitivity seen = sensitivity_at(known.mean);
     const double scale = samples.empty() ? 1.0 : posterior(design_.estimator(), located).scale();
-    std::vector<bool> free = free_candidates(samples);
     std::vector<next_measurement> chosen;
     while (std::ssize(chosen) < count) {
       // The best candidate beside those that are chosen.
@@ -66,7 +68,6 @@ class measurement_chooser {
       Eigen::Index best = 0;
       for (Eigen::Index i = 1; i < std::ssize(deviations); ++i)
         if (value(i) < value(best)) best = i;
-      if (!free[best]) refuse({"there are fewer than ", count, " candidates that were not measured"});
       free[best] = false;
       known.add(best, design_.error_variance());
       const direction_pair pose = design_.geometry().centre(best);
