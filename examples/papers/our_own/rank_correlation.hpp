@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace papers {
@@ -14,7 +15,7 @@ namespace papers {
 [[nodiscard]] inline Eigen::ArrayXd ranks_of(std::span<const double> values) {
   std::vector<Eigen::Index> order(values.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return values[i]; });
+  std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::pair(values[i], i); });
   Eigen::ArrayXd ranks(std::ssize(values));
   for (Eigen::Index rank = 0; rank < ranks.size(); ++rank) ranks[order[rank]] = static_cast<double>(rank);
   return ranks;

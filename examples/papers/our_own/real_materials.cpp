@@ -193,7 +193,7 @@ class experiment {
       const Eigen::VectorXd weights = robust.inlier_weights(located);
       for (Eigen::Index i = 0; i < weights.size(); ++i)
         if (weights[i] < 0.5) left_out.push_back(i);
-      std::ranges::stable_sort(left_out, {}, [&](Eigen::Index i) { return weights[i]; });
+      std::ranges::sort(left_out, {}, [&](Eigen::Index i) { return std::pair(weights[i], i); });
       located = robust.weighted(located, weights);
     }
     estimated found{both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};

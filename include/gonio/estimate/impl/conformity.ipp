@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace gonio::detail {
@@ -149,7 +150,7 @@ GONIO_INLINE double least_within(const Eigen::MatrixXd& matrix, const Eigen::Vec
 inline void adjust(std::vector<compared_direction>& directions) {
   std::vector<Eigen::Index> order(directions.size());
   std::iota(order.begin(), order.end(), Eigen::Index{0});
-  std::ranges::stable_sort(order, {}, [&](Eigen::Index i) { return directions[i].p_value; });
+  std::ranges::sort(order, {}, [&](Eigen::Index i) { return std::pair(directions[i].p_value, i); });
   double least = 0.0;
   for (Eigen::Index k = 0; k < std::ssize(order); ++k) {
     compared_direction& each = directions[order[k]];

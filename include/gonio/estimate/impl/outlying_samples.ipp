@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace gonio {
@@ -154,7 +154,7 @@ class wrong_sample_set {
   constexpr Eigen::Index candidates = 12;
   std::vector<Eigen::Index> first = numbers_up_to(samples);
   std::erase_if(first, [&](Eigen::Index i) { return wrong.contains(i); });
-  std::ranges::stable_sort(first, std::greater{}, [&](Eigen::Index i) { return wrong.gain(i); });
+  std::ranges::sort(first, {}, [&](Eigen::Index i) { return std::pair(-wrong.gain(i), i); });
   double best_gain = 0.0;
   std::array<Eigen::Index, 2> best{};
   for (Eigen::Index i = 0; i < std::min(candidates, std::ssize(first)); ++i) {
@@ -211,7 +211,7 @@ GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd&
   }
   std::vector<wrong_sample> found;
   for (const Eigen::Index i : members) found.push_back({i, wrong.probability(i)});
-  std::ranges::stable_sort(found, std::greater{}, &wrong_sample::probability);
+  std::ranges::sort(found, {}, [](const wrong_sample& each) { return std::pair(-each.probability, each.number); });
   return found;
 }
 
