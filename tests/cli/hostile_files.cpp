@@ -98,5 +98,5 @@ TEST_CASE("a step of lights with a negative tolerance is refused") {
   const std::string path = (folder / "arc.txt").string();
   scratch::put(path, std::string("light_step 7.5 -1\n"));
   refuses("design --constraint " + path + " -n 2 -o " + (folder / "out.csv").string(),
-          "arc.txt, line 1: lights are met to a tolerance from 0 to 90 degrees");
+          "arc.txt, line 1: angles are met to a tolerance from 0 to 90 degrees");
 }
