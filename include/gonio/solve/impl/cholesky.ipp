@@ -3,7 +3,6 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/solve/cholesky.hpp>
-#include <gonio/solve/product.hpp>
 #include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Cholesky>
@@ -27,7 +26,8 @@ GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_defi
   positive_definite_ = in_place.info() == Eigen::Success;
 }
 
-// Substitution by our own loops rather than Eigen's, which generates a blocked kernel for each triangle.
+// Substitution by our own loops rather than Eigen's, which generates a blocked kernel for each triangle, and without a
+// matrix product, which costs every program that solves a system a second of compilation.
 
 GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
   const Eigen::Index k = lower_.rows();
@@ -38,8 +38,9 @@ GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
 }
 
 GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
-  // Solve for some unknowns of all columns, then take them from the other equations by a matrix product.
-  constexpr Eigen::Index panel = 64;
+  // Solve for some unknowns of all columns, then take them from the other equations, a tile of L that stays in the
+  // cache after the other.
+  constexpr Eigen::Index panel = 64, tile = 256;
   const Eigen::Index k = lower_.rows();
   Eigen::MatrixXd x = b;
   for (Eigen::Index begin = 0; begin < k; begin += panel) {
@@ -49,9 +50,10 @@ GONIO_INLINE Eigen::MatrixXd cholesky::solve_lower(const matrix_view& b) const {
         const double known = x(j, column) /= lower_(j, j);
         add_scaled(-known, lower_.data() + j * (k + 1) + 1, &x(j, column) + 1, end - j - 1);
       }
-    if (end < k)
-      x.bottomRows(k - end) -=
-          product(lower_.block(end, begin, k - end, end - begin), x.middleRows(begin, end - begin));
+    for (Eigen::Index row = end; row < k; row += tile)
+      for (Eigen::Index column = 0; column < x.cols(); ++column)
+        for (Eigen::Index j = begin; j < end; ++j)
+          add_scaled(-x(j, column), &lower_(row, j), &x(row, column), std::min(tile, k - row));
   }
   return x;
 }
