@@ -39,11 +39,10 @@ struct measured_surface {
   measured_surface(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
                    gonio::thread_count threads) {
     const gonio::sample_set all = read_measurements(path);
-    for (Eigen::Index i = 0; i < std::ssize(all); ++i)
-      if (all[i].weight.counts()) {
-        counting.push_back(all[i]);
-        numbers.push_back(i + 1);
-      }
+    for (const Eigen::Index i : counting_samples(all)) {
+      counting.push_back(all[i]);
+      numbers.push_back(i + 1);
+    }
     located = gonio::locate_samples(prior.cells(), all, threads);
   }
 };
@@ -96,8 +95,6 @@ std::string probability(double value) {
 
 /// Of a difference of mapped values, relative: "+4.1 %".
 std::string percent(double mapped) { return (mapped >= 0.0 ? "+" : "") + fixed(100.0 * std::expm1(mapped), 1) + " %"; }
-
-std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
 /// "sample 6 (theta_i 30.0, theta_o 41.2 degrees): measured 0.210, the reference says 0.140 +- 0.020 (red, p =
 /// 0.0003)", of the channel that differs most.

@@ -100,10 +100,6 @@ void write_history(const std::filesystem::path& path, std::span<const gonio::cor
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
-Eigen::Index counting(const gonio::sample_set& samples) {
-  return std::ranges::count_if(samples, [](const gonio::sample& each) { return each.weight.counts(); });
-}
-
 void print(const reconstruction& result, std::size_t samples, bool as_json) {
   for (const std::string& sentence : result.warnings) std::cerr << "gonio: warning: " << sentence << '\n';
   if (as_json) {
@@ -137,7 +133,7 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
   const auto samples = read_measurements(options.samples);
   reconstruction result = chosen.reconstruct(options, samples);
   std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
-  if (std::string sentence = warning_of(options.method, counting(samples)); !sentence.empty())
+  if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
     result.warnings.push_back(std::move(sentence));
   require_finite(result.table, samples, options);
   if (!options.output.empty()) write_table(options.output, result.table);

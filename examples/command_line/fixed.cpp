@@ -14,4 +14,6 @@ std::string fixed(double value, int digits) {
 
 std::string fixed(const json& value, int digits) { return fixed(value.number(), digits); }
 
+std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
+
 }  // namespace cli

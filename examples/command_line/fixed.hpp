@@ -11,4 +11,7 @@ class json;
 [[nodiscard]] std::string fixed(double value, int digits);
 [[nodiscard]] std::string fixed(const json& value, int digits);
 
+/// A reflectance in sr^-1 for people, in three or four digits: more are not known.
+[[nodiscard]] std::string reflectance(double value);
+
 }  // namespace cli

@@ -3,6 +3,7 @@
 #include "fixed.hpp"
 #include "iteration_figure.hpp"
 #include "materials.hpp"
+#include "measurement_files.hpp"
 #include "method_record.hpp"
 #include "progress_bar.hpp"
 #include "reconstruct_methods.hpp"
@@ -120,8 +121,7 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
 
 reconstruction reconstruct_by_corrections(const reconstruct_options& options, const gonio::sample_set& samples) {
   static_cast<void>(gamma_of(options));  // refused before the work
-  const Eigen::Index counting =
-      std::ranges::count_if(samples, [](const gonio::sample& each) { return each.weight.counts(); });
+  const Eigen::Index counting = std::ssize(counting_samples(samples));
   if (counting < fewest_corrected_samples && !options.has_own_options) {
     reconstruction result =
         reconstruct_with_discrepancy(options, gonio::io::read_prior(options.materials.prior), samples);

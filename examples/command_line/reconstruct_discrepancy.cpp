@@ -1,13 +1,13 @@
 /// gonio reconstruct --method pca: components and a discrepancy, and samples that the others contradict.
 
 #include "fixed.hpp"
+#include "measurement_files.hpp"
 #include "measures_as_json.hpp"
 #include "reconstruct_methods.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/posterior.hpp>
-#include <gonio/estimate/robust_decomposition.hpp>
+#include <gonio/estimate/screened_samples.hpp>
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
@@ -19,23 +19,8 @@ namespace cli {
 
 namespace {
 
-/// Of fewer samples none is left out: one that disagrees may be the only one in the highlight. From `fewest_weighed`
-/// samples on outliers count less, and are not named. docs/results/real-materials.md, real-methods.md.
-constexpr Eigen::Index fewest_left_out = 13, fewest_weighed = 100;
-
 /// What all others say of each sample is told of so many.
 constexpr Eigen::Index most_residuals = 1000;
-
-/// Which samples of the file count, by their positions.
-std::vector<Eigen::Index> counting(const gonio::sample_set& samples) {
-  std::vector<Eigen::Index> numbers;
-  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
-    if (samples[i].weight.counts()) numbers.push_back(i);
-  return numbers;
-}
-
-/// Three or four digits: more are not known.
-std::string reflectance(double value) { return fixed(value, value < 0.1 ? 4 : value < 10.0 ? 3 : 1); }
 
 /// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
@@ -49,7 +34,7 @@ std::string told(const gonio::outlying_sample& out, Eigen::Index number, const c
 /// Of all samples that count: what was measured, what all others say, and by how much it is off.
 void write_residuals(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
                      const gonio::located_samples& located, const gonio::left_out_predictions& others,
-                     const std::vector<Eigen::Index>& numbers, const std::vector<bool>& left_out) {
+                     const std::vector<Eigen::Index>& numbers, const std::vector<Eigen::Index>& left_out) {
   std::string text = "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
   const Eigen::VectorXd disagreement = others.disagreement();
   for (Eigen::Index i = 0; i < located.size(); ++i) {
@@ -65,7 +50,7 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
     for (Eigen::Index c = 0; c < 3; ++c) append(std::max(prior.metric().inverse(others.mean(i, c) + offset, at), 0.0));
     append(std::expm1(others.deviation[i]));
     append(disagreement[i]);
-    text += left_out[i] ? ",1\n" : ",0\n";
+    text += std::ranges::count(left_out, i) > 0 ? ",1\n" : ",0\n";
   }
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
@@ -113,56 +98,26 @@ gonio::brdf_table uncertainty_table(const known_values& known, gonio::thread_cou
 
 using discrepancy_estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
 
-/// Samples that count as much as the others allow, and what is told of those that count less.
-struct accepted_samples {
-  gonio::located_samples located;
-  std::vector<bool> is_left_out;  ///< of those that were given
-  json details = json::object();
-  std::string sentence{};
-  std::vector<std::string> warnings{};
-};
-
-/// Of few samples: those that the others contradict are named, and left out unless samples are very few. `numbers` are
-/// their positions in the file.
-accepted_samples without_contradicted(const discrepancy_estimator& estimator, const gonio::located_samples& located,
-                                      const std::vector<Eigen::Index>& numbers) {
-  const gonio::sorted_samples sorted = gonio::reject_outlying(estimator, located);
-  const bool leaves_out = located.size() >= fewest_left_out;
-  accepted_samples result{leaves_out ? located.subset(sorted.kept) : located, std::vector<bool>(located.size(), false)};
-  json disagreeing = json::array();
-  for (const gonio::outlying_sample& out : sorted.left_out) {
-    result.is_left_out[out.number] = leaves_out;
-    result.warnings.push_back(told(out, numbers[out.number], leaves_out ? "left out" : "kept beside so few"));
-    disagreeing.push_back({{"sample", numbers[out.number] + 1},
-                           {"measured", per_channel(out.measured)},
-                           {"others", per_channel(out.predicted)},
-                           {"mapped_deviation", out.deviation},
-                           {"probability_wrong", out.probability}});
+/// What was found about the samples; `numbers` are their positions in the file.
+void describe(const gonio::screened_samples& screened, Eigen::Index samples, const std::vector<Eigen::Index>& numbers,
+              reconstruction& result) {
+  if (samples >= gonio::fewest_weighed) {
+    result.details["outliers"] = screened.outlier_share;
+    result.details["down_weighted"] = static_cast<double>(screened.left_out.size()) / static_cast<double>(samples);
+    result.sentence += ", about " + fixed(100.0 * screened.outlier_share, 1) + " % outliers";
+    return;
   }
-  result.details[leaves_out ? "left_out" : "disagreeing"] = disagreeing;
-  return result;
-}
-
-/// Of many samples: outliers count less.
-accepted_samples weighed_by_inliers(const discrepancy_estimator& estimator, const gonio::located_samples& located,
-                                    gonio::thread_count threads) {
-  const gonio::robust_decomposition robust{estimator, {}, threads};
-  const Eigen::VectorXd weights = robust.inlier_weights(located);
-  accepted_samples result{robust.weighted(located, weights), std::vector<bool>(located.size(), false)};
-  for (Eigen::Index i = 0; i < weights.size(); ++i) result.is_left_out[i] = weights[i] < 0.5;
-  const auto n = static_cast<double>(located.size());
-  const double outliers = 1.0 - weights.sum() / n;
-  result.details = {{"outliers", outliers},
-                    {"down_weighted", static_cast<double>((weights.array() < 0.5).count()) / n}};
-  result.sentence = ", about " + fixed(100.0 * outliers, 1) + " % outliers";
-  return result;
-}
-
-accepted_samples accept(const reconstruct_options& options, const discrepancy_estimator& estimator,
-                        const gonio::located_samples& located, const std::vector<Eigen::Index>& numbers) {
-  if (options.keeps_all) return {located, std::vector<bool>(located.size(), false)};
-  if (located.size() < fewest_weighed) return without_contradicted(estimator, located, numbers);
-  return weighed_by_inliers(estimator, located, options.threads);
+  const bool leaves_out = samples >= gonio::fewest_left_out;
+  json contradicted = json::array();
+  for (const gonio::outlying_sample& out : screened.contradicted) {
+    result.warnings.push_back(told(out, numbers[out.number], leaves_out ? "left out" : "kept beside so few"));
+    contradicted.push_back({{"sample", numbers[out.number] + 1},
+                            {"measured", per_channel(out.measured)},
+                            {"others", per_channel(out.predicted)},
+                            {"mapped_deviation", out.deviation},
+                            {"probability_wrong", out.probability}});
+  }
+  result.details[leaves_out ? "left_out" : "disagreeing"] = contradicted;
 }
 
 }  // namespace
@@ -172,31 +127,30 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
   const discrepancy_estimator estimator{prior, model, options.threads};
   const gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
-  const std::vector<Eigen::Index> numbers = counting(samples);
+  const std::vector<Eigen::Index> numbers = counting_samples(samples);
   if (!options.residuals.empty() && located.size() > most_residuals)
     gonio::refuse("--residuals needs at most " + std::to_string(most_residuals) + " samples, not " +
                   std::to_string(located.size()));
 
   // Find out which samples the others contradict.
-  accepted_samples accepted = accept(options, estimator, located, numbers);
+  gonio::screened_samples screened{located};
+  if (!options.keeps_all) screened = gonio::screen(estimator, located, options.threads);
   if (!options.residuals.empty())
     write_residuals(options.residuals, prior, located,
                     gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)), numbers,
-                    accepted.is_left_out);
+                    screened.left_out);
 
   // Fit the rest.
-  const auto fitted = estimator.fit_located(accepted.located);
+  const auto fitted = estimator.fit_located(screened.kept);
   reconstruction result{fitted.tabulate(gonio::valid_cells(), options.threads)};
-  const gonio::rgb residual =
-      fitted.report()->residual.array() / std::sqrt(static_cast<double>(accepted.located.size()));
+  const gonio::rgb residual = fitted.report()->residual.array() / std::sqrt(static_cast<double>(screened.kept.size()));
   result.details = {{"mapped_residual_rms", per_channel(residual)},
                     {"kkt_residual", per_channel(fitted.report()->kkt_residual.array())},
                     {"discrepancy", options.discrepancy}};
-  result.details.update(accepted.details);
   result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
-                    ' ' + fixed(residual.z(), 3) + accepted.sentence;
-  result.warnings = std::move(accepted.warnings);
-  const gonio::posterior known(estimator, accepted.located);
+                    ' ' + fixed(residual.z(), 3);
+  if (!options.keeps_all) describe(screened, located.size(), numbers, result);
+  const gonio::posterior known(estimator, screened.kept);
   describe(known, prior, options, result);
   if (!options.uncertainty.empty() || !options.uncertainty_image.empty())
     result.uncertainty = uncertainty_table(known, options.threads);

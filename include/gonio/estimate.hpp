@@ -31,5 +31,6 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/estimate/screened_samples.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/values_at.hpp>

@@ -4,13 +4,10 @@
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/left_out_families.hpp"
-#include "papers/resumable_results.hpp"
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
@@ -24,14 +21,10 @@ namespace papers {
 
 namespace {
 
-struct adaptive_options {
-  std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, folder = shipped_directions(), state;
+struct adaptive_options : left_out_options {
+  std::filesystem::path folder = shipped_directions();
   std::vector<Eigen::Index> counts{5, 6, 8, 10, 12, 15, 20};
   std::vector<std::string> methods{"perceived", "expected-error", "mean-material", "first-five", "adaptive"};
-  Eigen::Index components = 100;
-  thinning thin{{3, 5}};
-  gonio::thread_count threads;
 };
 
 using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
@@ -43,15 +36,10 @@ struct family_setup {
   chooser_type chooser;
 };
 
-class adaptive_experiment {
+class adaptive_experiment : left_out_experiment {
  public:
   adaptive_experiment(const adaptive_options& given, progress_bar& bar)
-      : given_(given),
-        bar_(bar),
-        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
-        judge_(library_.cells(), 36, given.threads),
-        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
-        results_(given.state) {}
+      : left_out_experiment(given, bar), given_(given) {}
 
   /// A row for each number of samples and method: errors of each material.
   [[nodiscard]] json run() {
@@ -62,12 +50,9 @@ class adaptive_experiment {
         json counts = json::array();
         for (const Eigen::Index count : given_.counts) counts.push_back(count);
         const json key{"adaptive", method, material.name, given_.components, counts};
-        if (!results_.find(key)) {
-          bar_.draw(material.name + " " + method, 0.0);
-          results_.add(key, errors_by_count(material, method));
-        }
-        for (const auto& [count, errors] : results_.find(key)->items())
-          found[{std::stol(count), method}][material.name] = errors;
+        const json& by_count =
+            once(key, material.name + " " + method, [&] { return errors_by_count(material, method); });
+        for (const auto& [count, errors] : by_count.items()) found[{std::stol(count), method}][material.name] = errors;
       }
     json rows = json::array();
     for (const Eigen::Index count : given_.counts)
@@ -120,20 +105,15 @@ class adaptive_experiment {
 
   json errors_of(const judged_material& material, const gonio::sample_set& samples, const family_setup& with) {
     const auto table = with.estimator.fit(samples).tabulate(library_.cells(), given_.threads);
-    const gonio::comparison errors = gonio::compare(table, material.truth, metric_, judge_, given_.threads);
+    const gonio::comparison errors = compare(table, material);
     return {{"mapped_rms", errors.mapped_rms.mean()},     {"delta_e_env", errors.delta_e_env},
             {"delta_e_lights", errors.delta_e_lights},    {"deviation", with.chooser.median_deviation(samples)},
             {"least_peak", errors.peak_ratio.minCoeff()}, {"largest_peak", errors.peak_ratio.maxCoeff()}};
   }
 
   const adaptive_options& given_;
-  progress_bar& bar_;
-  material_library library_;
-  gonio::appearance_metric judge_;
-  gonio::log_relative metric_;
   std::string family_;
   std::optional<family_setup> setup_;
-  resumable_results results_;
 };
 
 void print(const json& rows) {
@@ -162,9 +142,7 @@ void add_adaptive_design(command& app) {
   auto command =
       app.add_subcommand("adaptive-design", "Measure materials where the readings so far say, and in fixed directions");
   const auto options = std::make_shared<adaptive_options>();
-  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
-  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
-      .required();
+  add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
   command.add_option("-n,--counts", options->counts, "Numbers of samples that are judged").capture_default_str();
   command
@@ -175,12 +153,7 @@ void add_adaptive_design(command& app) {
           "all that was read before")
       .check(check::one_of({"perceived", "expected-error", "mean-material", "first-five", "adaptive"}))
       .capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors")
-      .check(check::positive_number())
-      .capture_default_str();
-  add_thin_option(command, options->thin);
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
-  add_threads_option(command, options->threads);
+  add_state_option(command, *options);
   command.callback([options] {
     if (std::ranges::min(options->counts) < 5) gonio::refuse("--counts needs numbers of at least 5");
     progress_bar bar;

@@ -3,7 +3,6 @@
 
 #include "command_line/fixed.hpp"
 #include "command_line/progress_bar.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/colour_shift.hpp"
@@ -28,15 +27,12 @@ namespace papers {
 
 namespace {
 
-struct conformity_experiment_options {
-  std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, folder = shipped_directions();
+struct conformity_experiment_options : left_out_options {
+  std::filesystem::path folder = shipped_directions();
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 20}, random{5, 20, 100};
   std::vector<double> noise{0.01, 0.02, 0.05};
-  Eigen::Index components = 100, repetitions = 100;
-  thinning thin{{3, 5}};
-  gonio::thread_count threads;
+  Eigen::Index repetitions = 100;
 };
 
 using directions = std::vector<gonio::half_difference>;
@@ -363,9 +359,7 @@ void add_conformity(command& app) {
       "conformity",
       "How often gonio check is wrong on measured materials, by priors that have not seen their families");
   const auto options = std::make_shared<conformity_experiment_options>();
-  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
-  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
-      .required();
+  add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
   command.add_option("--set", options->set, "Which designed sets: of point-20-perceived.csv, perceived")
       .capture_default_str();
@@ -374,14 +368,9 @@ void add_conformity(command& app) {
   command.add_option("--random", options->random, "Numbers of the reference's directions where they are random")
       .capture_default_str();
   command.add_option("--noise", options->noise, "Relative deviations of the measurements").capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors")
-      .check(check::positive_number())
-      .capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Parts of each material that are like it")
       .check(check::range(2, 1'000'000))
       .capture_default_str();
-  add_thin_option(command, options->thin);
-  add_threads_option(command, options->threads);
   command.callback([options] {
     progress_bar bar;
     conformity_experiment work(*options, bar);

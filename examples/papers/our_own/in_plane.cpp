@@ -4,12 +4,9 @@
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
-#include "papers/resumable_results.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/evaluate/comparison.hpp>
@@ -24,14 +21,10 @@ namespace papers {
 
 namespace {
 
-struct in_plane_options {
-  std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, state;
+struct in_plane_options : left_out_options {
   std::vector<double> incidences{0, 30, 60};
   double step = 5.0;
-  Eigen::Index more = 5, components = 100;
-  thinning thin{{3, 5}};
-  gonio::thread_count threads;
+  Eigen::Index more = 5;
 };
 
 /// The scans alone, and with further directions: in the plane, anywhere as if the mean material lay there, anywhere one
@@ -55,15 +48,10 @@ std::vector<gonio::half_difference> scan_directions(const in_plane_options& give
 
 using chooser_type = gonio::measurement_chooser<gonio::log_relative>;
 
-class in_plane_experiment {
+class in_plane_experiment : left_out_experiment {
  public:
   in_plane_experiment(const in_plane_options& given, progress_bar& bar)
-      : given_(given),
-        bar_(bar),
-        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
-        judge_(library_.cells(), 36, given.threads),
-        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
-        results_(given.state) {}
+      : left_out_experiment(given, bar), given_(given) {}
 
   /// Errors of each material by method.
   [[nodiscard]] std::map<std::string, json> run() {
@@ -71,12 +59,10 @@ class in_plane_experiment {
     for (const judged_material& material : measured_materials(given_.materials, library_))
       for (const std::string& method : in_plane_methods) {
         const json key{"in-plane", method, material.name, given_.components, given_.more, scan_.size()};
-        if (!results_.find(key)) {
-          bar_.draw(material.name + " " + method, 0.0);
+        found[method][material.name] = once(key, material.name + " " + method, [&] {
           const setup& with = setup_without(material.family);
-          results_.add(key, errors_of(material, measured_by(method, material, with), with));
-        }
-        found[method][material.name] = *results_.find(key);
+          return errors_of(material, measured_by(method, material, with), with);
+        });
       }
     return found;
   }
@@ -134,7 +120,7 @@ class in_plane_experiment {
   json errors_of(const judged_material& material, const gonio::sample_set& samples, const setup& with) const {
     const auto located = gonio::locate_samples(library_.cells(), samples);
     const auto table = with.estimator.fit_located(located).tabulate(library_.cells(), given_.threads);
-    const gonio::comparison errors = gonio::compare(table, material.truth, metric_, judge_, given_.threads);
+    const gonio::comparison errors = compare(table, material);
     json all{{"mapped_rms", errors.mapped_rms.mean()},
              {"delta_e_env", errors.delta_e_env},
              {"delta_e_lights", errors.delta_e_lights}};
@@ -173,14 +159,9 @@ class in_plane_experiment {
   }
 
   const in_plane_options& given_;
-  progress_bar& bar_;
-  material_library library_;
-  gonio::appearance_metric judge_;
-  gonio::log_relative metric_;
   std::vector<gonio::half_difference> scan_ = scan_directions(given_);
   std::string family_;
   std::optional<setup> setup_;
-  resumable_results results_;
 };
 
 void print(const std::map<std::string, json>& found, const std::vector<gonio::next_measurement>& recommended,
@@ -219,9 +200,7 @@ void print(const std::map<std::string, json>& found, const std::vector<gonio::ne
 void add_in_plane(command& app) {
   auto command = app.add_subcommand("in-plane", "Scan measured materials in the plane of incidence");
   const auto options = std::make_shared<in_plane_options>();
-  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
-  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
-      .required();
+  add_left_out_options(command, *options);
   command.add_option("--incidences", options->incidences, "Polar angles of the light in degrees").capture_default_str();
   command.add_option("--step", options->step, "Degrees of viewing angle between samples")
       .check(check::positive_number())
@@ -229,12 +208,7 @@ void add_in_plane(command& app) {
   command.add_option("--more", options->more, "Further directions")
       .check(check::positive_number())
       .capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors")
-      .check(check::positive_number())
-      .capture_default_str();
-  add_thin_option(command, options->thin);
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
-  add_threads_option(command, options->threads);
+  add_state_option(command, *options);
   command.callback([options] {
     progress_bar bar;
     in_plane_experiment work(*options, bar);

@@ -1,5 +1,6 @@
 #include "left_out_families.hpp"
 
+#include "command_line/threads_option.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/networks.hpp>
@@ -35,6 +36,28 @@ gonio::log_relative_pca material_library::prior_without(const std::string& famil
   const auto metric = gonio::log_relative::to_median_of(set, threads_);
   return gonio::learn_pca(std::move(set), metric, components, threads_);
 }
+
+void add_left_out_options(cli::command& to, left_out_options& options) {
+  to.add_input("--networks", options.networks, "Files of networks (.npy): surrogates to learn from").required();
+  to.add_input_folder("--materials", options.materials, {".bsdf"}, "Folder of measured materials (.bsdf)").required();
+  to.add_option("--components", options.components, "Components of the priors of all materials")
+      .check(cli::check::positive_number())
+      .capture_default_str();
+  cli::add_thin_option(to, options.thin);
+  cli::add_threads_option(to, options.threads);
+}
+
+void add_state_option(cli::command& to, left_out_options& options) {
+  to.add_output("--state", options.state, {}, "File that keeps what is done; an interrupted run goes on from it");
+}
+
+left_out_experiment::left_out_experiment(const left_out_options& given, cli::progress_bar& bar)
+    : bar_(bar),
+      threads_(given.threads),
+      library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
+      judge_(library_.cells(), 36, given.threads),
+      metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
+      results_(given.state) {}
 
 std::vector<judged_material> measured_materials(const std::filesystem::path& folder, const material_library& library) {
   std::vector<judged_material> all;

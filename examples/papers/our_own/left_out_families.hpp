@@ -2,9 +2,14 @@
 /// Measured materials, each judged by what is learned without its family: the protocol of
 /// docs/results/real-materials.md and real-methods.md.
 
+#include "command_line/command.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
 #include "command_line/thinning.hpp"
+#include "papers/resumable_results.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/evaluate/comparison.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -61,6 +66,20 @@ class material_library {
   std::vector<gonio::material_set> sets_;
 };
 
+/// What experiments by this protocol are told.
+struct left_out_options {
+  std::vector<std::filesystem::path> networks;
+  std::filesystem::path materials, state;
+  Eigen::Index components = 100;
+  cli::thinning thin{{3, 5}};
+  gonio::thread_count threads;
+};
+
+/// Adds `--networks`, `--materials`, `--components`, `--thin` and `--threads`.
+void add_left_out_options(cli::command& to, left_out_options& options);
+/// Adds `--state`, for experiments that go on after an interruption.
+void add_state_option(cli::command& to, left_out_options& options);
+
 /// What is measured: reflectance in a pair of directions, sr^-1.
 using reflectance = std::function<gonio::rgb(const gonio::direction_pair&)>;
 
@@ -75,6 +94,35 @@ struct judged_material {
 /// The measured materials of a library that was made from the same folder.
 [[nodiscard]] std::vector<judged_material> measured_materials(const std::filesystem::path& folder,
                                                               const material_library& library);
+
+/// What such an experiment has: materials, measures of error, and results that outlive an interruption.
+class left_out_experiment {
+ protected:
+  left_out_experiment(const left_out_options& given, cli::progress_bar& bar);
+
+  [[nodiscard]] gonio::comparison compare(const gonio::brdf_table& table, const judged_material& material) const {
+    return gonio::compare(table, material.truth, metric_, judge_, threads_);
+  }
+
+  /// The result of some work, which is done if it was not done before. `shown` stands beside the progress.
+  template <class Work>
+  [[nodiscard]] const cli::json& once(const cli::json& key, const std::string& shown, Work&& work) {
+    if (!results_.find(key)) {
+      bar_.draw(shown, 0.0);
+      results_.add(key, work());
+    }
+    return *results_.find(key);
+  }
+
+  cli::progress_bar& bar_;
+  gonio::thread_count threads_;
+  material_library library_;
+  gonio::appearance_metric judge_;
+  gonio::log_relative metric_;
+
+ private:
+  resumable_results results_;
+};
 
 /// Where is measured: its name, and a set of directions for each repetition.
 struct sampling {

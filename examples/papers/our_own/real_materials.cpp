@@ -3,23 +3,18 @@
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
 #include "papers/our_own/left_out_families.hpp"
 #include "papers/our_own/rank_correlation.hpp"
-#include "papers/resumable_results.hpp"
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
-#include <gonio/estimate/outlying_samples.hpp>
 #include <gonio/estimate/posterior.hpp>
-#include <gonio/estimate/robust_decomposition.hpp>
-#include <gonio/evaluate/comparison.hpp>
+#include <gonio/estimate/screened_samples.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
 
@@ -33,17 +28,14 @@ namespace papers {
 
 namespace {
 
-struct real_materials_options {
-  std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, folder = shipped_directions(), state;
+struct real_materials_options : left_out_options {
+  std::filesystem::path folder = shipped_directions();
   std::string set = "perceived";
   std::vector<Eigen::Index> designed{5, 10, 20}, random{20, 100, 500, 2000};
   std::vector<std::string> methods{"first", "all", "discrepancy", "default"};
-  Eigen::Index components = 100, first_components = 60, repetitions = 2, wrong = 0;
+  Eigen::Index first_components = 60, repetitions = 2, wrong = 0;
   double noise = 0.0;
   bool surrogates = false;
-  thinning thin{{3, 5}};
-  gonio::thread_count threads;
 };
 
 std::vector<sampling> samplings(const real_materials_options& given) {
@@ -64,15 +56,9 @@ std::vector<Eigen::Index> corrupt_some(gonio::sample_set& samples, Eigen::Index 
   return chosen;
 }
 
-class experiment {
+class experiment : left_out_experiment {
  public:
-  experiment(const real_materials_options& given, progress_bar& bar)
-      : given_(given),
-        bar_(bar),
-        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
-        judge_(library_.cells(), 36, given.threads),
-        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
-        results_(given.state) {}
+  experiment(const real_materials_options& given, progress_bar& bar) : left_out_experiment(given, bar), given_(given) {}
 
   /// A row for each sampling and method: errors of each material, means over the repetitions.
   [[nodiscard]] json run() {
@@ -85,11 +71,8 @@ class experiment {
           const json key{method,       where.name,         material.name, given_.components,
                          given_.noise, given_.repetitions, given_.set,    given_.surrogates,
                          given_.wrong};
-          if (!results_.find(key)) {
-            bar_.draw(where.name + " " + method + " " + material.name, 0.0);
-            results_.add(key, errors_of(material, where, method));
-          }
-          by_material[material.name] = *results_.find(key);
+          by_material[material.name] = once(key, where.name + " " + method + " " + material.name,
+                                            [&] { return errors_of(material, where, method); });
         }
         rows.push_back({{"sampling", where.name}, {"method", method}, {"materials", by_material}});
       }
@@ -184,17 +167,10 @@ class experiment {
     const gonio::discrepancy_decomposition both{known, {.noise = given_.noise}, given_.threads};
     gonio::located_samples located = gonio::locate_samples(library_.cells(), samples);
     std::vector<Eigen::Index> left_out;
-    if (method == "default" && located.size() > 12 && located.size() < 100) {
-      const gonio::sorted_samples sorted = gonio::reject_outlying(both, located);
-      for (const gonio::outlying_sample& out : sorted.left_out) left_out.push_back(out.number);
-      located = located.subset(sorted.kept);
-    } else if (method == "default" && located.size() >= 100) {
-      const gonio::robust_decomposition robust{both, {}, given_.threads};
-      const Eigen::VectorXd weights = robust.inlier_weights(located);
-      for (Eigen::Index i = 0; i < weights.size(); ++i)
-        if (weights[i] < 0.5) left_out.push_back(i);
-      std::ranges::sort(left_out, {}, [&](Eigen::Index i) { return std::pair(weights[i], i); });
-      located = robust.weighted(located, weights);
+    if (method == "default") {
+      gonio::screened_samples screened = gonio::screen(both, located, given_.threads);
+      located = std::move(screened.kept);
+      left_out = std::move(screened.left_out);
     }
     estimated found{both.fit_located(located).tabulate(library_.cells(), given_.threads), std::move(left_out)};
     const gonio::posterior known_to(both, located);
@@ -214,7 +190,7 @@ class experiment {
       gonio::sample_set samples = measure(material.measured, where.sets[r], given_.noise, seed);
       const std::vector<Eigen::Index> wrong = corrupt_some(samples, given_.wrong, seed + 100);
       const estimated found = estimate(method, samples, material);
-      const gonio::comparison errors = gonio::compare(found.table, material.truth, metric_, judge_, given_.threads);
+      const gonio::comparison errors = compare(found.table, material);
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
       lights += errors.delta_e_lights / times;
@@ -259,12 +235,7 @@ class experiment {
   }
 
   const real_materials_options& given_;
-  progress_bar& bar_;
-  material_library library_;
-  gonio::appearance_metric judge_;
-  gonio::log_relative metric_;
   std::map<std::string, gonio::log_relative_pca> priors_;
-  resumable_results results_;
 };
 
 /// How many values are within the intervals of 68 and 95 %, and of the latter in the worst region.
@@ -321,9 +292,7 @@ void add_real_materials(command& app) {
   auto command = app.add_subcommand("real-materials",
                                     "Reconstruct measured materials by priors that have not seen their families");
   const auto options = std::make_shared<real_materials_options>();
-  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
-  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
-      .required();
+  add_left_out_options(command, *options);
   command.add_input_folder("--directions", options->folder, {".csv"}, "Folder of designed sets");
   command.add_option("--set", options->set, "Which designed sets: of point-20-perceived.csv, perceived")
       .capture_default_str();
@@ -335,9 +304,6 @@ void add_real_materials(command& app) {
                   "materials; discrepancy: the same and a discrepancy; default: and without samples that the others "
                   "contradict, as gonio reconstruct does")
       .check(check::one_of({"first", "all", "discrepancy", "default"}))
-      .capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors of all materials")
-      .check(check::positive_number())
       .capture_default_str();
   command.add_option("--first-components", options->first_components, "Components of the prior of the first file")
       .check(check::positive_number())
@@ -351,9 +317,7 @@ void add_real_materials(command& app) {
       .capture_default_str();
   command.add_flag("--surrogates", options->surrogates,
                    "Judge the ten test materials of Nielsen et al. among the networks, not the measured ones");
-  add_thin_option(command, options->thin);
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
-  add_threads_option(command, options->threads);
+  add_state_option(command, *options);
   command.callback([options] {
     progress_bar bar;
     experiment work(*options, bar);

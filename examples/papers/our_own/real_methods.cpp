@@ -3,12 +3,9 @@
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
-#include "command_line/thinning.hpp"
-#include "command_line/threads_option.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
-#include "papers/resumable_results.hpp"
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/learn_pca.hpp>
 #include <gonio/basis/rbf.hpp>
@@ -31,15 +28,11 @@ namespace papers {
 
 namespace {
 
-struct real_methods_options {
-  std::vector<std::filesystem::path> networks;
-  std::filesystem::path materials, state;
+struct real_methods_options : left_out_options {
   std::vector<Eigen::Index> random{1, 5, 20, 100, 500, 2000};
   std::vector<double> wrong{0.0};
   std::vector<std::string> methods{"median", "pca", "robust", "linear", "correction", "rbf", "pull-push"};
-  Eigen::Index components = 100, repetitions = 2;
-  thinning thin{{3, 5}};
-  gonio::thread_count threads;
+  Eigen::Index repetitions = 2;
 };
 
 /// What is learned without one family, the parts that not all methods need on demand.
@@ -47,7 +40,7 @@ class learned {
  public:
   learned(const material_library& library, const std::string& family, Eigen::Index components,
           gonio::thread_count threads)
-      : threads_(threads), prior_(learn(library, family, components, threads)) {}
+      : threads_(threads), prior_(library.prior_without(family, components)) {}
 
   [[nodiscard]] const gonio::log_relative_pca& prior() const noexcept { return prior_; }
 
@@ -63,13 +56,6 @@ class learned {
   }
 
  private:
-  [[nodiscard]] static gonio::log_relative_pca learn(const material_library& library, const std::string& family,
-                                                     Eigen::Index components, gonio::thread_count threads) {
-    auto set = library.materials(library.all(), [&](const std::string& name) { return family_of(name) != family; });
-    const auto metric = gonio::log_relative::to_median_of(set, threads);
-    return gonio::learn_pca(std::move(set), metric, components, threads);
-  }
-
   gonio::thread_count threads_;
   gonio::log_relative_pca prior_;
   std::optional<gonio::measured<gonio::log>> materials_;
@@ -122,15 +108,10 @@ class tool_methods {
   gonio::thread_count threads_;
 };
 
-class methods_experiment {
+class methods_experiment : left_out_experiment {
  public:
   methods_experiment(const real_methods_options& given, progress_bar& bar)
-      : given_(given),
-        bar_(bar),
-        library_(given.networks, given.materials, given.thin, bar.listener(), given.threads),
-        judge_(library_.cells(), 36, given.threads),
-        metric_(gonio::log_relative::to_median_of(library_.first(), given.threads)),
-        results_(given.state) {}
+      : left_out_experiment(given, bar), given_(given) {}
 
   /// A row for each number of samples, share of wrong ones and method, with the errors of each material: means over
   /// the repetitions.
@@ -141,11 +122,9 @@ class methods_experiment {
         for (const double wrong : given_.wrong)
           for (const std::string& method : given_.methods) {
             const json key{method, count, wrong, material.name, given_.components, given_.repetitions};
-            if (!results_.find(key)) {
-              bar_.draw(material.name + " " + std::to_string(count) + " " + method, 0.0);
-              results_.add(key, errors_of(material, count, wrong, method));
-            }
-            errors[row_name(count, wrong, method)][material.name] = *results_.find(key);
+            errors[row_name(count, wrong, method)][material.name] =
+                once(key, material.name + " " + std::to_string(count) + " " + method,
+                     [&] { return errors_of(material, count, wrong, method); });
           }
     json rows = json::array();
     for (const Eigen::Index count : given_.random)
@@ -188,8 +167,7 @@ class methods_experiment {
                            std::uniform_int_distribution<Eigen::Index> any(0, truth.cells().size() - 1);
                            return truth.at(any(generator));
                          });
-      const gonio::comparison errors =
-          gonio::compare(tool.estimate(method, samples), truth, metric_, judge_, given_.threads);
+      const gonio::comparison errors = compare(tool.estimate(method, samples), material);
       rms += errors.mapped_rms.mean() / times;
       environment += errors.delta_e_env / times;
       lights += errors.delta_e_lights / times;
@@ -198,13 +176,8 @@ class methods_experiment {
   }
 
   const real_methods_options& given_;
-  progress_bar& bar_;
-  material_library library_;
-  gonio::appearance_metric judge_;
-  gonio::log_relative metric_;
   std::string family_;
   std::optional<learned> known_;
-  resumable_results results_;
 };
 
 /// The Delta E of each material under the environment.
@@ -265,9 +238,7 @@ void add_real_methods(command& app) {
   auto command = app.add_subcommand("real-methods",
                                     "Reconstruct measured materials by every method, with their families left out");
   const auto options = std::make_shared<real_methods_options>();
-  command.add_input("--networks", options->networks, "Files of networks (.npy): surrogates to learn from").required();
-  command.add_input_folder("--materials", options->materials, {".bsdf"}, "Folder of measured materials (.bsdf)")
-      .required();
+  add_left_out_options(command, *options);
   command.add_option("--random", options->random, "Numbers of random directions").capture_default_str();
   command
       .add_option("--wrong", options->wrong,
@@ -279,15 +250,10 @@ void add_real_methods(command& app) {
                   "all materials, whatever the samples")
       .check(check::one_of({"median", "pca", "keeping", "robust", "linear", "correction", "rbf", "pull-push"}))
       .capture_default_str();
-  command.add_option("--components", options->components, "Components of the priors")
-      .check(check::positive_number())
-      .capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())
       .capture_default_str();
-  add_thin_option(command, options->thin);
-  command.add_output("--state", options->state, {}, "File that keeps what is done; an interrupted run goes on from it");
-  add_threads_option(command, options->threads);
+  add_state_option(command, *options);
   command.callback([options] {
     progress_bar bar;
     methods_experiment work(*options, bar);

@@ -218,6 +218,14 @@ template <basis Basis>
   return row;
 }
 
+/// The same at many locations: locations x size().
+template <basis Basis>
+[[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
+  Eigen::MatrixXd rows(std::ssize(at), functions.size());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = row_at(functions, at[i]);
+  return rows;
+}
+
 /// The offset at a location, interpolated in the metric's domain.
 template <basis Basis>
 [[nodiscard]] double offset_at(const Basis& functions, const location& at) {

@@ -92,14 +92,14 @@ class sequential_design {
  private:
   struct expected {
     expected(const discrepancy_decomposition<Metric>& estimator, const point_geometry& geometry)
-        : rows(geometry.size(), estimator.prior().size()), offsets(geometry.size()) {
+        : offsets(geometry.size()) {
       std::vector<half_difference> angles;
       for (Eigen::Index i = 0; i < geometry.size(); ++i) {
         angles.push_back(geometry.cells().angles(i));
         locations.push_back(locate(estimator.prior().cells(), angles.back()));
-        rows.row(i) = row_at(estimator.prior(), locations.back());
         offsets[i] = offset_at(estimator.prior(), locations.back());
       }
+      rows = rows_at(estimator.prior(), locations);
       covariance = product_with_transpose(rows) / estimator.observations();
       covariance += estimator.model().variance * discrepancy_covariance(angles, estimator.model().lengths);
     }
@@ -112,12 +112,8 @@ class sequential_design {
 
   /// Of the candidates with the samples: candidates x n.
   [[nodiscard]] Eigen::MatrixXd covariance_with(const located_samples& samples) const {
-    Eigen::MatrixXd rows(samples.size(), estimator_.prior().size());
-    std::vector<half_difference> places;
-    for (Eigen::Index i = 0; i < samples.size(); ++i) {
-      rows.row(i) = row_at(estimator_.prior(), samples.locations[i]);
-      places.push_back(samples.locations[i].angles);
-    }
+    const Eigen::MatrixXd rows = rows_at(estimator_.prior(), samples.locations);
+    const std::vector<half_difference> places = samples.angles();
     Eigen::MatrixXd with = product(before_->rows, rows.transpose()) / estimator_.observations();
     for (Eigen::Index i = 0; i < with.rows(); ++i)
       with.row(i) +=

@@ -164,7 +164,7 @@ template <error_metric Metric>
   model.noise = 0.0;
   const discrepancy_decomposition<Metric> noiseless{estimator.prior(), model};
   detail::conformity_samples samples{.parts = part.size(),
-                                     .angles = {},
+                                     .angles = both.angles(),
                                      .mapped = noiseless.mapped_values(both),
                                      .covariance = noiseless.covariance(both),
                                      .independent = model.error_variance,
@@ -174,7 +174,6 @@ template <error_metric Metric>
     const location& at = both.locations[i];
     const bool is_part = i < part.size();
     const double weight = is_part ? part.weights.row(i).mean() : reference.weights.row(i - part.size()).mean();
-    samples.angles.push_back(at.angles);
     for (Eigen::Index c = 0; c < 3; ++c) {
       const double deviation =
           detail::mapped_deviation(metric, both.values(i, c), at, is_part ? options.part : options.reference);
@@ -241,14 +240,9 @@ template <error_metric Metric>
   const double all = values.cwiseProduct(dual).sum();
 
   // Share it among the terms of K.
-  Eigen::MatrixXd rows(n, estimator.prior().size());
-  std::vector<half_difference> angles;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    rows.row(i) = row_at(estimator.prior(), samples.locations[i]);
-    angles.push_back(samples.locations[i].angles);
-  }
+  const Eigen::MatrixXd rows = rows_at(estimator.prior(), samples.locations);
   const double components = product(rows.transpose(), dual).squaredNorm() / estimator.observations();
-  const Eigen::MatrixXd smooth = discrepancy_covariance(angles, estimator.model().lengths);
+  const Eigen::MatrixXd smooth = discrepancy_covariance(samples.angles(), estimator.model().lengths);
   const double discrepancy = estimator.model().variance * product(smooth, dual).cwiseProduct(dual).sum();
   const auto channels = static_cast<double>(values.cols());
   return {.scale = all / channels / static_cast<double>(n),

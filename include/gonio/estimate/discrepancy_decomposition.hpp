@@ -87,10 +87,8 @@ class discrepancy_decomposition {
   /// channels', divides the variance of its error. O(n^2 k).
   [[nodiscard]] Eigen::MatrixXd covariance(const located_samples& samples) const {
     const auto n = samples.size();
-    Eigen::MatrixXd rows(n, prior_.size());
-    for (Eigen::Index i = 0; i < n; ++i) rows.row(i) = row_at(prior_, samples.locations[i]);
-    Eigen::MatrixXd all = product_with_transpose(rows) / observations();
-    all += model_.variance * discrepancy_covariance(angles_of(samples), model_.lengths);
+    Eigen::MatrixXd all = product_with_transpose(rows_at(prior_, samples.locations)) / observations();
+    all += model_.variance * discrepancy_covariance(samples.angles(), model_.lengths);
     const Eigen::ArrayXd errors = error_variances(samples) / samples.weights.rowwise().mean().array();
     for (Eigen::Index i = 0; i < n; ++i) all(i, i) += errors[i];
     return all;
@@ -109,12 +107,6 @@ class discrepancy_decomposition {
   }
 
  private:
-  [[nodiscard]] static std::vector<half_difference> angles_of(const located_samples& samples) {
-    std::vector<half_difference> angles;
-    for (const location& at : samples.locations) angles.push_back(at.angles);
-    return angles;
-  }
-
   /// Of each sample's error: the model's, and what its noise is in the metric's domain.
   [[nodiscard]] Eigen::ArrayXd error_variances(const located_samples& samples) const {
     return model_.error_variance + map_noise(prior_, samples.locations, model_.noise, threads_).variance.array();

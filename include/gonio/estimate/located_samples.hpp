@@ -37,6 +37,9 @@ struct located_samples {
   /// The values as estimators keep them.
   [[nodiscard]] channel_values channels() const;
 
+  /// The half and difference angles of all samples.
+  [[nodiscard]] std::vector<half_difference> angles() const;
+
   /// Some of the samples, by their positions.
   [[nodiscard]] located_samples subset(const std::vector<Eigen::Index>& positions) const;
 };

@@ -111,12 +111,10 @@ class posterior {
  private:
   struct stored {
     stored(const discrepancy_decomposition<Metric>& estimator, const located_samples& samples)
-        : rows(samples.size(), estimator.prior().size()), factors(estimator.covariance(samples)) {
+        : rows(rows_at(estimator.prior(), samples.locations)),
+          places(samples.angles()),
+          factors(estimator.covariance(samples)) {
       if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
-      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        rows.row(i) = row_at(estimator.prior(), samples.locations[i]);
-        places.push_back(samples.locations[i].angles);
-      }
       const Eigen::MatrixXd whitened = factors.solve_lower(estimator.mapped_values(samples));
       constexpr double before = 10.0;
       const auto n = static_cast<double>(rows.rows()), channels = static_cast<double>(whitened.cols());

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -131,11 +132,10 @@ class robust_decomposition {
     for_each_block(
         std::ssize(locations), 256,
         [&](block range) {
-          Eigen::MatrixXd rows(range.size(), prior.size());
-          for (Eigen::Index i = 0; i < range.size(); ++i) rows.row(i) = row_at(prior, locations[range.begin + i]);
-          const Eigen::MatrixXd mapped = product(rows, functions_by_material);
+          const auto here = std::span(locations).subspan(range.begin, range.size());
+          const Eigen::MatrixXd mapped = product(rows_at(prior, here), functions_by_material);
           for (Eigen::Index i = 0; i < range.size(); ++i) {
-            const location& at = locations[range.begin + i];
+            const location& at = here[i];
             const double offset = offset_at(prior, at);
             for (Eigen::Index j = 0; j < mapped.cols(); ++j)
               values(range.begin + i, j) = std::max(prior.metric().inverse(mapped(i, j) + offset, at), 0.0);

@@ -57,6 +57,12 @@ GONIO_INLINE channel_values located_samples::channel_weights() const {
   return transposed;
 }
 
+GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
+  std::vector<half_difference> all;
+  for (const location& at : locations) all.push_back(at.angles);
+  return all;
+}
+
 GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::Index>& positions) const {
   const auto count = std::ssize(positions);
   located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3),

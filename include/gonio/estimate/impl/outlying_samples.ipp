@@ -217,18 +217,18 @@ GONIO_INLINE std::vector<wrong_sample> find_wrong_samples(const Eigen::MatrixXd&
 
 GONIO_INLINE left_out_predictions predict_from_others(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& values,
                                                       const std::vector<Eigen::Index>& left_out) {
-  const std::vector<Eigen::Index> out(left_out.begin(), left_out.end()), channels = numbers_up_to(values.cols());
+  const std::vector<Eigen::Index> channels = numbers_up_to(values.cols());
   std::vector<Eigen::Index> kept = numbers_up_to(covariance.rows());
-  std::erase_if(kept, [&](Eigen::Index i) { return std::ranges::find(out, i) != out.end(); });
-  const Eigen::MatrixXd between = part_of(covariance, kept, out);
+  std::erase_if(kept, [&](Eigen::Index i) { return std::ranges::find(left_out, i) != left_out.end(); });
+  const Eigen::MatrixXd between = part_of(covariance, kept, left_out);
   const cholesky factors(part_of(covariance, kept, kept));
   if (!factors.positive_definite()) refuse("the covariance of the samples is not positive definite");
   const Eigen::MatrixXd half = factors.solve_lower(between);
-  left_out_predictions found{part_of(values, out, channels),
+  left_out_predictions found{part_of(values, left_out, channels),
                              product(half.transpose(), factors.solve_lower(part_of(values, kept, channels))),
-                             Eigen::VectorXd(std::ssize(out))};
-  for (Eigen::Index i = 0; i < std::ssize(out); ++i) {
-    const Eigen::Index number = out[i];
+                             Eigen::VectorXd(std::ssize(left_out))};
+  for (Eigen::Index i = 0; i < std::ssize(left_out); ++i) {
+    const Eigen::Index number = left_out[i];
     found.deviation[i] = std::sqrt(std::max(covariance(number, number) - half.col(i).squaredNorm(), 0.0));
   }
   return found;

@@ -1,0 +1,62 @@
+#include "../synthetic_materials.hpp"
+#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+namespace {
+
+const gonio::valid_cells& screened_cells() {
+  static const gonio::valid_cells small(gonio::grid({18, 9, 12}));
+  return small;
+}
+
+const gonio::discrepancy_decomposition<gonio::log_relative>& screened_estimator() {
+  static const gonio::discrepancy_decomposition all{learn(synthetic_materials(screened_cells(), 60), 80)};
+  return all;
+}
+
+/// Samples of a material that the prior has not seen; one of them, or every tenth from the fourth on, is wrong.
+gonio::located_samples with_wrong_ones(Eigen::Index count) {
+  auto samples = gonio::sample_table(synthetic_materials(screened_cells(), 3, 104).table(1),
+                                     gonio::random_cells(screened_cells(), count, 4));
+  for (Eigen::Index i = 3; i < (count < 100 ? 4 : count); i += 10) samples[i].value *= 20.0;
+  return gonio::locate_samples(screened_cells(), samples);
+}
+
+}  // namespace
+
+TEST_CASE("of very few samples none is left out, but the one that disagrees is named") {
+  const auto given = with_wrong_ones(12);
+  const auto found = gonio::screen(screened_estimator(), given);
+  CHECK(found.kept.size() == 12);
+  CHECK((found.kept.weights.array() == given.weights.array()).all());
+  CHECK(found.left_out.empty());
+  CHECK(found.outlier_share == 0.0);
+  REQUIRE(found.contradicted.size() == 1);
+  CHECK(found.contradicted.front().number == 3);
+}
+
+TEST_CASE("of few samples those that the others contradict are left out") {
+  const auto found = gonio::screen(screened_estimator(), with_wrong_ones(25));
+  CHECK(found.kept.size() == 24);
+  CHECK(found.left_out == std::vector<Eigen::Index>{3});
+  REQUIRE(found.contradicted.size() == 1);
+  CHECK(found.contradicted.front().number == 3);
+  CHECK(found.outlier_share == doctest::Approx(1.0 / 25.0));
+}
+
+TEST_CASE("of many samples outliers count less, and are not named") {
+  const auto given = with_wrong_ones(200);
+  const auto found = gonio::screen(screened_estimator(), given);
+  CHECK(found.contradicted.empty());
+  Eigen::Index wrong = 0;
+  for (Eigen::Index i = 3; i < 200; i += 10) wrong += std::ranges::count(found.left_out, i);
+  CHECK(wrong >= 16);  // of 20; a few are as bright as a highlight
+  CHECK(found.left_out.size() < 50);
+  CHECK(found.outlier_share > 0.05);
+  CHECK(found.outlier_share < 0.3);
+  CHECK(found.kept.weights.minCoeff() >= 0.0);
+}
