@@ -74,6 +74,6 @@ for alpha, x in zip(alphas, weights.T):
     off = np.where(x == 0, np.maximum(np.abs(slope) - penalty, 0), np.abs(slope + penalty * np.sign(x)))
     norms = np.sqrt(np.diag(gram))
     worst = max(worst, float((off / norms).max() / ((np.abs(gram) @ np.abs(x) + np.abs(moment)) / norms).max()))
-result["lasso_certificate"] = worst
+result["lasso_kkt_residual"] = worst
 result["blas"] = blas_library()
 print(json.dumps(result))

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
 #include <iostream>
 #include <optional>
 #include <sstream>
@@ -77,6 +78,15 @@ std::string today() {
   std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
                 static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
   return text.data();
+}
+
+/// " of an AMD EPYC": the processor by its own name, where the system tells it.
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos)
+      return " of " + line.substr(line.find(": ") + 2);
+  return {};
 }
 
 /// Passes everything on to a buffer, and keeps it.
@@ -164,7 +174,7 @@ std::string markdown_page::origin(double seconds) const {
     std::from_chars(given->data(), given->data() + given->size(), threads.value);
   const unsigned used = threads.resolve();
   return "Printed on " + today() + " by `" + normalised_command(arguments_) + "`, gonio " + version_ + ", " +
-         std::to_string(used) + (used == 1 ? " thread" : " threads") + ", in " +
+         std::to_string(used) + (used == 1 ? " thread" : " threads") + processor() + ", in " +
          cli::fixed(seconds, seconds < 10.0 ? 1 : 0) + " s.";
 }
 
