@@ -1,5 +1,6 @@
 /// gonio lab calibrate: scans of a material and of the white reference as samples of the material's BRDF.
 
+#include "command_line/calibration_options.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/machine_choice.hpp"
 #include "lab.hpp"
@@ -8,7 +9,9 @@
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 
+#include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 namespace cli {
@@ -17,30 +20,17 @@ namespace {
 
 struct calibrate_command {
   std::filesystem::path material, reference, response, output;
-  double gamma = 0.0;  ///< of a camera that is known; 0: find its response
-  double reflectance = 0.99, saturation = 0.98;
-  gonio::capture::sensor_noise noise{.read = 1.6, .shot = 0.2};
+  calibration_options calibration;
+  bool nearest = false;   ///< reading of the reference, which was not measured at the same poses
   bool brighter = false;  ///< the material than the reference
 };
 
-/// The readings of a scan that are there.
-void append_readings(const gonio::io::recorded_scan& scan, std::vector<gonio::capture::reading>& all) {
-  for (const auto& each : scan.readings)
-    if (each) all.push_back(*each);
-}
-
+/// With the response that both scans show together.
 gonio::capture::calibration calibration_of(const calibrate_command& options, const gonio::io::recorded_scan& material,
                                            const gonio::io::recorded_scan& reference) {
-  const std::uint16_t largest = material.largest_count;
-  const auto saturation = static_cast<std::uint16_t>(std::lround(options.saturation * largest));
-  if (options.gamma > 0.0) {
-    const auto known = gonio::capture::camera_response::power_law(largest, options.gamma);
-    return {{known, known, known}, options.noise, options.reflectance, saturation};
-  }
-  std::vector<gonio::capture::reading> all;
-  append_readings(reference, all);
-  append_readings(material, all);
-  return {gonio::capture::estimate_responses(all, largest), options.noise, options.reflectance, saturation};
+  std::vector<gonio::capture::reading> all = readings_of(reference);
+  std::ranges::move(readings_of(material), std::back_inserter(all));
+  return calibration_of(options.calibration, all, material.largest_count);
 }
 
 /// A line for each value of the responses.
@@ -58,18 +48,40 @@ void write_responses(const std::filesystem::path& path, const gonio::capture::ca
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
-void require_same_poses(const calibrate_command& options, const gonio::io::recorded_scan& material,
+void require_comparable(const calibrate_command& options, const gonio::io::recorded_scan& material,
                         const gonio::io::recorded_scan& reference) {
+  const std::string both = options.material.string() + " and " + options.reference.string();
+  if (material.largest_count != reference.largest_count) gonio::refuse(both + ": expected scans by the same camera");
   const auto same = [](const auto& a, const auto& b) { return a.wi == b.wi && a.wo == b.wo; };
-  if (material.largest_count != reference.largest_count || !std::ranges::equal(material.poses, reference.poses, same))
-    gonio::refuse(options.material.string() + " and " + options.reference.string() +
-                  ": expected scans of the same poses by the same camera");
+  if (!options.nearest && !std::ranges::equal(material.poses, reference.poses, same))
+    gonio::refuse(both +
+                  ": expected scans of the same poses; --nearest-reference takes the reference's reading of "
+                  "the nearest light");
+}
+
+/// A material's reflectance at a pose, beside the reference at the same pose or, if wanted, under the nearest light.
+/// What cannot be measured says why.
+gonio::capture::measured_reflectance measured_at(const calibrate_command& options, std::size_t pose,
+                                                 const gonio::io::recorded_scan& material,
+                                                 const gonio::io::recorded_scan& reference,
+                                                 const gonio::capture::calibration& known) {
+  const auto missing = [&](const char* what) {
+    gonio::capture::measured_reflectance none{material.poses[pose]};
+    none.doubt = std::string("the scan of the ") + what + " does not have it yet";
+    return none;
+  };
+  const auto& seen = material.readings[pose];
+  if (!seen) return missing("material");
+  if (options.nearest) return reference_readings_of(reference).measure(*seen, material.poses[pose], known);
+  const auto& white = reference.readings[pose];
+  if (!white) return missing("reference");
+  return gonio::capture::measure_reflectance(*seen, *white, material.poses[pose], known);
 }
 
 void require_reference(const calibrate_command& options,
                        const std::vector<gonio::capture::measured_reflectance>& usable) {
   if (!options.brighter) try {
-      gonio::capture::require_bright_reference(usable, options.reflectance);
+      gonio::capture::require_bright_reference(usable, options.calibration.reflectance);
     } catch (const gonio::error& refusal) {
       gonio::refuse({options.reference.native(), ": ", refusal.what(),
                      " (if not, as where only a highlight was measured: --brighter)"});
@@ -79,24 +91,16 @@ void require_reference(const calibrate_command& options,
 void run(const calibrate_command& options) {
   // Read both scans, and calibrate the camera and the geometry.
   const auto material = gonio::io::read_scan(options.material), reference = gonio::io::read_scan(options.reference);
-  require_same_poses(options, material, reference);
+  require_comparable(options, material, reference);
   const gonio::capture::calibration known = calibration_of(options, material, reference);
   // Measure the reflectance of each pose, and say which poses are left out.
   std::vector<gonio::capture::measured_reflectance> usable;
-  const auto leave_out = [&](std::size_t pose, const std::string& reason) {
-    std::cout << "left out: pose " << pose + 1 << ", " << in_degrees(material.poses[pose]) << ": " << reason << '\n';
-  };
   for (std::size_t i = 0; i < material.poses.size(); ++i) {
-    const auto &seen = material.readings[i], &white = reference.readings[i];
-    if (!seen || !white) {
-      leave_out(i, std::string("the scan of the ") + (seen ? "reference" : "material") + " does not have it yet");
-      continue;
-    }
-    const auto found = gonio::capture::measure_reflectance(*seen, *white, material.poses[i], known);
+    const auto found = measured_at(options, i, material, reference, known);
     if (found.is_usable())
       usable.push_back(found);
     else
-      leave_out(i, found.doubt);
+      std::cout << "left out: pose " << i + 1 << ", " << in_degrees(material.poses[i]) << ": " << found.doubt << '\n';
   }
   if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
   require_reference(options, usable);
@@ -121,27 +125,14 @@ void add_lab_calibrate(command& lab) {
   auto command = lab.add_subcommand("calibrate", "Turn scans of a material and of the white reference into samples");
   const auto options = std::make_shared<calibrate_command>();
   command.add_input("material", options->material, "Scan of the material (.scan)").required();
-  command.add_input("--reference", options->reference, "Scan of the white reference at the same poses (.scan)")
-      .required();
-  command.add_option("--reflectance", options->reflectance, "Of the white reference")
-      .check(check::range(0.01, 1.0))
-      .capture_default_str();
   command
-      .add_option("--gamma", options->gamma,
-                  "The camera's response is known: counts are the exposure to the power of 1/gamma (1: linear)")
-      .check(check::positive_number());
-  command.add_option("--saturation", options->saturation, "Share of the largest count from which a pixel is saturated")
-      .check(check::range(0.1, 1.0))
-      .capture_default_str();
-  command.add_option("--read-noise", options->noise.read, "Deviation of every count")
-      .check(check::non_negative_number())
-      .capture_default_str();
-  command.add_option("--shot-noise", options->noise.shot, "Variance in counts for each count")
-      .check(check::non_negative_number())
-      .capture_default_str();
-  command.add_option("--flicker", options->noise.relative, "Relative deviation of each exposure")
-      .check(check::non_negative_number())
-      .capture_default_str();
+      .add_input("--reference", options->reference,
+                 "Scan of the white reference at the same poses, but for --nearest-reference (.scan)")
+      .required();
+  add_calibration_options(command, options->calibration);
+  command.add_flag("--nearest-reference", options->nearest,
+                   "The reference was measured at other poses: each takes the reading whose light is nearest, by the "
+                   "cosines of both");
   command.add_flag("--brighter", options->brighter,
                    "The material is brighter than the reference in most samples, and that is right");
   command.add_output("--response", options->response, {".csv"}, "The camera's response, to write (.csv)");

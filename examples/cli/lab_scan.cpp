@@ -1,8 +1,10 @@
 /// gonio lab scan, gonio lab replay: readings of a machine, or of frames recorded earlier, kept one by one in a
 /// journal.
 
+#include "adaptive_scan.hpp"
 #include "command_line/json.hpp"
 #include "command_line/machine_choice.hpp"
+#include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
 #include "lab.hpp"
 #include "lab/recorded_frames.hpp"
@@ -24,7 +26,8 @@ namespace {
 struct scan_command {
   std::filesystem::path plan, material, output;
   machine_choice machine;
-  bool white = false, ideal = false;
+  bool white = false, ideal = false, adaptive = false;
+  adaptive_options choice;
   std::string camera = "linear", label;
   double reflectance = 0.99, misalignment = 0.5, outliers = 0.0, noise = 1.0;
   std::uint64_t room_seed = 1, seed = 1;
@@ -85,6 +88,7 @@ gonio::io::scan_subject subject_of(const scan_command& options) {
   else
     subject.setup += ", noise " + shortest(options.noise) + ", misaligned " + shortest(options.misalignment);
   subject.setup += ", outliers " + shortest(options.outliers) + ", room seed " + std::to_string(options.room_seed);
+  if (options.adaptive) subject.setup += ", adaptive";
   return subject;
 }
 
@@ -96,28 +100,68 @@ gonio::io::scan_subject subject_of(const replay_command& options) {
           .setup = "recorded frames"};
 }
 
-/// Scans what the journal does not have yet. Throws where poses stay missing.
+/// Measures what a journal does not have yet, and names what cannot be measured.
 template <class Machine>
-void scan_into(const std::filesystem::path& output, const gonio::io::scan_subject& subject, Machine& machine,
-               const std::vector<gonio::direction_pair>& poses) {
-  gonio::io::scan_journal journal(output, subject, poses, machine.largest_count());
+gonio::capture::scan_outcome measure_missing(gonio::io::scan_journal& journal, Machine& machine) {
+  const std::vector<gonio::direction_pair>& poses = journal.scan().poses;
   progress_bar bar;
-  const gonio::capture::scan_outcome outcome = gonio::capture::scan(machine, poses, journal, {}, bar.listener());
+  gonio::capture::scan_outcome outcome = gonio::capture::scan(machine, poses, journal, {}, bar.listener());
   bar.wipe();
   for (const auto& [number, reason] : outcome.missing)
     std::cout << "missing: pose " << number + 1 << ", " << in_degrees(poses[number]) << ": " << gonio::printable(reason)
               << '\n';
+  return outcome;
+}
+
+/// Throws where poses stay missing.
+void require_complete(const std::filesystem::path& output, const gonio::io::recorded_scan& scan) {
+  if (scan.measured() == scan.poses.size()) return;
+  throw std::runtime_error(output.string() + ": " + std::to_string(scan.poses.size() - scan.measured()) + " of " +
+                           std::to_string(scan.poses.size()) + " poses are missing: the same command tries them again");
+}
+
+/// Scans what the journal does not have yet.
+template <class Machine>
+void scan_into(const std::filesystem::path& output, const gonio::io::scan_subject& subject, Machine& machine,
+               const std::vector<gonio::direction_pair>& poses) {
+  gonio::io::scan_journal journal(output, subject, poses, machine.largest_count());
+  const gonio::capture::scan_outcome outcome = measure_missing(journal, machine);
   std::cout << outcome.measured << " poses measured, " << outcome.kept_before << " were there already\n";
-  if (outcome.is_complete()) return;
-  throw std::runtime_error(output.string() + ": " + std::to_string(poses.size() - journal.scan().measured()) + " of " +
-                           std::to_string(poses.size()) + " poses are missing: the same command tries them again");
+  require_complete(output, journal.scan());
+}
+
+/// Goes on with poses that the readings ask for, until the material is known well enough.
+template <class Machine>
+void scan_adaptively(const scan_command& options, Machine& machine, const std::vector<gonio::direction_pair>& poses) {
+  const adaptive_choice choice(options.choice, {.reflectance = options.reflectance}, machine.largest_count());
+  gonio::io::scan_journal journal(options.output, subject_of(options), poses, machine.largest_count());
+  const auto placed = [&](const gonio::direction_pair& pair) {
+    return gonio::capture::place_either_way(machine, pair);
+  };
+  Eigen::Index measured = 0;
+  for (bool is_known = false; !is_known;) {
+    const gonio::capture::scan_outcome outcome = measure_missing(journal, machine);
+    measured += outcome.measured;
+    if (outcome.is_broken_off) require_complete(options.output, journal.scan());
+    const auto next = choice.next(journal.scan(), [&](const auto& pair) { return placed(pair).is_reachable(); });
+    if (next) journal.add_pose(placed(*next).at);
+    is_known = !next.has_value();
+  }
+  std::cout << measured << " poses measured, " << std::ssize(journal.scan().poses) << " in all\n";
 }
 
 void run(const scan_command& options) {
+  if (options.adaptive && options.white)
+    gonio::refuse("--adaptive needs --material: the white reference is what its readings are compared with");
+  if (options.adaptive && options.choice.reference.empty())
+    gonio::refuse("--adaptive needs --reference, a scan of the white reference by the same machine");
+  if (!options.adaptive && !options.choice.reference.empty()) gonio::refuse("--reference needs --adaptive");
   const auto poses = gonio::io::read_direction_pairs(options.plan);
   lab::dark_room room = room_of(options);
-  with_machine(options.machine, room,
-               [&](auto& machine) { scan_into(options.output, subject_of(options), machine, poses); });
+  with_machine(options.machine, room, [&](auto& machine) {
+    if (options.adaptive) return scan_adaptively(options, machine, poses);
+    scan_into(options.output, subject_of(options), machine, poses);
+  });
 }
 
 void run(const replay_command& options) {
@@ -163,6 +207,21 @@ void add_lab_scan(command& lab) {
   command.add_option("--outliers", options->outliers, "Share of poses with up to 10 times the light, or a tenth")
       .check(check::range(0.0, 1.0))
       .capture_default_str();
+  // Declare the choice of poses.
+  command.add_flag("--adaptive", options->adaptive, "Go on beyond the plan, with the poses that the readings ask for");
+  command.add_input("--reference", options->choice.reference,
+                    "With --adaptive: a scan of the white reference, at poses with about the same lights (.scan)");
+  command
+      .add_option("--until", options->choice.until,
+                  "With --adaptive: the deviation, relative and in the median, at which there is enough; 0.08 stays, "
+                  "whatever is "
+                  "measured")
+      .check(check::range(0.001, 1.0))
+      .capture_default_str();
+  command.add_option("--most", options->choice.most, "With --adaptive: poses in all")
+      .check(check::range(1, 1000))
+      .capture_default_str();
+  add_prior_option(command, options->choice.prior);
   // Declare the seeds and the journal.
   command.add_option("--room-seed", options->room_seed, "Seed of how lamps and camera are off").capture_default_str();
   command.add_option("--seed", options->seed, "Seed of how the sample lies, and of noise and outliers")

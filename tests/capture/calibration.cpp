@@ -53,6 +53,30 @@ TEST_CASE("calibration: surfaces at other places are corrected for") {
   CHECK(found.value.x() == doctest::Approx(0.99 / std::numbers::pi).epsilon(2e-3));
 }
 
+TEST_CASE("calibration: a reference that was measured under other lights serves by the nearest, and both cosines") {
+  const auto pose = [](double light, double viewer) {
+    return gonio::direction_pair{gonio::spherical_direction(light, 0.0), gonio::spherical_direction(viewer, 1.0)};
+  };
+  // A matte reference under a lamp that shines with 20,000 counts a second from right above, and one twice as bright.
+  const auto white_at = [&](double light, double lamp) {
+    return photographed(gonio::rgb::Constant(lamp * std::cos(light)));
+  };
+  const gonio::capture::reference_readings reference({pose(0.3, 0.1), pose(1.0, 0.2)},
+                                                     {white_at(0.3, 20'000.0), white_at(1.0, 40'000.0)});
+  for (const auto& [light, lamp] : {std::pair{0.5, 20'000.0}, std::pair{0.8, 40'000.0}}) {
+    // Half as bright as the reference would be.
+    const auto found =
+        reference.measure(photographed(gonio::rgb::Constant(0.5 * lamp * std::cos(light))), pose(light, 0.9), known);
+    REQUIRE(found.is_usable());
+    CHECK(found.value.x() == doctest::Approx(0.5 * 0.99 / std::numbers::pi).epsilon(2e-3));
+    CHECK(found.at.wi == pose(light, 0.9).wi);
+  }
+  using gonio::capture::reference_readings;
+  CHECK_THROWS_WITH_AS(reference_readings({}, {}), "a reference needs a reading, and there is none", gonio::error);
+  CHECK_THROWS_WITH_AS(reference_readings({pose(0.1, 0.2), pose(0.3, 0.1)}, {white_at(0.1, 20'000.0)}),
+                       "a reference has 1 readings at 2 poses, expected one at each", gonio::error);
+}
+
 TEST_CASE("calibration: what means nothing says why") {
   const reading white = photographed({20'000, 20'000, 20'000}), black = photographed({0, 0, 0}),
                 bright = photographed({1e6, 1e6, 1e6});

@@ -102,6 +102,36 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 
+TEST_CASE("lab: an adaptive scan chooses its poses, and is the same however often it was stopped") {
+  const laboratory room;
+  const std::string white = room.at("white.scan"), plan = room.at("plan.csv"), paint = room.at("paint.scan");
+  run("lab plan " + directions + " -o " + room.at("white.csv"));
+  run("lab scan " + room.at("white.csv") + " --white -o " + white);
+  run("lab plan " + directions + " -o " + plan);
+  const std::string scan = "lab scan " + plan + room.material + "--adaptive --reference " + white + " -o " + paint;
+  const std::string told = run(scan + " --most 22 --until 0.001");
+  CHECK(told.find("20 samples: the material is known to ") == 0);
+  CHECK(told.find("\nnext: light at ") != std::string::npos);
+  CHECK(told.find("stopped at --most 22 poses") != std::string::npos);
+  CHECK(told.ends_with("22 poses measured, 22 in all\n"));
+  const std::string whole = scratch::get(paint);
+  scratch::put(paint, whole.substr(0, whole.rfind("added_pose") + 20));  // as a process that was killed leaves it
+  CHECK(run(scan + " --most 22 --until 0.001").ends_with("1 poses measured, 22 in all\n"));
+  CHECK(scratch::get(paint) == whole);
+  CHECK(run(scan + " --until 1").ends_with("0 poses measured, 22 in all\n"));
+
+  // The reference was measured at other poses.
+  refuses("lab calibrate " + paint + " --reference " + white + " -o " + room.at("s.csv"), "--nearest-reference");
+  CHECK(run("lab calibrate " + paint + " --reference " + white + " --nearest-reference -o " + room.at("s.csv"))
+            .find("22 samples") == 0);
+  refuses("lab scan " + plan + room.material + "--adaptive -o " + room.at("b.scan"), "--adaptive needs --reference");
+  refuses("lab scan " + plan + room.material + "--reference " + white + " -o " + room.at("b.scan"),
+          "--reference needs --adaptive");
+  refuses("lab scan " + plan + " --white --adaptive --reference " + white + " -o " + room.at("b.scan"),
+          "--adaptive needs --material");
+  refuses("lab scan " + plan + room.material + "-o " + paint, "adaptive");  // another kind of scan
+}
+
 TEST_CASE("lab: a scan goes on only with what lay in the machine, and by the same options") {
   const laboratory room;
   const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");

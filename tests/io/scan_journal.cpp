@@ -211,6 +211,52 @@ TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
   refuses("seed 3", "seed 3\nseed 3", "'seed' is told a second time");
 }
 
+TEST_CASE("scan journal: poses that were added while it was measured come back, whole or not at all") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  const direction_pair added{gonio::spherical_direction(0.7, 0.2), gonio::spherical_direction(0.4, 1.0)};
+  {
+    scan_journal journal(path, oak, poses(2), 4095);
+    journal.add(0, random_reading(1, 1, 1));
+  }
+  const std::string before = text_of(path);
+  {
+    scan_journal journal(path, oak, poses(2), 4095);
+    journal.add_pose(added);
+    CHECK_FALSE(journal.has(2));
+  }
+  const std::string with_pose = text_of(path);
+  // Cut off anywhere, it is added again.
+  for (std::size_t size = before.size(); size < with_pose.size(); ++size) {
+    write(path, with_pose.substr(0, size));
+    scan_journal journal(path, oak, poses(2), 4095);
+    CHECK(journal.scan().poses.size() == 2u);
+    journal.add_pose(added);
+    CHECK(text_of(path) == with_pose);
+  }
+  scan_journal(path, oak, poses(2), 4095).add(2, random_reading(2, 1, 2));
+  const io::recorded_scan read = io::read_scan(path);
+  CHECK(read.planned == 2u);
+  REQUIRE(read.poses.size() == 3u);
+  CHECK(read.poses[2].wi == added.wi);
+  CHECK(read.poses[2].wo == added.wo);
+  CHECK(same(*read.readings[2], random_reading(2, 1, 2)));
+  // A plan is told from what was added to it.
+  CHECK_THROWS_WITH_AS(scan_journal(path, oak, read.poses, 4095), Contains("a scan of 2 other poses, expected the 3"),
+                       gonio::error);
+
+  scan_journal journal(path, oak, poses(2), 4095);
+  CHECK_THROWS_WITH_AS(journal.add_pose({added.wi, -added.wo}), Contains("above the horizon"), gonio::error);
+  std::string late = text_of(path);
+  late += "pose 0 0 1 0 0 1\n";
+  write(path, late);
+  CHECK_THROWS_WITH_AS(io::read_scan(path), Contains("a pose after the first reading"), gonio::error);
+  std::string damaged = with_pose + with_pose.substr(before.size());
+  damaged[before.size() + 12] = damaged[before.size() + 12] == '1' ? '2' : '1';
+  write(path, damaged);
+  CHECK_THROWS_WITH_AS(io::read_scan(path), Contains("the checksum is wrong"), gonio::error);
+}
+
 TEST_CASE("scan journal: a scan of an earlier version is read, but not gone on with") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";

@@ -71,6 +71,23 @@ struct measured_reflectance {
                                                        const illumination& material_at = {},
                                                        const illumination& reference_at = {});
 
+/// Readings of a white reference that serve poses at which it was not measured. The reference is matte and lies where
+/// the material does: its radiance falls as the cosine of incidence and is the same for every viewer (Eq. 21 and 22). A
+/// pose takes the reading whose light is nearest to its own, so that a lamp of an arc is compared with itself.
+class reference_readings {
+ public:
+  /// Throws gonio::error if there is no reading, or not one for each pose.
+  reference_readings(std::vector<direction_pair> poses, std::vector<reading> readings);
+
+  /// As `measure_reflectance`. O(number of readings).
+  [[nodiscard]] measured_reflectance measure(const reading& material, const direction_pair& at,
+                                             const calibration& known) const;
+
+ private:
+  std::vector<direction_pair> poses_;
+  std::vector<reading> readings_;
+};
+
 /// Throws gonio::error if the reference is darker than the material, by over 5 %, in most samples, or in most of those
 /// whose half vector is over 10 degrees from the normal: the two were exchanged. It is right only where nothing but a
 /// highlight was measured, or what is whiter than the reference.

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -47,10 +48,14 @@ class measurement_chooser {
   [[nodiscard]] const design::sequential_design<Metric>& candidates() const noexcept { return design_; }
 
   /// The best `count` measurements beside some samples, one after the other, without waiting for what they read. No
-  /// cell of the candidates is measured twice. O(count points candidates^2). Throws gonio::error for unusable samples
-  /// and if there are fewer candidates.
-  [[nodiscard]] std::vector<next_measurement> choose(const sample_set& samples, Eigen::Index count) const {
+  /// cell of the candidates is measured twice, and none that the apparatus cannot reach. O(count points candidates^2).
+  /// Throws gonio::error for unusable samples and if there are fewer candidates.
+  [[nodiscard]] std::vector<next_measurement> choose(
+      const sample_set& samples, Eigen::Index count,
+      const std::function<bool(const direction_pair&)>& is_reachable = {}) const {
     std::vector<bool> free = free_candidates(samples);
+    for (Eigen::Index i = 0; is_reachable && i < std::ssize(free); ++i)
+      free[i] = free[i] && is_reachable(design_.geometry().centre(i));
     if (std::ranges::count(free, true) < count)
       refuse({"there are fewer than ", count, " candidates that were not measured"});
     const located_samples located = samples.empty() ? located_samples{} : locate(samples);

@@ -36,7 +36,8 @@ struct scan_subject {
 struct recorded_scan {
   std::optional<scan_subject> subject;  ///< none if the file is by a version that did not write it down
   std::uint16_t largest_count = 0;
-  std::vector<direction_pair> poses;
+  std::vector<direction_pair> poses;  ///< those of the plan, then those that were added while it was measured
+  std::size_t planned = 0;            ///< how many of them are the plan's
   std::vector<std::optional<capture::reading>> readings;  ///< one for each pose
 
   [[nodiscard]] std::size_t measured() const {
@@ -52,6 +53,7 @@ namespace detail {
 [[nodiscard]] bool has_checksum(std::string_view line);
 
 [[nodiscard]] std::string format_pose(const direction_pair& pose);
+[[nodiscard]] std::string format_added_pose(const direction_pair& pose);
 /// Throws gonio::error if a text of the subject is not one line.
 [[nodiscard]] std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
                                              std::uint16_t largest_count);
@@ -76,7 +78,8 @@ class number_reader {
 [[nodiscard]] capture::reading parse_reading(number_reader& numbers, std::uint16_t largest_count,
                                              const text_place& place);
 
-[[nodiscard]] direction_pair parse_pose(const text_rule& rule, const text_place& place);
+/// A pose of the plan, or, with a checksum behind its six numbers, one that was added.
+[[nodiscard]] direction_pair parse_pose(const text_rule& rule, std::size_t numbers, const text_place& place);
 
 /// What a reader of lines knows of those before.
 struct scan_lines {
@@ -118,6 +121,10 @@ class scan_journal {
 
   /// Returns when the reading is on the disk. Throws gonio::error if it cannot be written, or is there already.
   void add(std::size_t pose, const capture::reading& taken);
+
+  /// One more pose to measure, behind all others: an adaptive scan chooses it by what was read. Returns when it is on
+  /// the disk. Throws gonio::error if it cannot be written, or is not above the horizon.
+  void add_pose(const direction_pair& pose);
 
  private:
   void open();

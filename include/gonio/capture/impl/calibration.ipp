@@ -13,6 +13,7 @@
 #include <cmath>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gonio::capture::detail {
@@ -96,6 +97,21 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
   }
   if (is_dark) result.doubt = "dark in every exposure";
   return result;
+}
+
+GONIO_INLINE reference_readings::reference_readings(std::vector<direction_pair> poses, std::vector<reading> readings)
+    : poses_(std::move(poses)), readings_(std::move(readings)) {
+  if (readings_.empty()) refuse("a reference needs a reading, and there is none");
+  if (readings_.size() != poses_.size())
+    refuse({"a reference has ", readings_.size(), " readings at ", poses_.size(), " poses, expected one at each"});
+}
+
+GONIO_INLINE measured_reflectance reference_readings::measure(const reading& material, const direction_pair& at,
+                                                              const calibration& known) const {
+  const auto nearest =
+      std::ranges::min_element(poses_, {}, [&](const direction_pair& pose) { return angle_between(pose.wi, at.wi); });
+  const reading& white = readings_[nearest - poses_.begin()];
+  return measure_reflectance(material, white, at, known, {.cosine = at.wi.z()}, {.cosine = nearest->wi.z()});
 }
 
 GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance) {

@@ -41,11 +41,17 @@ GONIO_INLINE bool has_control_characters(std::string_view text) {
   return std::ranges::any_of(text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; });
 }
 
-GONIO_INLINE std::string format_pose(const direction_pair& pose) {
-  std::string text = "pose";
+/// A line without its end.
+GONIO_INLINE std::string pose_fields(std::string text, const direction_pair& pose) {
   for (const direction& w : {pose.wi, pose.wo})
     for (const double component : w) text += ' ' + shortest(component);
-  return text + '\n';
+  return text;
+}
+
+GONIO_INLINE std::string format_pose(const direction_pair& pose) { return pose_fields("pose", pose) + '\n'; }
+
+GONIO_INLINE std::string format_added_pose(const direction_pair& pose) {
+  return with_checksum(pose_fields("added_pose", pose));
 }
 
 GONIO_INLINE std::string format_scan_header(const scan_subject& subject, std::span<const direction_pair> poses,
@@ -108,12 +114,16 @@ GONIO_INLINE capture::reading parse_reading(number_reader& numbers, std::uint16_
   return taken;
 }
 
-GONIO_INLINE direction_pair parse_pose(const text_rule& rule, const text_place& place) {
-  require_numbers(rule, {6}, place);
+/// Unit vectors of light and viewer above the horizon?
+GONIO_INLINE bool is_pose(const direction_pair& pose) {
+  const auto is_above = [](const direction& w) { return std::abs(w.norm() - 1.0) < 1e-6 && w.z() > 0.0; };
+  return is_above(pose.wi) && is_above(pose.wo);
+}
+
+GONIO_INLINE direction_pair parse_pose(const text_rule& rule, std::size_t numbers, const text_place& place) {
+  require_numbers(rule, {numbers}, place);
   const direction_pair pose{direction::Map(rule.numbers.data()), direction::Map(rule.numbers.data() + 3)};
-  for (const direction& w : {pose.wi, pose.wo})
-    if (!(std::abs(w.norm() - 1.0) < 1e-6) || !(w.z() > 0.0))
-      place.refuse("a pose is two unit vectors above the horizon");
+  if (!is_pose(pose)) place.refuse("a pose is two unit vectors above the horizon");
   return pose;
 }
 
@@ -158,9 +168,15 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     before.plan.emplace(poses, static_cast<std::uint32_t>(numbers.next_whole(4294967295.0, "the poses' checksum")));
   } else if (rule.name == "pose") {
     if (before.has_reading) place.refuse("a pose after the first reading");
-    scan.poses.push_back(parse_pose(rule, place));
+    if (scan.poses.size() > scan.planned) place.refuse("a pose of the plan after one that was added");
+    scan.poses.push_back(parse_pose(rule, 6, place));
     scan.readings.emplace_back();
+    ++scan.planned;
     before.pose_lines.append(line).push_back('\n');
+  } else if (rule.name == "added_pose") {
+    if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
+    scan.poses.push_back(parse_pose(rule, 7, place));
+    scan.readings.emplace_back();
   } else if (rule.name == "reading") {
     if (!has_checksum(line)) place.refuse("the checksum is wrong, the line is damaged");
     const std::size_t pose = numbers.next_whole(1e9, "the pose");
@@ -170,14 +186,15 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
     scan.readings[pose] = parse_reading(numbers, scan.largest_count, place);
     before.has_reading = true;
   } else {
-    place.refuse(quoted(rule.name) + " is unknown, expected sample, setup, seed, largest_count, plan, pose or reading");
+    place.refuse(quoted(rule.name) +
+                 " is unknown, expected sample, setup, seed, largest_count, plan, pose, added_pose or reading");
   }
 }
 
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
   if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing"});
-  if (scan.poses.empty()) gonio::refuse({name, ": there is no pose"});
-  if (all.plan && (all.plan->first != scan.poses.size() || all.plan->second != checksum(all.pose_lines)))
+  if (scan.planned == 0) gonio::refuse({name, ": there is no pose"});
+  if (all.plan && (all.plan->first != scan.planned || all.plan->second != checksum(all.pose_lines)))
     gonio::refuse(
         {name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"});
   if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
@@ -190,7 +207,8 @@ GONIO_INLINE std::string_view whole_lines(std::string_view text) {
   if (text.empty()) return text;
   const std::size_t begin = text.substr(0, text.size() - 1).find_last_of('\n') + 1;
   const std::string_view last = text.substr(begin, text.size() - 1 - begin);
-  return last.starts_with("reading") && !has_checksum(last) ? text.substr(0, begin) : text;
+  const bool has_its_own = last.starts_with("reading") || last.starts_with("added_pose");
+  return has_its_own && !has_checksum(last) ? text.substr(0, begin) : text;
 }
 
 }  // namespace gonio::io::detail
@@ -242,6 +260,13 @@ GONIO_INLINE void scan_journal::add(std::size_t pose, const capture::reading& ta
   scan_.readings[pose] = taken;
 }
 
+GONIO_INLINE void scan_journal::add_pose(const direction_pair& pose) {
+  if (!detail::is_pose(pose)) gonio::refuse({path_.string(), ": a pose is two unit vectors above the horizon"});
+  write(detail::format_added_pose(pose));
+  scan_.poses.push_back(pose);
+  scan_.readings.emplace_back();
+}
+
 GONIO_INLINE void scan_journal::open() {
   // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
   file_ = detail::descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | O_NONBLOCK, 0666));
@@ -267,9 +292,9 @@ GONIO_INLINE void scan_journal::require_same(const scan_subject& subject, std::s
   if (scan_.largest_count != largest_count)
     gonio::refuse({name, ": is a scan by a camera of ", scan_.largest_count, " counts, not ", largest_count});
   const auto same = [](const direction_pair& a, const direction_pair& b) { return a.wi == b.wi && a.wo == b.wo; };
-  if (!std::ranges::equal(scan_.poses, poses, same))
+  if (!std::ranges::equal(std::span(scan_.poses).first(scan_.planned), poses, same))
     gonio::refuse(
-        {name, ": is a scan of ", scan_.poses.size(), " other poses, expected the ", poses.size(), " of this plan"});
+        {name, ": is a scan of ", scan_.planned, " other poses, expected the ", poses.size(), " of this plan"});
   if (!scan_.subject)
     gonio::refuse({name,
                    ": does not say what it measures, as scans of earlier versions: it can be calibrated, but not be ",
