@@ -87,10 +87,12 @@ std::vector<taken_photograph> read_photographs(const sphere_command& options) {
 gonio::capture::fitted_outline sphere_of(const taken_photograph& taken) {
   const gonio::io::sphere_setup& setup = taken.setup;
   if (setup.centre) return {{*setup.centre, *setup.radius}};
+  // A white reference of the same shape and place has the clearer outline: it has no highlight at grazing angles.
+  const bool has_white_sphere = taken.white && !taken.white->surface;
+  const gonio::image& outlined = has_white_sphere ? taken.white->photograph : taken.pixels;
   return naming_files(taken, [&] {
-    return setup.outline
-               ? gonio::capture::sphere_within(*setup.outline, setup.camera, *setup.radius)
-               : gonio::capture::find_sphere(taken.pixels, setup.camera, *setup.radius, {.light = setup.light});
+    return setup.outline ? gonio::capture::sphere_within(*setup.outline, setup.camera, *setup.radius)
+                         : gonio::capture::find_sphere(outlined, setup.camera, *setup.radius, {.light = setup.light});
   });
 }
 
@@ -154,6 +156,12 @@ known_surfaces surfaces_of(const std::vector<taken_photograph>& taken, const sph
   return all;
 }
 
+/// Nothing where no cell has enough pixels to tell.
+std::string noise_of(const gonio::capture::photograph_samples& found) {
+  const double noise = 100.0 * found.pixel_deviation.mean();
+  return noise > 0.0 ? ", noise of a pixel about " + fixed(noise, 1) + " %" : "";
+}
+
 void run(const sphere_command& options) {
   if (!options.positions.empty() && options.normals.empty()) gonio::refuse("--positions requires --normals");
   if (options.fixed && !options.normals.empty()) gonio::refuse("--fixed is of a sphere, not of --normals");
@@ -169,8 +177,7 @@ void run(const sphere_command& options) {
     });
     samples.insert(samples.end(), found.samples.begin(), found.samples.end());
     lines += each.file + ": " + std::to_string(found.samples.size()) + " samples of " + std::to_string(found.pixels) +
-             " pixels, noise of a pixel about " + fixed(100.0 * found.pixel_deviation.mean(), 1) + " %" +
-             surfaces[i].second + '\n';
+             " pixels" + noise_of(found) + surfaces[i].second + '\n';
   }
   gonio::io::write_samples(options.output, samples);
   std::cout << lines;
@@ -182,9 +189,11 @@ void add_sphere(command& app) {
   auto command = app.add_subcommand("sphere", "Turn photographs of a sphere into samples for gonio reconstruct");
   const auto options = std::make_shared<sphere_command>();
   command
-      .add_input("photographs", options->photographs,
-                 "Images of linear radiance (.hdr), each followed by its set-up (docs/reference/formats.md): camera, "
-                 "light and sphere, which is found by its outline unless the set-up says where it is")
+      .add_input(
+          "photographs", options->photographs,
+          "Images of linear radiance (.hdr), each followed by its set-up (docs/reference/formats.md): camera, "
+          "light and sphere, which is found by its outline (in the white image, if it shows a sphere) unless the "
+          "set-up says where it is")
       .type_name("IMAGE SETUP")
       .required();
   command.add_input("--white", options->white,

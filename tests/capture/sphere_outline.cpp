@@ -79,7 +79,8 @@ TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if li
     CAPTURE(found.inliers);
     CAPTURE(found.edge_points);
     CHECK(off.head<2>().norm() < (angle < 110.0 ? 0.2 : 1.1) * pixel);
-    CHECK(std::abs(off.z()) / 12.0 * 60.0 < (angle < 110.0 ? 0.25 : 1.3));  // by which the outline's radius is off, in pixels
+    CHECK(std::abs(off.z()) / 12.0 * 60.0 <
+          (angle < 110.0 ? 0.25 : 1.3));  // by which the outline's radius is off, in pixels
   }
 }
 

@@ -109,8 +109,8 @@ class sphere_photograph_experiment : left_out_experiment {
   }
 
  private:
-  /// One photograph of material and white sphere for each direction; the sphere is found in the one that shows the most
-  /// of its outline.
+  /// One photograph of material and white sphere for each direction; the sphere is found in the white image that shows
+  /// the most of its outline.
   [[nodiscard]] photographed photograph(const judged_material& material, const std::filesystem::path& file) const {
     struct shot {
       gonio::capture::point_lamp lamp;
@@ -130,7 +130,7 @@ class sphere_photograph_experiment : left_out_experiment {
            {laboratory_.take(lab::white_material{reflectance}, lamp, given_.noise, seed + 1), reflectance, {}}});
       try {
         const auto outline =
-            gonio::capture::find_sphere(shots.back().picture, laboratory_.camera(), 1.0, {.light = lamp});
+            gonio::capture::find_sphere(shots.back().white.photograph, laboratory_.camera(), 1.0, {.light = lamp});
         if (!best || outline.inliers > best->inliers) best = outline;
       } catch (const gonio::error& refusal) {
         why = refusal.what();  // a thin crescent may show too little
