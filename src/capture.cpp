@@ -5,8 +5,11 @@
 #include <gonio/capture/impl/colour_clusters.ipp>
 #include <gonio/capture/impl/high_dynamic_range.ipp>
 #include <gonio/capture/impl/k_means.ipp>
+#include <gonio/capture/impl/known_surface.ipp>
 #include <gonio/capture/impl/mirror_sphere.ipp>
 #include <gonio/capture/impl/near_field_image.ipp>
 #include <gonio/capture/impl/relative_reflectance.ipp>
 #include <gonio/capture/impl/scan.ipp>
+#include <gonio/capture/impl/sphere_outline.ipp>
+#include <gonio/capture/impl/surface_photograph.ipp>
 #include <gonio/capture/impl/trajectory.ipp>

@@ -3,6 +3,7 @@
 #include <gonio/core/compiled_alignment.hpp>
 #include <gonio/core/impl/error.ipp>
 #include <gonio/core/impl/finite.ipp>
+#include <gonio/core/impl/lens_distortion.ipp>
 #include <gonio/core/impl/parallel.ipp>
 #include <gonio/core/impl/pinhole_camera.ipp>
 #include <gonio/core/impl/printable.ipp>

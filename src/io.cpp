@@ -1,6 +1,7 @@
 // The bodies of io/, but for what image.cpp and shape_io.cpp have.
 
 #include <gonio/io/impl/byte_stream.ipp>
+#include <gonio/io/impl/camera_calibration.ipp>
 #include <gonio/io/impl/capture_constraint.ipp>
 #include <gonio/io/impl/checked_file.ipp>
 #include <gonio/io/impl/cornell.ipp>
@@ -19,5 +20,6 @@
 #include <gonio/io/impl/rules.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
+#include <gonio/io/impl/sphere_setup.ipp>
 #include <gonio/io/impl/table_npy.ipp>
 #include <gonio/io/impl/text.ipp>

@@ -11,6 +11,7 @@ void add_design(command& app);
 void add_plan(command& app);
 void add_sample(command& app);
 void add_near_field(command& app);
+void add_sphere(command& app);
 void add_reconstruct(command& app);
 void add_fit(command& app);
 void add_compare(command& app);

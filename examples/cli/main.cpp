@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
   cli::add_plan(app);
   cli::add_sample(app);
   cli::add_near_field(app);
+  cli::add_sphere(app);
   cli::add_reconstruct(app);
   cli::add_fit(app);
   cli::add_compare(app);

@@ -7,8 +7,11 @@
 #include <gonio/capture/device.hpp>
 #include <gonio/capture/high_dynamic_range.hpp>
 #include <gonio/capture/k_means.hpp>
+#include <gonio/capture/known_surface.hpp>
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/capture/scan.hpp>
+#include <gonio/capture/sphere_outline.hpp>
+#include <gonio/capture/surface_photograph.hpp>
 #include <gonio/capture/trajectory.hpp>

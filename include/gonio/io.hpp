@@ -3,6 +3,7 @@
 
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>
+#include <gonio/io/camera_calibration.hpp>
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
@@ -22,5 +23,6 @@
 #include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
+#include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,7 +51,8 @@ inline constexpr std::array<setup_entry, 14> setup_entries{{{"size", 2},
 /// The entries of a file, each at most once, and where they are.
 class setup_text {
  public:
-  setup_text(std::string_view text, const std::string& name);
+  /// `known` says which entries there may be.
+  setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known = setup_entries);
 
   [[nodiscard]] bool has(std::string_view name) const { return find(name) != nullptr; }
   [[nodiscard]] const std::vector<double>& numbers(std::string_view name) const { return at(name).rule.numbers; }
@@ -98,12 +100,16 @@ class setup_text {
   [[nodiscard]] const placed_rule& at(std::string_view name) const;
 
   std::string name_;
+  std::span<const setup_entry> known_;
   std::vector<placed_rule> rules_;
 };
 
 [[nodiscard]] camera_intrinsics setup_intrinsics(const setup_text& text);
 
-[[nodiscard]] pinhole_camera setup_camera(const setup_text& text);
+/// The middle of the image unless the file says otherwise.
+void set_principal_point(const setup_text& text, camera_intrinsics& intrinsics);
+
+[[nodiscard]] pinhole_camera setup_camera(const setup_text& text, const camera_intrinsics& intrinsics);
 
 [[nodiscard]] directional_light setup_light(const setup_text& text);
 

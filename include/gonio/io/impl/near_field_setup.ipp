@@ -11,13 +11,15 @@
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace gonio::io::detail {
 
-GONIO_INLINE setup_text::setup_text(std::string_view text, const std::string& name) : name_(name) {
+GONIO_INLINE setup_text::setup_text(std::string_view text, const std::string& name, std::span<const setup_entry> known)
+    : name_(name), known_(known) {
   text_place place{name};
   for_each_line(text, place, [&](std::string_view line) { add(parse_rule(line, place), place); });
 }
@@ -39,10 +41,10 @@ GONIO_INLINE void setup_text::require(std::initializer_list<std::string_view> na
 }
 
 GONIO_INLINE void setup_text::add(text_rule rule, const text_place& place) {
-  const auto known = std::ranges::find(setup_entries, rule.name, &setup_entry::name);
-  if (known == setup_entries.end()) {
+  const auto known = std::ranges::find(known_, rule.name, &setup_entry::name);
+  if (known == known_.end()) {
     std::string names;
-    for (const setup_entry& entry : setup_entries) names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    for (const setup_entry& entry : known_) names += (names.empty() ? "" : ", ") + std::string(entry.name);
     place.refuse(quoted(rule.name) + " is unknown, expected one of " + names);
   }
   if (const placed_rule* before = find(rule.name))
@@ -71,14 +73,17 @@ GONIO_INLINE camera_intrinsics setup_intrinsics(const setup_text& text) {
   const auto& focal_length = text.numbers("focal_length");
   intrinsics.focal_length_x = focal_length.front();
   intrinsics.focal_length_y = focal_length.back();
-  const bool given = text.has("principal_point");
-  intrinsics.principal_x = given ? text.numbers("principal_point")[0] : static_cast<double>(intrinsics.columns) / 2.0;
-  intrinsics.principal_y = given ? text.numbers("principal_point")[1] : static_cast<double>(intrinsics.rows) / 2.0;
+  set_principal_point(text, intrinsics);
   return intrinsics;
 }
 
-GONIO_INLINE pinhole_camera setup_camera(const setup_text& text) {
-  const camera_intrinsics intrinsics = setup_intrinsics(text);
+GONIO_INLINE void set_principal_point(const setup_text& text, camera_intrinsics& intrinsics) {
+  const bool given = text.has("principal_point");
+  intrinsics.principal_x = given ? text.numbers("principal_point")[0] : static_cast<double>(intrinsics.columns) / 2.0;
+  intrinsics.principal_y = given ? text.numbers("principal_point")[1] : static_cast<double>(intrinsics.rows) / 2.0;
+}
+
+GONIO_INLINE pinhole_camera setup_camera(const setup_text& text, const camera_intrinsics& intrinsics) {
   const Eigen::Vector3d position = text.vector("position");
   text.require({"target", "rotation"});
   for (const std::string_view other : {"target", "up"}) text.require_one_of("rotation", other, "how the camera stands");
@@ -116,7 +121,7 @@ GONIO_INLINE directional_light setup_light(const setup_text& text) {
 }
 
 GONIO_INLINE capture::near_field_setup make_setup(const setup_text& text) {
-  capture::near_field_setup setup{.camera = setup_camera(text), .light = setup_light(text)};
+  capture::near_field_setup setup{.camera = setup_camera(text, setup_intrinsics(text)), .light = setup_light(text)};
   text.require({"region", "window"});
   if (text.has("region")) {
     const auto& region = text.numbers("region");

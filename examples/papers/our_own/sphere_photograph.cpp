@@ -1,0 +1,227 @@
+/// gonio-papers sphere-photograph: measured materials reconstructed from simulated photographs of a sphere, against
+/// perfect samples of the same directions.
+
+#include "command_line/fixed.hpp"
+#include "command_line/json.hpp"
+#include "command_line/progress_bar.hpp"
+#include "lab/sphere_lab.hpp"
+#include "papers/experiments.hpp"
+#include "papers/our_own/left_out_families.hpp"
+#include <gonio/capture/sphere_outline.hpp>
+#include <gonio/capture/surface_photograph.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace papers {
+
+namespace {
+
+struct sphere_photograph_options : left_out_options {
+  std::vector<std::filesystem::path> directions;
+  std::vector<std::string> names{"vch_golden_yellow", "paper_white", "chm_light_blue"};
+  double noise = 0.02;
+  int pixels = 320;
+};
+
+/// The laboratory: a sphere of radius 1 not quite in the middle, a camera 12 radii away with a lens that distorts and
+/// darkens, a lamp 15 radii away.
+class sphere_laboratory {
+ public:
+  explicit sphere_laboratory(int pixels)
+      : camera_(gonio::pinhole_camera::look_at(
+                    gonio::camera_intrinsics::square(static_cast<std::size_t>(pixels), gonio::radians(11.5)),
+                    {0.0, 0.0, 12.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}),
+                {.k1 = -0.25, .k2 = 0.1, .p1 = 0.002, .p2 = -0.001}) {}
+
+  [[nodiscard]] const gonio::lens_camera& camera() const noexcept { return camera_; }
+  [[nodiscard]] const gonio::capture::placed_sphere& sphere() const noexcept { return sphere_; }
+
+  /// A lamp seen from the sphere at twice a theta_d from the camera.
+  [[nodiscard]] static gonio::capture::point_lamp lamp(double theta_d) {
+    return {15.0 * Eigen::Vector3d(std::sin(2.0 * theta_d), 0.0, std::cos(2.0 * theta_d)), gonio::rgb::Constant(700.0)};
+  }
+
+  template <class Brdf>
+  [[nodiscard]] gonio::image take(const Brdf& material, const gonio::capture::point_lamp& lamp, double noise,
+                                  std::uint64_t seed) const {
+    return lab::photograph(material, sphere_, camera_, lamp, {.noise = noise, .background = 1e-4, .vignetting = true},
+                           seed);
+  }
+
+ private:
+  gonio::lens_camera camera_;
+  gonio::capture::placed_sphere sphere_{{0.02, -0.03, 0.0}, 1.0};
+};
+
+/// A judged material as a BRDF.
+struct measured_brdf {
+  const reflectance& measured;
+
+  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return gonio::rgb::Zero();
+    return measured({wi, wo});
+  }
+};
+
+/// What was made of a set of photographs.
+struct photographed {
+  gonio::sample_set samples;
+  Eigen::Index pixels = 0;
+  double off = 0.0;  ///< of the sphere's centre across the view, pixels
+};
+
+class sphere_photograph_experiment : left_out_experiment {
+ public:
+  sphere_photograph_experiment(const sphere_photograph_options& given, progress_bar& bar)
+      : left_out_experiment(given, bar), given_(given), laboratory_(given.pixels) {}
+
+  /// For each material and each file of directions.
+  [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
+    std::map<std::string, std::map<std::string, json>> found;
+    const auto all = measured_materials(given_.materials, library_);
+    for (const std::string& name : given_.names) {
+      const auto material = std::ranges::find(all, name, &judged_material::name);
+      if (material == all.end()) gonio::refuse("--names: " + given_.materials.string() + " has no material " + name);
+      std::optional<gonio::discrepancy_decomposition<gonio::log_relative>> estimator;
+      for (const std::filesystem::path& file : given_.directions) {
+        const json key{"sphere-photograph", name,         file.filename().string(),
+                       given_.components,   given_.noise, given_.pixels};
+        found[file.stem().string()][name] = once(key, name + " " + file.stem().string(), [&] {
+          if (!estimator)
+            estimator.emplace(library_.prior_without(material->family, given_.components), gonio::discrepancy_model{},
+                              given_.threads);
+          return errors_of(*material, photograph(*material, file), *estimator);
+        });
+      }
+    }
+    return found;
+  }
+
+ private:
+  /// One photograph of material and white sphere for each direction; the sphere is found in the white image that shows
+  /// the most of its outline.
+  [[nodiscard]] photographed photograph(const judged_material& material, const std::filesystem::path& file) const {
+    struct shot {
+      gonio::capture::point_lamp lamp;
+      gonio::image picture;
+      gonio::capture::white_reference white;
+    };
+    std::vector<shot> shots;
+    std::optional<gonio::capture::fitted_outline> best;
+    std::string why;
+    constexpr double reflectance = 0.98;
+    for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(file)) {
+      const auto lamp = sphere_laboratory::lamp(gonio::to_half_difference(pair.wi, pair.wo).theta_d);
+      const std::uint64_t seed = 100 * material.number + 2 * shots.size();
+      shots.push_back(
+          {lamp,
+           laboratory_.take(measured_brdf{material.measured}, lamp, given_.noise, seed),
+           {laboratory_.take(lab::white_material{reflectance}, lamp, given_.noise, seed + 1), reflectance, {}}});
+      try {
+        const auto outline =
+            gonio::capture::find_sphere(shots.back().white.photograph, laboratory_.camera(), 1.0, {.light = lamp});
+        if (!best || outline.inliers > best->inliers) best = outline;
+      } catch (const gonio::error& refusal) {
+        why = refusal.what();  // a thin crescent may show too little
+      }
+    }
+    if (!best) gonio::refuse(file.string() + ": " + why);
+    photographed taken;
+    const gonio::surface_image surface = gonio::capture::surface_of(best->sphere, laboratory_.camera());
+    for (const shot& each : shots) {
+      const auto found = gonio::capture::samples_of(each.picture, surface, laboratory_.camera(), each.lamp, each.white);
+      taken.samples.insert(taken.samples.end(), found.samples.begin(), found.samples.end());
+      taken.pixels += found.pixels;
+    }
+    const Eigen::Vector3d off = best->sphere.centre - laboratory_.sphere().centre;
+    taken.off = off.head<2>().norm() / (12.0 * laboratory_.camera().pixel_angle());
+    return taken;
+  }
+
+  using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
+
+  /// As `gonio reconstruct` does it.
+  [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
+                                         const judged_material& material) const {
+    const auto located = gonio::locate_samples(library_.cells(), samples);
+    const auto screened = gonio::screen(estimator, located, given_.threads);
+    return compare(estimator.fit_located(screened.kept).tabulate(library_.cells(), given_.threads), material);
+  }
+
+  [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken,
+                               const estimator_type& estimator) const {
+    // The same directions without any error.
+    gonio::sample_set perfect = taken.samples;
+    std::vector<double> relative;
+    for (gonio::sample& s : perfect) {
+      const gonio::rgb value = s.value;
+      s.value = material.measured(s.directions.pair());
+      relative.push_back(std::abs(value.y() / s.value.y() - 1.0));
+    }
+    const gonio::comparison photo = judged(estimator, taken.samples, material),
+                            same = judged(estimator, perfect, material);
+    return {{"samples", taken.samples.size()},
+            {"pixels", taken.pixels},
+            {"off", taken.off},
+            {"median_error", 100.0 * gonio::median(std::move(relative))},
+            {"perfect_env", same.delta_e_env},
+            {"photo_env", photo.delta_e_env},
+            {"perfect_lights", same.delta_e_lights},
+            {"photo_lights", photo.delta_e_lights}};
+  }
+
+  const sphere_photograph_options& given_;
+  sphere_laboratory laboratory_;
+};
+
+void print(const std::map<std::string, std::map<std::string, json>>& found) {
+  std::cout
+      << "| directions | material | pixels | samples | centre off, pixels | median error of a sample | Delta E env: "
+         "perfect | photographs | ratio | Delta E lights: perfect | photographs "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const auto& [file, materials] : found)
+    for (const auto& [name, errors] : materials) {
+      const auto number = [&, &of = errors](const char* key) { return of[key].number(); };
+      std::cout << "| " << file << " | " << name << " | " << fixed(number("pixels"), 0) << " | "
+                << fixed(number("samples"), 0) << " | " << fixed(number("off"), 2) << " | "
+                << fixed(number("median_error"), 1) << " % | " << fixed(number("perfect_env"), 2) << " | "
+                << fixed(number("photo_env"), 2) << " | " << fixed(number("photo_env") / number("perfect_env"), 2)
+                << " | " << fixed(number("perfect_lights"), 2) << " | " << fixed(number("photo_lights"), 2) << " |\n";
+    }
+}
+
+}  // namespace
+
+void add_sphere_photograph(command& app) {
+  auto command =
+      app.add_subcommand("sphere-photograph", "Reconstruct measured materials from simulated photographs of a sphere");
+  const auto options = std::make_shared<sphere_photograph_options>();
+  add_left_out_options(command, *options);
+  command
+      .add_input("--directions", options->directions, "Sphere designs (.csv): a photograph for each of their theta_d")
+      .required();
+  command.add_option("--names", options->names, "Materials to photograph").capture_default_str();
+  command.add_option("--noise", options->noise, "Relative noise of a pixel").capture_default_str();
+  command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(64, 2048)).capture_default_str();
+  add_state_option(command, *options);
+  command.callback([options] {
+    progress_bar bar;
+    sphere_photograph_experiment work(*options, bar);
+    const auto found = work.run();
+    bar.wipe();
+    print(found);
+  });
+}
+
+}  // namespace papers

@@ -1,0 +1,277 @@
+#pragma once
+/// Bodies of capture/surface_photograph.hpp.
+
+#include <gonio/capture/relative_reflectance.hpp>
+#include <gonio/capture/surface_photograph.hpp>
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/lens_distortion.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/table/image.hpp>
+#include <gonio/table/sample_set.hpp>
+#include <gonio/table/surface_image.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace gonio::capture::detail {
+
+GONIO_INLINE lit_point light_at(const surface_light& light, const Eigen::Vector3d& position) {
+  if (const auto* distant = std::get_if<directional_light>(&light)) return {distant->towards, distant->irradiance};
+  const point_lamp& lamp = std::get<point_lamp>(light);
+  const Eigen::Vector3d away = lamp.position - position;
+  const double distance = away.norm();
+  return {away / distance, lamp.intensity / (distance * distance), distance};
+}
+
+GONIO_INLINE void require_usable(const surface_light& light) {
+  const auto require = [](bool usable, const char* what) {
+    if (!usable) gonio::refuse(what);
+  };
+  const auto positive = [](const rgb& all) { return all.isFinite().all() && (all > 0.0).all(); };
+  if (const auto* distant = std::get_if<directional_light>(&light)) {
+    require(std::abs(distant->towards.norm() - 1.0) < 1e-6, "the light's direction must have length 1");
+    require(positive(distant->irradiance), "the light's irradiance must be finite and positive in each channel");
+    return;
+  }
+  const point_lamp& lamp = std::get<point_lamp>(light);
+  require(lamp.position.allFinite(), "the lamp's position must be finite");
+  require(positive(lamp.intensity), "the lamp's intensity must be finite and positive in each channel");
+}
+
+GONIO_INLINE void require_size(std::size_t columns, std::size_t rows, const camera_intrinsics& camera,
+                               const char* what) {
+  if (columns == camera.columns && rows == camera.rows) return;
+  gonio::refuse({what, " has ", columns, " x ", rows, " pixels, its camera ", camera.columns, " x ", camera.rows});
+}
+
+/// A lamp needs to know where the surface is.
+GONIO_INLINE void require_positions(const surface_image& surface, const surface_light& light) {
+  if (std::holds_alternative<directional_light>(light)) return;
+  for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel)
+    if (surface.sees(pixel) && !surface.positions.col(pixel).isZero(0.0)) return;
+  gonio::refuse("a lamp at a finite distance needs the positions of the surface, not its normals alone");
+}
+
+/// A lamp inside a closed surface is behind all that is seen of it.
+GONIO_INLINE bool lights_any(const surface_image& surface, const surface_light& light) {
+  for (Eigen::Index pixel = 0; pixel < surface.normals.cols(); ++pixel) {
+    if (!surface.sees(pixel)) continue;
+    const Eigen::Vector3d normal = surface.normals.col(pixel);
+    if (normal.dot(light_at(light, surface.positions.col(pixel)).towards) > 0.0) return true;
+  }
+  return false;
+}
+
+/// Do a pixel and all its neighbours see the surface?
+GONIO_INLINE bool is_interior(const surface_image& surface, std::size_t row, std::size_t column) {
+  if (row == 0 || column == 0 || row + 1 >= surface.rows || column + 1 >= surface.columns) return false;
+  for (std::size_t r = row - 1; r <= row + 1; ++r)
+    for (std::size_t c = column - 1; c <= column + 1; ++c)
+      if (!surface.sees(surface.pixel(r, c))) return false;
+  return true;
+}
+
+/// Light and viewer around a normal; which tangent is x does not matter to an isotropic material.
+GONIO_INLINE direction_pair around_normal(const Eigen::Vector3d& normal, const direction& light,
+                                          const direction& viewer) {
+  const Eigen::Vector3d x = normal.unitOrthogonal(), y = normal.cross(x);
+  const auto local = [&](const direction& w) { return direction(x.dot(w), y.dot(w), normal.dot(w)).normalized(); };
+  return {local(light), local(viewer)};
+}
+
+/// What a pixel says.
+struct pixel_reading {
+  direction_pair pair;
+  rgb value;
+};
+
+/// Reads pixels of a photograph, one at a time.
+class pixel_reader {
+ public:
+  pixel_reader(const image& photograph, const surface_image& surface, const lens_camera& camera,
+               const surface_light& light, const std::optional<white_reference>& white,
+               const photograph_options& options)
+      : photograph_(photograph), surface_(surface), camera_(camera), light_(light), white_(white), options_(options) {}
+
+  /// Nothing if the pixel does not count.
+  [[nodiscard]] std::optional<pixel_reading> read(std::size_t row, std::size_t column) {
+    if (!is_interior(surface_, row, column)) return {};
+    const Eigen::Index number = surface_.pixel(row, column);
+    const Eigen::Vector3d normal = surface_.normals.col(number);
+    const lit_point lit = light_at(light_, surface_.positions.col(number));
+    const ray line = camera_.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+    const direction_pair pair = around_normal(normal, lit.towards, -line.towards);
+    const std::optional<rgb> radiance = value_of(photograph_, "the photograph", row, column);
+    if (!(pair.wi.z() >= options_.smallest_cosine && pair.wo.z() >= options_.smallest_cosine)) return {};
+    if (!radiance) return {};
+    if (!white_) return pixel_reading{pair, *radiance / (lit.irradiance * pair.wi.z())};
+    const std::optional<rgb> value = relative_value(*radiance, pair.wi.z(), lit.distance, row, column);
+    if (!value) return {};
+    return pixel_reading{pair, *value};
+  }
+
+  [[nodiscard]] Eigen::Index saturated() const noexcept { return saturated_; }
+
+ private:
+  /// Nothing if it is saturated; refuses what is no number.
+  [[nodiscard]] std::optional<rgb> value_of(const image& picture, const char* what, std::size_t row,
+                                            std::size_t column) {
+    const rgb value = pixel(picture, row, column);
+    if (value.isNaN().any())
+      gonio::refuse({what, ": pixel (row ", row, ", column ", column, ") is not a number, and it sees the surface"});
+    // In float, as the image is.
+    const bool saturated = options_.saturation && (value >= double{static_cast<float>(*options_.saturation)}).any();
+    if (!saturated && value.isFinite().all()) return value;
+    ++saturated_;
+    return {};
+  }
+
+  /// Eq. 20 to 22, where the reference is lit and seen.
+  [[nodiscard]] std::optional<rgb> relative_value(const rgb& radiance, double cosine, double distance, std::size_t row,
+                                                  std::size_t column) {
+    illumination of_white{cosine, distance};
+    if (white_->surface) {
+      const Eigen::Index number = white_->surface->pixel(row, column);
+      if (!white_->surface->sees(number)) return {};
+      const Eigen::Vector3d normal = white_->surface->normals.col(number);
+      const lit_point lit = light_at(light_, white_->surface->positions.col(number));
+      of_white = {normal.dot(lit.towards), lit.distance};
+      if (!(of_white.cosine >= options_.smallest_cosine)) return {};
+    }
+    const std::optional<rgb> reference = value_of(white_->photograph, "the white image", row, column);
+    if (!reference || !(*reference > 0.0).all()) return {};
+    rgb value;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      value[c] =
+          reference_light({(*reference)[c]}, white_->reflectance, {std::min(of_white.cosine, 1.0), of_white.distance})
+              .brdf({radiance[c]}, {std::min(cosine, 1.0), distance})
+              .value;
+    return value;
+  }
+
+  const image& photograph_;
+  const surface_image& surface_;
+  const lens_camera& camera_;
+  const surface_light& light_;
+  const std::optional<white_reference>& white_;
+  const photograph_options& options_;
+  Eigen::Index saturated_ = 0;
+};
+
+/// The pixels of a cell.
+struct cell_mean {
+  Eigen::Index pixels = 0;
+  direction_pair first;
+  half_difference angles;  ///< sums
+  rgb sum = rgb::Zero(), squares = rgb::Zero();
+
+  void add(const pixel_reading& reading, const half_difference& at) {
+    if (pixels++ == 0) first = reading.pair;
+    angles = {angles.theta_h + at.theta_h, angles.theta_d + at.theta_d, angles.phi_d + at.phi_d};
+    sum += reading.value;
+    squares += reading.value.square();
+  }
+
+  [[nodiscard]] sample_directions directions() const {
+    if (pixels == 1) return first;
+    const auto n = static_cast<double>(pixels);
+    return half_difference{angles.theta_h / n, angles.theta_d / n, angles.phi_d / n};
+  }
+  [[nodiscard]] rgb mean() const { return sum / static_cast<double>(pixels); }
+  /// Relative standard deviation of one pixel.
+  [[nodiscard]] rgb scatter() const {
+    const auto n = static_cast<double>(pixels);
+    return ((squares - sum.square() / n).max(0.0) / (n - 1.0)).sqrt() / mean().abs().max(1e-300);
+  }
+};
+
+using cell_means = std::map<Eigen::Index, cell_mean>;
+
+/// The median scatter of pixels in cells with enough of them; of no such cell it is 0.
+GONIO_INLINE rgb median_scatter(const cell_means& cells) {
+  constexpr Eigen::Index enough = 4;
+  std::array<std::vector<double>, 3> all;
+  for (const auto& [number, cell] : cells) {
+    if (cell.pixels < enough) continue;
+    const rgb scatter = cell.scatter();
+    for (Eigen::Index c = 0; c < 3; ++c) all[static_cast<std::size_t>(c)].push_back(scatter[c]);
+  }
+  rgb found = rgb::Zero();
+  for (Eigen::Index c = 0; c < 3; ++c)
+    if (auto& of_channel = all[static_cast<std::size_t>(c)]; !of_channel.empty())
+      found[c] = median(std::move(of_channel));
+  return found;
+}
+
+GONIO_INLINE sample_set samples_of_cells(const cell_means& cells, const rgb& deviation) {
+  sample_set samples;
+  for (const auto& [number, cell] : cells) {
+    const sample_directions at = cell.directions();
+    const cosine_pair cosine = cosines(at.angles());
+    if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
+    rgb weight;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      weight[c] = weight_of(deviation[c] / std::sqrt(static_cast<double>(cell.pixels)));
+    samples.push_back({at, cell.mean(), weight});
+  }
+  return samples;
+}
+
+}  // namespace gonio::capture::detail
+
+namespace gonio::capture {
+
+GONIO_INLINE photograph_samples samples_of(const image& photograph, const surface_image& surface,
+                                           const lens_camera& camera, const surface_light& light,
+                                           const std::optional<white_reference>& white,
+                                           const photograph_options& options) {
+  // Check sizes and light.
+  const camera_intrinsics& size = camera.intrinsics();
+  detail::require_usable(light);
+  detail::require_size(photograph.shape(1), photograph.shape(0), size, "the photograph");
+  detail::require_size(surface.columns, surface.rows, size, "the surface");
+  detail::require_positions(surface, light);
+  if (white) {
+    detail::require_size(white->photograph.shape(1), white->photograph.shape(0), size, "the white image");
+    if (white->surface)
+      detail::require_size(white->surface->columns, white->surface->rows, size, "the white reference's surface");
+    if (!(white->reflectance > 0.0 && white->reflectance <= 1.0))
+      refuse({"a white reference's reflectance lies above 0 and up to 1, not ", white->reflectance});
+  }
+  if (!detail::lights_any(surface, light)) refuse("the light is behind all that is seen of the surface, or inside it");
+
+  // Read all pixels into their cells.
+  detail::pixel_reader reader(photograph, surface, camera, light, white, options);
+  detail::cell_means cells;
+  photograph_samples found;
+  for (std::size_t row = 0; row < size.rows; ++row)
+    for (std::size_t column = 0; column < size.columns; ++column) {
+      const auto reading = reader.read(row, column);
+      if (!reading) continue;
+      const half_difference angles = to_half_difference(reading->pair.wi, reading->pair.wo);
+      cells[options.cells.linear(options.cells.nearest(angles))].add(*reading, angles);
+      ++found.pixels;
+    }
+
+  // Average each cell.
+  found.saturated = reader.saturated();
+  found.pixel_deviation = detail::median_scatter(cells);
+  found.samples = detail::samples_of_cells(cells, found.pixel_deviation);
+  if (found.samples.empty())
+    refuse(found.saturated > 0 ? "all that the photograph shows of the surface is saturated"
+                               : "the photograph shows nothing of the surface that is lit");
+  return found;
+}
+
+}  // namespace gonio::capture

@@ -1,0 +1,82 @@
+/// Photographs of a sphere, by the simulated laboratory, become samples.
+
+#include "../io/scratch.hpp"
+#include "lab/sphere_lab.hpp"
+#include "tool.hpp"
+#include <gonio/io/image.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/sphere_setup.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace {
+
+const std::string sphere_scene =
+    "size 128 128\nfield_of_view 11.5\ndistortion -0.25 0.1 0.002 -0.001\nposition 0 0 12\ntarget 0 0 0\nup 0 1 0\n"
+    "lamp 13.1 0 7.3\nintensity 700\n";
+
+/// A photograph of red paint and one of a white sphere, and a set-up.
+class sphere_shots {
+ public:
+  sphere_shots() {
+    scratch::put(at("setup.txt"), sphere_scene + "sphere 1\nwhite_reflectance 0.98\n");
+    scratch::put(at("bare.txt"), sphere_scene);
+    const auto setup = gonio::io::read_sphere_setup(at("setup.txt"));
+    const gonio::capture::placed_sphere sphere{{0.02, -0.03, 0.0}, 1.0};
+    const auto& lamp = std::get<gonio::capture::point_lamp>(setup.light);
+    const lab::camera_defects dark{.vignetting = true};
+    gonio::io::write_hdr(at("paint.hdr"), lab::photograph(paint, sphere, setup.camera, lamp, dark));
+    gonio::io::write_hdr(at("white.hdr"), lab::photograph(lab::white_material{0.98}, sphere, setup.camera, lamp, dark));
+    gonio::io::write_hdr(at("black.hdr"), gonio::uniform_image(128, 128));
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+
+ private:
+  scratch::folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("a photograph of a sphere becomes samples of the paint") {
+  const sphere_shots shots;
+  const auto run = gonio_tool("sphere " + shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " +
+                              shots.at("white.hdr") + " -o " + shots.at("samples.csv"));
+  REQUIRE_MESSAGE(run.exit_code == 0, run.output);
+  CHECK(run.output.find("outline met to") != std::string::npos);
+  std::vector<double> off;
+  for (const gonio::sample& s : gonio::io::read_samples(shots.at("samples.csv"))) {
+    const auto [wi, wo] = s.directions.pair();
+    off.push_back(std::abs(s.value.x() / shots.paint(wi, wo).x() - 1.0));
+  }
+  REQUIRE(off.size() > 500);
+  std::ranges::nth_element(off, off.begin() + std::ssize(off) / 2);
+  CHECK(off[off.size() / 2] < 0.02);
+}
+
+TEST_CASE("sphere refuses what is missing") {
+  const sphere_shots shots;
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const auto run = gonio_tool("sphere " + arguments + " -o " + shots.at("none.csv"));
+    CAPTURE(run.output);
+    CHECK(run.exit_code == 2);
+    CHECK(run.output.find(why) != std::string::npos);
+  };
+  const std::string paint = shots.at("paint.hdr") + " ", white = " --white " + shots.at("white.hdr");
+  refused(paint + shots.at("setup.txt"), "'white_reflectance' needs a white image: give --white");
+  refused(paint + shots.at("bare.txt"), "'sphere' is missing, or give --normals");
+  refused(paint + shots.at("setup.txt") + white + white, "--white needs an image for each photograph, 1, not 2");
+  refused(shots.at("paint.hdr") + " " + shots.at("setup.txt") + " --white " + shots.at("black.hdr"),
+          "no sphere is found");
+  refused(paint + shots.at("setup.txt") + white + " --positions " + shots.at("bare.txt"),
+          "--positions requires --normals");
+}
