@@ -6,6 +6,7 @@
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
+#include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/merl.hpp>
@@ -15,6 +16,7 @@
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
+#include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/renderer_material.hpp>
