@@ -21,7 +21,11 @@ double seconds_of(const gonio::io::named_file& file, const std::filesystem::path
     if (found == times.end()) gonio::refuse({table.string(), ": has no exposure time of '", name, "'"});
     return found->second;
   }
-  if (const auto seconds = gonio::io::exposure_time_of_name(file.name)) return *seconds;
+  try {
+    if (const auto seconds = gonio::io::exposure_time_of_name(file.name)) return *seconds;
+  } catch (const gonio::error& refusal) {
+    gonio::refuse({file.path.string(), ": ", refusal.what(), " (--times says which)"});
+  }
   gonio::refuse(
       {file.path.string(),
        ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, or a table must "

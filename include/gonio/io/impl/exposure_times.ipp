@@ -38,6 +38,7 @@ namespace gonio::io {
 GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) {
   constexpr std::string_view digits = "0123456789";
   if (!name.ends_with('s')) return {};
+  const std::string_view whole = name;
   name.remove_suffix(1);
   const std::string_view number = detail::ending_of(name, "0123456789.");
   const std::optional<double> seconds = detail::positive_quotient(number);
@@ -50,7 +51,7 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   const std::string_view above = detail::ending_of(before, digits);
   if (above.empty()) return seconds;
   if (above == "1") return 1.0 / *seconds;
-  gonio::refuse({"the name ", detail::quoted(name), " ends in two numbers, ", detail::quoted(above), " and ",
+  gonio::refuse({"the name ", detail::quoted(whole), " ends in two numbers, ", detail::quoted(above), " and ",
                  detail::quoted(number), ": of fractions the first must be 1"});
 }
 
