@@ -28,8 +28,8 @@ double seconds_of(const gonio::io::named_file& file, const std::filesystem::path
   }
   gonio::refuse(
       {file.path.string(),
-       ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, or a table must "
-       "have it (file,seconds)"});
+       ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, or --times must "
+       "name a table that has it (file,seconds)"});
 }
 
 gonio::stored_codes codes_of(const std::filesystem::path& file) {

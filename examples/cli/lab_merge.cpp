@@ -10,9 +10,9 @@
 #include <gonio/io/image.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/pnm.hpp>
-#include <gonio/io/text.hpp>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -48,13 +48,20 @@ lab::photograph_settings settings_of(const std::string& camera) {
   return settings;
 }
 
+/// Without a power of ten.
+std::string decimal(double seconds) {
+  std::array<char, 400> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), seconds, std::chars_format::fixed).ptr;
+  return {text.data(), end};
+}
+
 /// A file for each frame, whose name ends in its exposure time.
 void write_frames(const std::filesystem::path& folder, std::span<const gonio::capture::exposed_frame> frames) {
   std::filesystem::create_directories(folder);
   int number = 0;
   for (const auto& [seconds, codes] : frames) {
     const std::string name = "frame" + std::to_string(100 + ++number).substr(1);
-    gonio::io::write_pnm(folder / (name + "_" + gonio::io::detail::shortest(seconds) + "s.ppm"), codes);
+    gonio::io::write_pnm(folder / (name + "_" + decimal(seconds) + "s.ppm"), codes);
   }
 }
 

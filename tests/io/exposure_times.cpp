@@ -14,6 +14,8 @@ TEST_CASE("exposure times: names say seconds, or fractions of one") {
   CHECK(exposure_time_of_name("frame_2_0.5s").value() == 0.5);
   CHECK(exposure_time_of_name("frame_1_250s").value() == 1.0 / 250.0);
   CHECK(exposure_time_of_name("1-250s").value() == 1.0 / 250.0);
+  CHECK(exposure_time_of_name("frame01_1e-04s").value() == 1e-4);
+  CHECK(exposure_time_of_name("2.5e-3s").value() == 2.5e-3);
   CHECK(exposure_time_of_name("frame-30s").value() == 30.0);
 }
 

@@ -9,9 +9,9 @@
 
 namespace gonio::io {
 
-/// Seconds of exposure that the end of a file's name, without its extension, says: `0.004s` and `frame_2_0.5s` are
-/// decimal, `frame_1_250s` and `1-250s` are 1/250 s. Nothing if it ends in no such number. Throws gonio::error if two
-/// whole numbers stand there of which the first is not 1, as in `frame_2_250s`: that may be frame 2, or 2/250 s.
+/// Seconds of exposure that the end of a file's name, without its extension, says: `0.004s`, `4e-3s` and `frame_2_0.5s`
+/// are decimal, `frame_1_250s` and `1-250s` are 1/250 s. Nothing if it ends in no such number. Throws gonio::error if
+/// two whole numbers stand there of which the first is not 1, as in `frame_2_250s`: that may be frame 2, or 2/250 s.
 [[nodiscard]] std::optional<double> exposure_time_of_name(std::string_view name);
 
 /// Seconds of exposure by the names of files, with their extensions.

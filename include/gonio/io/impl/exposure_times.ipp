@@ -40,11 +40,17 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
   if (!name.ends_with('s')) return {};
   const std::string_view whole = name;
   name.remove_suffix(1);
-  const std::string_view number = detail::ending_of(name, "0123456789.");
+  std::string_view number = detail::ending_of(name, "0123456789.");
+  // Is it a power of ten, as in 1e-04?
+  const std::string_view mantissa = name.substr(0, name.size() - number.size());
+  if (mantissa.ends_with("e-")) {
+    const std::string_view whole_number = detail::ending_of(mantissa.substr(0, mantissa.size() - 2), "0123456789.");
+    if (!whole_number.empty()) number = name.substr(name.size() - number.size() - 2 - whole_number.size());
+  }
   const std::optional<double> seconds = detail::positive_quotient(number);
   if (!seconds) return {};
   // Is it the lower part of a fraction?
-  const bool is_whole = number.find('.') == std::string_view::npos;
+  const bool is_whole = number.find_first_not_of(digits) == std::string_view::npos;
   std::string_view before = name.substr(0, name.size() - number.size());
   if (!is_whole || before.empty() || (before.back() != '_' && before.back() != '-')) return seconds;
   before.remove_suffix(1);
