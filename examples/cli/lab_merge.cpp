@@ -1,6 +1,7 @@
 /// gonio lab photograph, gonio lab merge: a scene as photographs of several exposure times, and these as one radiance
 /// image.
 
+#include "cli/exr_files.hpp"
 #include "cli/frame_files.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
@@ -36,7 +37,7 @@ struct photograph_command {
 struct merge_command {
   std::filesystem::path frames, times, dark, output, deviation, mask;
   double gamma = 0.0, level = 0.0, saturation = 0.98;  ///< gamma of a camera that is known; 0: find its response
-  gonio::capture::merge_options merging;
+  gonio::capture::merge_options merging{.noise = {.read = 1.6, .shot = 0.2, .relative = 0.0}};
 };
 
 lab::photograph_settings settings_of(const std::string& camera) {
@@ -66,7 +67,8 @@ void write_frames(const std::filesystem::path& folder, std::span<const gonio::ca
 }
 
 void run(const photograph_command& options) {
-  const gonio::image scene = gonio::io::read_hdr(options.scene);
+  const gonio::image scene =
+      options.scene.extension() == ".exr" ? read_exr(options.scene) : gonio::io::read_hdr(options.scene);
   const lab::photograph_settings settings = settings_of(options.camera);
   write_frames(options.output / "light", lab::photograph_bracket(scene, options.times, settings, options.seed));
   if (options.camera == "linear" && options.dark_frames > 0) {
@@ -100,6 +102,8 @@ gonio::image mask_of(const gonio::capture::merged_frames& merged) {
 void write_float_image(const std::filesystem::path& path, const gonio::image& values) {
   if (path.extension() == ".npy")
     gonio::io::write_npy(path, values);
+  else if (path.extension() == ".exr")
+    write_exr(path, values);
   else
     gonio::io::write_hdr(path, values);
 }
@@ -110,6 +114,10 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
             << merged.count(value_state::dark) << " dark, " << merged.count(value_state::contradictory)
             << " contradictory, " << merged.count(value_state::hot) << " hot, " << merged.count(value_state::saturated)
             << " saturated\n";
+  constexpr Eigen::Index one_in = 20;
+  if (one_in * merged.count(value_state::contradictory) > std::ssize(merged.states) / 3)
+    std::cout << "warning: the exposures of many pixels contradict each other: the noise is larger than --read-noise, "
+                 "--shot-noise and --flicker say, the response is another one, or something moved\n";
   constexpr std::size_t most_named = 20;
   const auto& hot = dark.hot_pixels();
   for (std::size_t i = 0; i < std::min(hot.size(), most_named); ++i)
@@ -149,7 +157,7 @@ void run(merge_command options) {
   }();
   // Write what came out.
   write_float_image(options.output, merged.radiance);
-  if (!options.deviation.empty()) gonio::io::write_npy(options.deviation, merged.deviation);
+  if (!options.deviation.empty()) write_float_image(options.deviation, merged.deviation);
   if (!options.mask.empty()) gonio::io::write_png(options.mask, mask_of(merged));
   report(merged, dark);
 }
@@ -159,7 +167,8 @@ void run(merge_command options) {
 void add_lab_photograph(command& lab) {
   auto command = lab.add_subcommand("photograph", "Photograph a scene at several exposure times, and in the dark");
   const auto options = std::make_shared<photograph_command>();
-  command.add_input("scene", options->scene, "Radiance of the scene; 1 / pi is white under a lamp (.hdr)").required();
+  command.add_input("scene", options->scene, "Radiance of the scene; 1 / pi is white under a lamp (.hdr or .exr)")
+      .required();
   command.add_option("--times", options->times, "Seconds of exposure")
       .check(check::range(1e-6, 1000.0))
       .capture_default_str();
@@ -211,11 +220,13 @@ void add_lab_merge(command& lab) {
       .check(check::non_negative_number())
       .capture_default_str();
   // Declare what is written.
-  command.add_output("--deviation", options->deviation, {".npy"}, "Standard deviation of each value, to write (.npy)");
+  command.add_output("--deviation", options->deviation, {".npy", ".exr"},
+                     "Standard deviation of each value, to write (.npy or .exr)");
   command.add_output("--mask", options->mask, {".png"},
                      "Image to write: usable black, dark blue, contradictory yellow, hot green, saturated red (.png)");
   add_threads_option(command, options->merging.threads);
-  command.add_output("-o,--output", options->output, {".hdr", ".npy"}, "Radiance to write (.hdr or .npy)").required();
+  command.add_output("-o,--output", options->output, {".hdr", ".npy", ".exr"}, "Radiance to write (.hdr, .npy or .exr)")
+      .required();
   command.callback([options] { run(*options); });
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb) and those of shapes (shape.hpp).
+/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb), OpenEXR images (io/exr.hpp, which
+/// needs OpenEXR) and those of shapes (shape.hpp).
 
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>

@@ -18,6 +18,14 @@ struct exposed_frame {
   stored_codes codes;
 };
 
+namespace detail {
+
+/// Throws gonio::error unless frames have one size and largest count, and times that are positive and finite; there
+/// must be one at least. `what` names them: "a photograph".
+void require_alike(std::span<const exposed_frame> frames, const char* what);
+
+}  // namespace detail
+
 /// The dark counts of all pixels and channels, and how well they are known. Without frames they are a level that is
 /// given, the same everywhere, with no error.
 class dark_signal {

@@ -15,7 +15,6 @@
 
 namespace gonio::capture::detail {
 
-/// What all frames of a set share. `what` names them in errors: "a photograph", "a dark frame".
 GONIO_INLINE void require_alike(std::span<const exposed_frame> frames, const char* what) {
   if (frames.empty()) refuse({"there is no frame: ", what, " at least is needed"});
   const stored_codes& first = frames.front().codes;
