@@ -67,7 +67,7 @@ struct merge_options {
                                          const std::array<camera_response, 3>& responses, const dark_signal& dark = {},
                                          const merge_options& options = {});
 
-/// The responses of the three channels, by `estimate_response` from 1000 pixels, chosen by the seed.
+/// The responses of the three channels, by `estimate_response` from 20,000 pixels, chosen by the seed.
 ///
 /// Throws gonio::error as `estimate_response` does, and if frames differ in size or largest count.
 [[nodiscard]] std::array<camera_response, 3> estimate_responses(std::span<const exposed_frame> frames,

@@ -273,7 +273,7 @@ GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const e
                                                                const dark_signal& dark, const response_options& options,
                                                                std::uint64_t seed) {
   detail::require_alike(frames, "a photograph");
-  constexpr Eigen::Index pixels_used = 1000;
+  constexpr Eigen::Index pixels_used = 20000;
   const stored_codes& first = frames.front().codes;
   const std::vector<Eigen::Index> pixels = random_choice(std::ssize(first.values) / 3, pixels_used, seed);
   const std::uint16_t above = counts_above(first.largest, dark);
