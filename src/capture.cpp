@@ -3,9 +3,11 @@
 #include <gonio/capture/impl/calibration.ipp>
 #include <gonio/capture/impl/camera_response.ipp>
 #include <gonio/capture/impl/colour_clusters.ipp>
+#include <gonio/capture/impl/dark_signal.ipp>
 #include <gonio/capture/impl/high_dynamic_range.ipp>
 #include <gonio/capture/impl/k_means.ipp>
 #include <gonio/capture/impl/known_surface.ipp>
+#include <gonio/capture/impl/merged_frames.ipp>
 #include <gonio/capture/impl/mirror_sphere.ipp>
 #include <gonio/capture/impl/near_field_image.ipp>
 #include <gonio/capture/impl/relative_reflectance.ipp>

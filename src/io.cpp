@@ -5,6 +5,7 @@
 #include <gonio/io/impl/capture_constraint.ipp>
 #include <gonio/io/impl/checked_file.ipp>
 #include <gonio/io/impl/cornell.ipp>
+#include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
 #include <gonio/io/impl/merl.ipp>
@@ -14,6 +15,7 @@
 #include <gonio/io/impl/near_field_setup.ipp>
 #include <gonio/io/impl/networks.ipp>
 #include <gonio/io/impl/npy.ipp>
+#include <gonio/io/impl/pnm.ipp>
 #include <gonio/io/impl/prior.ipp>
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>

@@ -7,7 +7,8 @@
 namespace cli {
 
 void add_lab(command& app) {
-  auto lab = app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes (docs/learn/laboratory.md)");
+  auto lab =
+      app.add_subcommand("lab", "Measure: plan, scan, calibrate; light probes, photographs (docs/learn/laboratory.md)");
   lab.require_subcommand();
   add_lab_plan(lab);
   add_lab_scan(lab);
@@ -15,6 +16,8 @@ void add_lab(command& app) {
   add_lab_calibrate(lab);
   add_lab_probe(lab);
   add_lab_unwrap(lab);
+  add_lab_photograph(lab);
+  add_lab_merge(lab);
 }
 
 }  // namespace cli

@@ -11,5 +11,7 @@ void add_lab_replay(command& lab);
 void add_lab_calibrate(command& lab);
 void add_lab_probe(command& lab);
 void add_lab_unwrap(command& lab);
+void add_lab_photograph(command& lab);
+void add_lab_merge(command& lab);
 
 }  // namespace cli

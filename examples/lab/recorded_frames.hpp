@@ -141,7 +141,7 @@ class recorded_frames {
 
   /// A file that is missing or damaged is a frame that did not arrive.
   [[nodiscard]] gonio::capture::camera_frame read_frame(const std::filesystem::path& file) const try {
-    const gonio::io::stored_codes codes = gonio::io::read_png_codes(file);
+    const gonio::stored_codes codes = gonio::io::read_png_codes(file);
     const window seen = window_.value_or(window{0, 0, codes.columns, codes.rows});
     if (seen.column + seen.columns > codes.columns || seen.row + seen.rows > codes.rows)
       throw gonio::capture::device_failure(file.string() + ": the window ends outside the image of " +

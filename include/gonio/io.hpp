@@ -1,5 +1,6 @@
 #pragma once
-/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb) and those of shapes (shape.hpp).
+/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb), OpenEXR images (io/exr.hpp, which
+/// needs OpenEXR) and those of shapes (shape.hpp).
 
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>
@@ -7,6 +8,7 @@
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
+#include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/merl.hpp>
@@ -16,6 +18,7 @@
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
+#include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/renderer_material.hpp>

@@ -9,6 +9,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/render/image.hpp>
+#include <gonio/table/stored_codes.hpp>
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -121,17 +122,6 @@ struct stb_extents {
 
 /// Reads a PNG of any kind: palettes are resolved, grey becomes RGB, 16 bits become 8, alpha is dropped.
 [[nodiscard]] image read_png(const std::filesystem::path& path);
-
-/// What a PNG stores, before any meaning is given to it: the counts of a camera that writes such files.
-struct stored_codes {
-  std::size_t rows = 0, columns = 0;
-  std::uint16_t largest = 255;        ///< 65535 of a file of 16 bits
-  std::vector<std::uint16_t> values;  ///< row by row, red, green and blue of a pixel adjacent
-
-  [[nodiscard]] std::uint16_t at(std::size_t row, std::size_t column, std::size_t channel) const {
-    return values[3 * (row * columns + column) + channel];
-  }
-};
 
 /// Reads the codes of a PNG of 8 or 16 bits as they are: grey becomes three equal channels, alpha is dropped.
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/render/image.hpp>
+#include <gonio/table/stored_codes.hpp>
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>

@@ -1,0 +1,3 @@
+// The bodies of io/exr.hpp, which need OpenEXR.
+
+#include <gonio/io/impl/exr.ipp>

@@ -1,0 +1,55 @@
+#include "scratch.hpp"
+#include <gonio/io/exposure_times.hpp>
+
+#include <doctest/doctest.h>
+
+using gonio::io::exposure_time_of_name;
+using gonio::io::read_exposure_times;
+using scratch::check_refused;
+
+TEST_CASE("exposure times: names say seconds, or fractions of one") {
+  CHECK(exposure_time_of_name("0.004s").value() == 0.004);
+  CHECK(exposure_time_of_name("2s").value() == 2.0);
+  CHECK(exposure_time_of_name("frame_0.5s").value() == 0.5);
+  CHECK(exposure_time_of_name("frame_2_0.5s").value() == 0.5);
+  CHECK(exposure_time_of_name("frame_1_250s").value() == 1.0 / 250.0);
+  CHECK(exposure_time_of_name("1-250s").value() == 1.0 / 250.0);
+  CHECK(exposure_time_of_name("frame01_1e-04s").value() == 1e-4);
+  CHECK(exposure_time_of_name("2.5e-3s").value() == 2.5e-3);
+  CHECK(exposure_time_of_name("frame-30s").value() == 30.0);
+}
+
+TEST_CASE("exposure times: other names say none") {
+  for (const char* name :
+       {"", "s", "frame", "frames", "0.004", "frame_0.004s_b", "0s", "frame_.s", "1.2.3s", "99999999999s"}) {
+    CAPTURE(name);
+    CHECK(!exposure_time_of_name(name));
+  }
+  check_refused([] { return exposure_time_of_name("frame_2_250s"); }, {"frame_2_250s", "'2' and '250'"});
+}
+
+TEST_CASE("exposure times: a table") {
+  const scratch::folder here;
+  scratch::put(here / "times.csv", "# of Monday\nfile,seconds\na.png, 0.5\n b, c.png ,1/250\n");
+  const auto times = read_exposure_times(here / "times.csv");
+  CHECK(times.size() == 2);
+  CHECK(times.at("a.png") == 0.5);
+  CHECK(times.at("b, c.png") == 1.0 / 250.0);
+}
+
+TEST_CASE("exposure times: bad tables are refused") {
+  const scratch::folder here;
+  const auto refuses = [&](const std::string& text, const std::string& words) {
+    scratch::put(here / "times.csv", text);
+    check_refused([&] { return read_exposure_times(here / "times.csv"); }, {"times.csv", words});
+  };
+  refuses("", "has no exposure time");
+  refuses("file,seconds\n", "has no exposure time");
+  refuses("a.png,0.5\n", "line 1: expected the header");
+  refuses("file,seconds\na.png\n", "line 2: expected two fields");
+  for (const char* seconds : {"0", "-1", "nan", "inf", "1/0", "1/", "x", ""})
+    refuses(std::string("file,seconds\na.png,") + seconds, "line 2: expected a file and a positive number");
+  refuses("file,seconds\n,1\n", "expected a file");
+  refuses("file,seconds\na.png,1\na.png,2\n", "line 3: the file 'a.png' is there twice");
+  scratch::check_refuses_non_files([](const auto& path) { return read_exposure_times(path); });
+}
