@@ -8,6 +8,7 @@
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/prior.hpp>
@@ -24,7 +25,8 @@ struct design_command {
   std::filesystem::path prior, constraint, start, given, output;
   design_options design;
   double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
-  bool print_json = false;
+  Eigen::Index published = 0;  ///< of how many measurements; 0: none
+  bool industry = false, print_json = false;
 };
 
 /// --given replaces the criterion and the search.
@@ -68,8 +70,35 @@ void run_given(const design_command& command) {
             << fixed(chosen.back().expected_delta_e, 2) << '\n';
 }
 
+/// The literature's sets are not searched for.
+void require_no_search(const design_command& command) {
+  const design_options standard, &design = command.design;
+  const std::string asked = command.industry ? "--industry" : "--published";
+  if (command.industry && command.published > 0) gonio::refuse("--industry and --published are two sets: choose one");
+  if (design.geometry != "point" && (command.industry || design.geometry != "sphere"))
+    gonio::refuse(asked + " needs --geometry point" + (command.industry ? "" : " or sphere"));
+  if (!command.start.empty() || !command.given.empty() || !command.constraint.empty() ||
+      design.criterion != standard.criterion || design.search != standard.search)
+    gonio::refuse(asked +
+                  " searches for nothing: it goes with none of --start, --given, --constraint, --criterion and "
+                  "--search");
+}
+
+/// A set of the literature.
+designed set_of_the_literature(const gonio::log_relative_pca& prior, const design_command& command) {
+  const bool is_of_spheres = command.design.geometry == "sphere";
+  designed found;
+  found.samples = command.industry ? gonio::design::westlund_meyer_directions()
+                  : is_of_spheres  ? gonio::design::nielsen_sphere_directions(command.published)
+                                   : gonio::design::nielsen_directions(command.published);
+  for (const gonio::half_difference& angles : found.samples) found.poses.push_back(gonio::to_directions(angles));
+  return is_of_spheres ? placed(prior, command.design, found.poses) : found;
+}
+
 void run(design_command command) {
   progress_bar bar;
+  const bool is_published = command.published > 0 || command.industry;
+  if (is_published) require_no_search(command);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
   if (!command.given.empty()) return run_given(command);
@@ -78,14 +107,15 @@ void run(design_command command) {
   command.design.near_field.step = gonio::radians(command.step);
   command.design.angular_error = gonio::radians(command.angular_error);
   if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
-  const designed found = design(prior, command.design, bar.listener());
+  const designed found =
+      is_published ? set_of_the_literature(prior, command) : design(prior, command.design, bar.listener());
   gonio::io::write_direction_pairs(command.output, found.poses);
   bar.wipe();
 
   const auto figures = quality_of(prior, command.design, found);
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
-                      {"criterion", command.design.criterion},
+                      {"criterion", is_published ? "published" : command.design.criterion},
                       {"eta", command.design.eta},
                       {"in_sample", command.design.in_sample},
                       {"value", found.value},
@@ -160,6 +190,14 @@ void add_design(command& app) {
   command.add_input("--given", options->given,
                     "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
                     "errs least as seen on spheres");
+  // Declare what needs no search.
+  command
+      .add_option("--published", options->published,
+                  "No search: the set of Nielsen et al. 2015 of so many points (1, 2, 5, 10, 20) or, with --geometry "
+                  "sphere, images (1, 2, 5)")
+      .check(check::range(1, 20));
+  command.add_flag("--industry", options->industry,
+                   "No search: the five points of industry's goniospectrophotometers (Westlund and Meyer 2001)");
   // Declare the run and its output.
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", options->print_json, "Print the result as JSON");

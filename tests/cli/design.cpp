@@ -160,6 +160,28 @@ TEST_CASE("the next measurements by what the given ones read") {
   board.refuses("-n 2 --start " + board.at("given.csv") + " --given " + board.at("given.csv"), {"--given", "--start"});
 }
 
+TEST_CASE("the literature's sets are written as they are printed") {
+  const drawing_board board;
+  CHECK(board.unknown_after("--published 5") < 1.0);
+  const auto five = board.poses("d.csv");
+  REQUIRE(five.size() == 5);
+  const gonio::half_difference third = gonio::to_half_difference(five[2].wi, five[2].wo);
+  CHECK(gonio::degrees(third.theta_h) == doctest::Approx(8.0));
+  CHECK(gonio::degrees(third.theta_d) == doctest::Approx(79.0));
+  CHECK(gonio::degrees(third.phi_d) == doctest::Approx(85.0));
+  CHECK(board.unknown_after("--industry") < 1.0);
+  CHECK(board.poses("d.csv").size() == 5);
+  CHECK(board.unknown_after("--published 2 --geometry sphere") <
+        board.unknown_after("--published 1 --geometry sphere"));
+
+  board.refuses("--published 3", {"there is no published set of 3", "1, 2, 5, 10 or 20"});
+  board.refuses("--published 10 --geometry sphere", {"images of a sphere", "1, 2 or 5"});
+  board.refuses("--published 1 --geometry near-field", {"--published needs --geometry point or sphere"});
+  board.refuses("--industry --geometry sphere", {"--industry needs --geometry point"});
+  board.refuses("--industry --published 5", {"choose one"});
+  board.refuses("--published 5 --criterion perceived", {"--published searches for nothing", "--criterion"});
+}
+
 TEST_CASE("designs that cannot be made") {
   const drawing_board board;
   board.refuses("-n 0", {"0 of"});

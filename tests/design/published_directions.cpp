@@ -37,3 +37,15 @@ TEST_CASE("industry's directions are in the plane of the light, whose angle from
     CHECK((near_45(pair.wi) || near_45(pair.wo)));
   }
 }
+
+TEST_CASE("images of a sphere are given by theta_d") {
+  const auto two = gonio::design::nielsen_sphere_directions(2);
+  REQUIRE(two.size() == 2);
+  CHECK(gonio::degrees(two[0].theta_d) == doctest::Approx(4.0));
+  CHECK(gonio::degrees(two[1].theta_d) == doctest::Approx(70.0));
+  CHECK(two[1].theta_h == 0.0);
+  CHECK(gonio::design::nielsen_sphere_directions(1).size() == 1);
+  CHECK(gonio::degrees(gonio::design::nielsen_sphere_directions(5)[4].theta_d) == doctest::Approx(75.0));
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::design::nielsen_sphere_directions(3)),
+                       doctest::Contains("choose 1, 2 or 5"), gonio::error);
+}

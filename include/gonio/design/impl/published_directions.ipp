@@ -49,6 +49,17 @@ GONIO_INLINE std::vector<half_difference> nielsen_directions(Eigen::Index n) {
   refuse("there is no published set of " + std::to_string(n) + " directions: choose 1, 2, 5, 10 or 20");
 }
 
+GONIO_INLINE std::vector<half_difference> nielsen_sphere_directions(Eigen::Index n) {
+  static const std::vector<std::vector<int>> table_2{{5}, {4, 70}, {4, 10, 31, 68, 75}};
+  for (const std::vector<int>& set : table_2) {
+    if (std::ssize(set) != n) continue;
+    std::vector<half_difference> directions;
+    for (const int theta_d : set) directions.push_back({0.0, radians(theta_d), 0.0});
+    return directions;
+  }
+  refuse("there is no published set of " + std::to_string(n) + " images of a sphere: choose 1, 2 or 5");
+}
+
 GONIO_INLINE std::vector<half_difference> westlund_meyer_directions() {
   std::vector<half_difference> directions;
   const direction light = spherical_direction(radians(45), 0.0);
