@@ -54,8 +54,8 @@ const std::vector<method>& methods() {
        "its "
        "own is given; else what pca does",
        reconstruct_by_corrections,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--iterations", "--history",
-        "--iteration-figure", "--truth", "--seed"}},
+       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--as-printed", "--iterations",
+        "--history", "--iteration-figure", "--truth", "--seed"}},
       {"rbf",
        "radial basis functions (a rival of Noell et al. 2014)",
        reconstruct_by_radial_functions,
@@ -165,6 +165,9 @@ void add_correction_options(command& to, reconstruct_options& options) {
                 "How correction finds outliers: a number, with which the weight of a sample falls off with its "
                 "relative deviation (0 trusts all, the paper mostly has 3); or auto, which needs no number")
       .capture_default_str();
+  to.add_flag("--as-printed", options.as_printed,
+              "correction as Noell et al. 2014 print it: no constant function, no inertia, and their weights, with a "
+              "--gamma of 3 if none is given (they have 0 without outliers, 3 for a fifth, 6 for more)");
   to.add_option("--iterations", options.iterations, "Rounds of correction at most")
       .check(check::range(1, 10'000))
       .capture_default_str();

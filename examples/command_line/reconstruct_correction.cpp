@@ -21,10 +21,11 @@ namespace cli {
 
 namespace {
 
-/// Nothing for auto, else the number that --gamma gives.
+/// Nothing for auto, else the number that --gamma gives; the paper has no auto.
 std::optional<double> gamma_of(const reconstruct_options& options) {
+  constexpr double usual = 3.0;
   const std::string& text = options.gamma;
-  if (text == "auto") return std::nullopt;
+  if (text == "auto") return options.as_printed ? std::optional(usual) : std::nullopt;
   double gamma = 0.0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), gamma);
   if (status != std::errc() || end != text.data() + text.size() || !(gamma >= 0.0 && std::isfinite(gamma)))
@@ -82,10 +83,12 @@ reconstruction correct(const gonio::measured<gonio::any_metric>& materials, cons
   // Make the correction functions.
   const auto gamma = gamma_of(options);
   const gonio::thread_count threads = options.threads;
-  const gonio::correction_limits limits{.rounds = options.iterations};
+  gonio::correction_limits limits{.rounds = options.iterations};
+  if (options.as_printed) limits.inertia = 0.0;
   if (!options.iteration_figure.empty()) make_folder(options.iteration_figure);
   bar.draw("making correction functions", 0.0);
-  const gonio::correction corrections{materials, {}, gonio::nnls{}, threads};
+  const auto rule = options.as_printed ? gonio::correction_rule::as_printed() : gonio::correction_rule{};
+  const gonio::correction corrections{materials, rule, gonio::nnls{}, threads};
   std::optional<iteration_figure> watched;
   if (!options.iteration_figure.empty()) watched.emplace(corrections, samples, std::move(truth), threads);
   iteration_figure* watcher = watched ? &*watched : nullptr;

@@ -25,6 +25,7 @@ struct reconstruct_options {
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
   bool has_own_options = false;  ///< the method was asked for something beside what all methods have
+  bool as_printed = false;       ///< correction as Noell et al. 2014 print it
   int iterations = 10;
   std::uint64_t seed = 0;
   material_source materials;

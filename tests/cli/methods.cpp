@@ -51,6 +51,22 @@ TEST_CASE("few samples are not corrected: what pca does is done, with a warning"
       contains(asked, "warning: --method correction from 40 samples is usually 2.0 times as far off as --method pca"));
 }
 
+TEST_CASE("correction as the paper prints it") {
+  const sampled_paint forty(40);
+  const std::string printed = forty.reconstruct("--method correction --as-printed --iterations 2", "printed.binary");
+  CHECK(contains(printed, "2 rounds"));
+  CHECK_FALSE(contains(printed, "outliers"));  // the paper does not estimate their share
+  // Gamma is 3 unless it is given.
+  forty.reconstruct("--method correction --as-printed --gamma 3 --iterations 2", "three.binary");
+  CHECK(scratch::get(forty.at("three.binary")) == scratch::get(forty.at("printed.binary")));
+  forty.reconstruct("--method correction --gamma 3 --iterations 2", "ours.binary");
+  CHECK(scratch::get(forty.at("ours.binary")) != scratch::get(forty.at("printed.binary")));
+  const auto refused =
+      gonio_tool("reconstruct " + forty.at("samples.csv") + " --as-printed -o " + forty.at("refused.binary"));
+  CHECK(refused.exit_code == 2);
+  CHECK(contains(refused.output, "--as-printed"));
+}
+
 TEST_CASE("methods that lose on measured materials say so on standard error") {
   const sampled_paint forty(40);
   for (const char* method : {"rbf", "pull-push"})
