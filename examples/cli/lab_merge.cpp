@@ -116,7 +116,7 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
             << " saturated\n";
   constexpr Eigen::Index one_in = 20;
   if (one_in * merged.count(value_state::contradictory) > std::ssize(merged.states) / 3)
-    std::cout << "warning: the exposures of many pixels contradict each other: the noise is larger than --read-noise, "
+    std::cerr << "gonio: warning: the exposures of many pixels contradict each other: the noise is larger than --read-noise, "
                  "--shot-noise and --flicker say, the response is another one, or something moved\n";
   constexpr std::size_t most_named = 20;
   const auto& hot = dark.hot_pixels();

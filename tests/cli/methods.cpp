@@ -57,9 +57,10 @@ TEST_CASE("correction as the paper prints it") {
   CHECK(contains(printed, "2 rounds"));
   CHECK_FALSE(contains(printed, "outliers"));  // the paper does not estimate their share
   // Gamma is 3 unless it is given.
-  forty.reconstruct("--method correction --as-printed --gamma 3 --iterations 2", "three.binary");
+  CHECK(contains(forty.reconstruct("--method correction --as-printed --gamma 3 --iterations 2", "three.binary"),
+                 "2 rounds"));
   CHECK(scratch::get(forty.at("three.binary")) == scratch::get(forty.at("printed.binary")));
-  forty.reconstruct("--method correction --gamma 3 --iterations 2", "ours.binary");
+  CHECK(contains(forty.reconstruct("--method correction --gamma 3 --iterations 2", "ours.binary"), "2 rounds"));
   CHECK(scratch::get(forty.at("ours.binary")) != scratch::get(forty.at("printed.binary")));
   const auto refused =
       gonio_tool("reconstruct " + forty.at("samples.csv") + " --as-printed -o " + forty.at("refused.binary"));
