@@ -53,9 +53,9 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
     for (int i = 0; i < 40; ++i) {
       const double turn = i * 0.1;
       const Eigen::Vector3d towards = cosine * axis + sine * (std::cos(turn) * across + std::sin(turn) * beside);
-      const auto place = camera.project(camera.position() + towards);
-      RC_PRE(place.has_value());
-      places.push_back(*place);
+      const auto seen_at = camera.project(camera.position() + towards);
+      RC_PRE(seen_at.has_value());
+      places.push_back(*seen_at);
     }
     const auto found = gonio::capture::fit_sphere(places, camera, sphere.radius);
     RC_ASSERT((found.sphere.centre - sphere.centre).norm() < 1e-5);
