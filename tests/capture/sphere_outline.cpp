@@ -64,12 +64,12 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
 }
 
 TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if lit from behind") {
-  const auto paint = gonio::model::formula_material("red-paint");
+  const auto red_paint = gonio::model::formula_material("red-red_paint");
   const gonio::lens_camera camera = outline_camera({.k1 = -0.2, .k2 = 0.1, .p1 = 0.001});
   const placed_sphere sphere{{0.05, -0.03, 0.0}, 1.0};
   for (const double angle : {30.0, 61.0, 103.0, 131.0, 151.0}) {
     CAPTURE(angle);
-    const auto picture = lab::photograph(paint, sphere, camera, outline_lamp(gonio::radians(angle)),
+    const auto picture = lab::photograph(red_paint, sphere, camera, outline_lamp(gonio::radians(angle)),
                                          {.noise = 0.02, .background = 1e-4, .vignetting = true});
     const auto found = find_sphere(picture, camera, 1.0, {.light = outline_lamp(gonio::radians(angle))});
     const Eigen::Vector3d off = found.sphere.centre - sphere.centre;
