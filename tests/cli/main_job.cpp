@@ -52,6 +52,17 @@ TEST_CASE("expand, sample, reconstruct, compare, render") {
   CHECK(self["mapped_rms"] == 0.0);
   CHECK(self["delta_e_env"] == 0.0);
   CHECK(self["peak_ratio"] == 1.0);
+  CHECK_FALSE(self.contains("delta_e_natural"));
+
+  // Under an even sky, whose colour does not matter to what is alike.
+  gonio::io::write_hdr(at("sky.hdr"), gonio::uniform_image(8, 16, gonio::rgb(1.0, 2.0, 3.0)));
+  const std::string under = "compare --environment " + at("sky.hdr") + " ";
+  const auto natural =
+      parse_json(gonio_tool(under + "--json " + at("estimate.binary") + " " + at("truth.binary")).output);
+  CHECK(natural["delta_e_natural"].get<double>() > 0.0);
+  CHECK(natural["delta_e_natural"].get<double>() < 5.0);
+  CHECK(gonio_tool(under + at("truth.binary") + " " + at("truth.binary")).output.find("Delta E, natural  0.00") !=
+        std::string::npos);
 
   SUBCASE("the same seed gives the same file, another seed another") {
     const std::string measure = "sample " + at("truth.binary") + " --count 50 --outliers 0.2 --noise 0.02 --seed ";
