@@ -64,7 +64,7 @@ TEST_CASE("places of the outline give the sphere to the last digits, near and of
 }
 
 TEST_CASE("a photograph gives the sphere to a fifth of a pixel, to a pixel if lit from behind") {
-  const auto red_paint = gonio::model::formula_material("red-red_paint");
+  const auto red_paint = gonio::model::formula_material("red-paint");
   const gonio::lens_camera camera = outline_camera({.k1 = -0.2, .k2 = 0.1, .p1 = 0.001});
   const placed_sphere sphere{{0.05, -0.03, 0.0}, 1.0};
   for (const double angle : {30.0, 61.0, 103.0, 131.0, 151.0}) {
