@@ -67,14 +67,14 @@ TEST_CASE("a block is replaced, and nothing else of the page") {
   CHECK(has(printed.output, block.substr(block.find("\n| "), 80)));
   CHECK(has(block, "\nPrinted on 20"));
   CHECK(has(unwrapped(block), " by `" + at.command + "`, gonio "));
-  CHECK(has(unwrapped(block), ", 2 threads, in "));
+  CHECK(has(unwrapped(block), ", 2 threads"));
   CHECK(block.ends_with(" s.\n"));
 
   // The same again in its own block, but for the time.
   REQUIRE(at.run("-n 5 --noise 0.1 --threads=1" + at.page + " --sets published").exit_code == 0);
   const std::string again = scratch::get(at.path);
   CHECK(again.substr(0, again.find("Printed on")) == page.substr(0, page.find("Printed on")));
-  CHECK(has(unwrapped(again), ", 1 thread, in "));
+  CHECK(has(unwrapped(again), ", 1 thread"));
 }
 
 TEST_CASE("a page without such a block is refused before the work") {
