@@ -13,6 +13,7 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 namespace cli {
 
@@ -61,9 +62,9 @@ void require_comparable(const calibrate_command& options, const gonio::io::recor
 
 /// A material's reflectance at a pose, beside the reference at the same pose or, if wanted, under the nearest light.
 /// What cannot be measured says why.
-gonio::capture::measured_reflectance measured_at(const calibrate_command& options, std::size_t pose,
-                                                 const gonio::io::recorded_scan& material,
+gonio::capture::measured_reflectance measured_at(std::size_t pose, const gonio::io::recorded_scan& material,
                                                  const gonio::io::recorded_scan& reference,
+                                                 const std::optional<gonio::capture::reference_readings>& nearest,
                                                  const gonio::capture::calibration& known) {
   const auto missing = [&](const char* what) {
     gonio::capture::measured_reflectance none{material.poses[pose]};
@@ -72,7 +73,7 @@ gonio::capture::measured_reflectance measured_at(const calibrate_command& option
   };
   const auto& seen = material.readings[pose];
   if (!seen) return missing("material");
-  if (options.nearest) return reference_readings_of(reference).measure(*seen, material.poses[pose], known);
+  if (nearest) return nearest->measure(*seen, material.poses[pose], known);
   const auto& white = reference.readings[pose];
   if (!white) return missing("reference");
   return gonio::capture::measure_reflectance(*seen, *white, material.poses[pose], known);
@@ -95,8 +96,10 @@ void run(const calibrate_command& options) {
   const gonio::capture::calibration known = calibration_of(options, material, reference);
   // Measure the reflectance of each pose, and say which poses are left out.
   std::vector<gonio::capture::measured_reflectance> usable;
+  std::optional<gonio::capture::reference_readings> nearest;
+  if (options.nearest) nearest = reference_readings_of(reference);
   for (std::size_t i = 0; i < material.poses.size(); ++i) {
-    const auto found = measured_at(options, i, material, reference, known);
+    const auto found = measured_at(i, material, reference, nearest, known);
     if (found.is_usable())
       usable.push_back(found);
     else

@@ -214,8 +214,7 @@ void add_lab_scan(command& lab) {
   command
       .add_option("--until", options->choice.until,
                   "With --adaptive: the deviation, relative and in the median, at which there is enough; 0.08 stays, "
-                  "whatever is "
-                  "measured")
+                  "whatever is measured")
       .check(check::range(0.001, 1.0))
       .capture_default_str();
   command.add_option("--most", options->choice.most, "With --adaptive: poses in all")
