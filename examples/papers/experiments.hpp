@@ -12,6 +12,8 @@ void add_measured_materials(command& app);
 void add_linear_combination(command& app);
 void add_noell_tables(command& app);
 void add_noell_measured(command& app);
+void add_noell_gap(command& app);
+void add_noell_figures(command& app);
 void add_noell_corrections(command& app);
 void add_cosine_weight(command& app);
 void add_directions(command& app);

@@ -13,6 +13,8 @@ int main(int argc, char** argv) {
   papers::add_linear_combination(app);
   papers::add_noell_tables(app);
   papers::add_noell_measured(app);
+  papers::add_noell_gap(app);
+  papers::add_noell_figures(app);
   papers::add_noell_corrections(app);
   papers::add_cosine_weight(app);
   papers::add_directions(app);

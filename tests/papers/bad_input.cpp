@@ -25,9 +25,9 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 }  // namespace
 
 TEST_CASE("help is no error") {
-  for (const char* command :
-       {"", "nielsen-test-materials ", "measured-materials ", "linear-combination ", "noell-table1 ", "noell-table2 ",
-        "noell-measured ", "noell-corrections ", "directions ", "models ", "model-properties ", "model-recovery "}) {
+  for (const char* command : {"", "nielsen-test-materials ", "measured-materials ", "linear-combination ",
+                              "noell-table1 ", "noell-table2 ", "noell-measured ", "noell-corrections ", "noell-gap ",
+                              "noell-figures ", "directions ", "models ", "model-properties ", "model-recovery "}) {
     const auto result = gonio_papers(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);
@@ -57,6 +57,9 @@ TEST_CASE("bad requests of the experiments after Noell et al.") {
   refuses(measured + "--networks n.npy --data 2 --tables x", {"--data"});
   refuses(measured + "--networks n.npy --tables /no/such/folder", {"/no/such/folder"});
   refuses("noell-corrections --networks /no/such/file.npy", {"/no/such/file.npy"});
+  refuses("noell-gap --networks n.npy", {"--environment"});
+  refuses("noell-gap --networks n.npy --environment e.hdr --methods magic", {"magic"});
+  refuses("noell-figures --networks n.npy --figure 6", {"--figure"});
 }
 
 TEST_CASE("bad requests of the experiment with a soft and a specular prior") {

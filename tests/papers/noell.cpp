@@ -3,10 +3,12 @@
 #include "../json.hpp"
 #include "papers_tool.hpp"
 #include "synthetic_networks.hpp"
+#include <gonio/io/image.hpp>
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 #include <string>
 
@@ -96,4 +98,44 @@ TEST_CASE("noell-corrections: as printed and ours, by two solvers") {
   const std::string table = synthetic_database().evaluate("noell-corrections");
   CHECK(lines_with(table, "| as printed | NNLS |").size() == 1);
   CHECK(lines_with(table, "| gonio's default | least squares |").size() == 1);
+}
+
+TEST_CASE("noell-table1: radial basis functions have the same error whether cases share their equations or not") {
+  const synthetic_database database;
+  const auto rows_of = [&](const std::string& outliers) {
+    return parse_json(
+        database.evaluate("noell-table1 --materials b --methods rbf --data 2000 --json --outliers " + outliers));
+  };
+  const auto both = rows_of("0 0.2"), alone = rows_of("0.2");
+  const auto error = [](const auto& row) { return row["results"][0]["delta_e_env"].template get<double>(); };
+  CHECK(error(both[1]) == doctest::Approx(error(alone[0])).epsilon(1e-6));
+  CHECK(error(both[0]) < error(both[1]));
+}
+
+TEST_CASE("noell-gap: a row for each method and source of outliers, at two exposures") {
+  const synthetic_database database;
+  const std::string light = database.at("light.hdr");
+  gonio::io::write_hdr(light, gonio::uniform_image(8, 16, gonio::rgb::Constant(0.5)));
+  const std::string table = database.evaluate(
+      "noell-gap --materials b --methods lc pull-push --data 0.001 --outliers 0.2 --environment " + light);
+  CHECK(lines_with(table, "| lc | outliers from random directions |").size() == 2);
+  CHECK(lines_with(table, "| pull-push | samples and outliers of random angles |").size() == 2);
+  CHECK(lines_with(table, "| lc | weights of any sign, outliers from valid cells |").size() == 2);
+}
+
+TEST_CASE("noell-figures: each is drawn") {
+  const synthetic_database database;
+  const std::string light = database.at("light.hdr"), image = database.at("figure.png");
+  gonio::io::write_hdr(light, gonio::uniform_image(8, 16, gonio::rgb::Constant(0.5)));
+  for (const std::string figure : {"2", "3"}) {
+    const std::string printed =
+        database.evaluate("noell-figures --material b --environment " + light + " --figure " + figure + " -o " + image);
+    CHECK(lines_with(printed, "| 1 | a |").size() == (figure == "2" ? 1 : 0));
+    CHECK(lines_with(printed, "| our | ").size() == (figure == "3" ? 1 : 0));
+    REQUIRE(std::filesystem::exists(image));
+    std::filesystem::remove(image);
+  }
+  const auto refused = gonio_papers("noell-figures --figure 5 --networks " + database.at("n.npy"));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.find("--figure 5 needs --table FILE") != std::string::npos);
 }

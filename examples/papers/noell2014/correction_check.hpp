@@ -13,8 +13,24 @@
 
 namespace papers {
 
+/// The other functions' weights in each channel, k x 3, that describe a correction function best by a solver of normal
+/// equations; its own are zero. The constant function, if there is one, is among the others.
+template <gonio::normal_solver Solver>
+[[nodiscard]] Eigen::MatrixXd weights_of_others(const gonio::correction& functions, Eigen::Index target,
+                                                const Solver& solver, gonio::thread_count threads = {}) {
+  std::vector<Eigen::Index> others = gonio::columns_of(functions);
+  std::erase(others, target);
+  Eigen::MatrixXd weights(functions.size(), 3);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto channel = functions.channel(c);
+    const auto found = solver.solve(gonio::leave_one_out(channel.products(threads), target, others));
+    weights.col(c) = gonio::scatter_columns(found, others, functions.size()).weights;
+  }
+  return weights;
+}
+
 /// For each material that takes part, the mean over all cells and channels of |C - its combination of the others|, by a
-/// solver of normal equations. The constant function, if there is one, is among the others. O(cells functions^2).
+/// solver of normal equations. O(cells functions^2).
 template <gonio::normal_solver Solver>
 [[nodiscard]] std::vector<double> deviations_from_others(const gonio::correction& functions, const Solver& solver,
                                                          gonio::thread_count threads = {}) {
@@ -22,15 +38,15 @@ template <gonio::normal_solver Solver>
   const Eigen::Index size = functions.size();
   std::vector<Eigen::Index> targets = gonio::columns_of(functions);
   std::erase_if(targets, [&](Eigen::Index column) { return column >= materials; });
+  std::vector<Eigen::MatrixXd> combinations;
+  for (const Eigen::Index target : targets)
+    combinations.push_back(weights_of_others(functions, target, solver, threads));
   Eigen::ArrayXd sums = Eigen::ArrayXd::Zero(std::ssize(targets));
   for (std::size_t c = 0; c < 3; ++c) {
     const auto channel = functions.channel(c);
     Eigen::MatrixXf residual(size, std::ssize(targets));  // of which the products with the functions are the deviations
     for (std::size_t i = 0; i < targets.size(); ++i) {
-      std::vector<Eigen::Index> others = gonio::columns_of(functions);
-      std::erase(others, targets[i]);
-      const gonio::solution found = solver.solve(gonio::leave_one_out(channel.products(threads), targets[i], others));
-      residual.col(i) = -gonio::scatter_columns(found, others, size).weights.template cast<float>();
+      residual.col(i) = -combinations[i].col(c).template cast<float>();
       residual(targets[i], i) = 1.0f;
     }
     const Eigen::ArrayXd zero = Eigen::ArrayXd::Zero(std::ssize(targets));

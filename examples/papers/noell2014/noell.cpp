@@ -9,6 +9,7 @@
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
 #include "papers/noell2014/noell_measures.hpp"
+#include "papers/noell2014/noell_tables.hpp"
 #include "papers/resumable_results.hpp"
 #include <gonio/evaluate/test_materials.hpp>
 
@@ -89,6 +90,7 @@ class noell_sweep {
     const std::vector<noell_setting> all = settings();
     const std::size_t total = all.size() * materials_.size() * options_.seeds.size();
     std::size_t done = 0;
+    prepare();
     // Materials outermost: each has corrections of its own.
     for (const std::string& material : materials_)
       for (const noell_setting& setting : all)
@@ -115,11 +117,13 @@ class noell_sweep {
     return all;
   }
 
-  /// Of all materials with the first seed, then the second, and so on.
-  [[nodiscard]] std::vector<json> results(const noell_setting& setting) const {
+  [[nodiscard]] std::vector<json> results(const noell_setting& setting) const { return results(setting, materials_); }
+
+  /// Of some materials with the first seed, then the second, and so on.
+  [[nodiscard]] std::vector<json> results(const noell_setting& setting, std::span<const std::string> materials) const {
     std::vector<json> found;
     for (const std::uint64_t seed : options_.seeds)
-      for (const std::string& material : materials_)
+      for (const std::string& material : materials)
         found.push_back(*results_.find(key_of(setting.method, case_of(setting, material, seed))));
     return found;
   }
@@ -127,6 +131,22 @@ class noell_sweep {
   [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
 
  private:
+  /// What the missing cases of a method, a share of data and a seed have in common.
+  void prepare() {
+    for (const std::string& method : options_.methods)
+      for (const double data_ratio : options_.data_ratios)
+        for (const std::uint64_t seed : options_.seeds) {
+          std::vector<noell_case> missing;
+          for (const double outlier_ratio : options_.outlier_ratios)
+            for (const std::string& material : materials_) {
+              const noell_case which{material, data_ratio, outlier_ratio, seed, {}};
+              if (!results_.find(key_of(method, which))) missing.push_back(which);
+            }
+          gonio::report(listener_, method + ", data " + fixed(data_ratio, 2), 0.0);
+          experiment_.prepare(method, missing);
+        }
+  }
+
   [[nodiscard]] static noell_case case_of(const noell_setting& setting, const std::string& material,
                                           std::uint64_t seed) {
     return {material, setting.data_ratio, setting.outlier_ratio, seed, setting.iterations};
@@ -186,16 +206,26 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
   }
 }
 
-void print_table(const noell_options& options, const noell_sweep& sweep) {
+/// Those of the materials that no default was chosen on.
+[[nodiscard]] std::vector<std::string> unseen(std::vector<std::string> materials) {
+  const auto seen = gonio::nielsen_test_materials();
+  std::erase_if(materials, [&](const std::string& name) {
+    return std::ranges::count(seen, name) > 0 || std::ranges::count(noell_tuned_materials, name) > 0;
+  });
+  return materials;
+}
+
+void print_table(const noell_options& options, const noell_sweep& sweep, std::span<const std::string> materials,
+                 const std::string& which) {
   const bool natural = !options.environment.empty();
-  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << sweep.materials().size() << " materials x "
+  std::cout << "Mean Delta E over the sphere; mean, median and worst of " << materials.size() << ' ' << which << " x "
             << options.seeds.size() << " outlier seeds, and the range of the peak ratio (green).\n\n"
             << "| method | data | outliers | paper | formula light: mean | median | worst | peak ratio |"
             << (natural ? " natural light: mean | median | worst | peak ratio |\n" : "\n")
             << "|---|---|---|---|---|---|---|---|" << (natural ? "---|---|---|---|\n" : "\n");
   for (const noell_setting& setting : sweep.settings()) {
     const auto& [method, iterations, data_ratio, outlier_ratio] = setting;
-    const auto results = sweep.results(setting);
+    const auto results = sweep.results(setting, materials);
     std::cout << "| " << setting.name() << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
               << fixed(outlier_ratio, 1) << " | "
               << printed(noell_experiment::published(method, data_ratio, outlier_ratio)) << " | "
@@ -203,9 +233,6 @@ void print_table(const noell_options& options, const noell_sweep& sweep) {
     if (natural) std::cout << ' ' << summary(results, "delta_e_natural", options.seeds.size()) << " |";
     std::cout << '\n';
   }
-  if (options.iterations.size() < 2) return;
-  std::cout << '\n';
-  print_harm(options, sweep);
 }
 
 /// The share of outliers that each estimate reports, beside the true one: a row for each amount of data.
@@ -242,7 +269,15 @@ void run_noell(const noell_options& options) {
   sweep.run();
   bar.wipe();
   if (options.print_json) return print_json(options, sweep);
-  print_table(options, sweep);
+  print_table(options, sweep, sweep.materials(), "materials");
+  if (const auto others = unseen(sweep.materials()); !others.empty() && others.size() < sweep.materials().size()) {
+    std::cout << '\n';
+    print_table(options, sweep, others, "of them, on which no default was chosen,");
+  }
+  if (options.iterations.size() > 1) {
+    std::cout << '\n';
+    print_harm(options, sweep);
+  }
   if (options.iterations.empty()) print_outliers(options, sweep);
 }
 
@@ -293,7 +328,8 @@ void add_noell_tables(command& app) {
   add_noell(app, "noell-table1", "Noell et al. 2014, Table 1: data ratios by outlier ratios", first);
 
   noell_options second;
-  second.methods = {"our-lin", "our-root", "our", "lc-lin", "lc-root", "lc"};
+  second.methods = {"our-lin", "our-root", "our", "printed-lin", "printed-root", "printed",
+                    "lc-lin",  "lc-root",  "lc",  "rbf-lin",     "rbf-root",     "rbf"};
   second.data_ratios = {1.0};
   second.outlier_ratios = {0.0};
   add_noell(app, "noell-table2", "Noell et al. 2014, Table 2: error metrics, from full data", second);

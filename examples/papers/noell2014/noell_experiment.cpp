@@ -3,6 +3,7 @@
 #include "command_line/json.hpp"
 #include "papers/noell2014/noell_measures.hpp"
 #include <gonio/basis/rbf.hpp>
+#include <gonio/estimate/basis_equations.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/estimate/pull_push.hpp>
@@ -46,6 +47,17 @@ struct method_name {
   return std::nullopt;
 }
 
+/// The names to leave out for a material's sake: none if it has no name.
+[[nodiscard]] std::vector<std::string> names_of(const std::string& material) {
+  return material.empty() ? std::vector<std::string>() : std::vector{material};
+}
+
+/// What a case measures.
+using case_key = std::tuple<std::string, double, double, std::uint64_t>;
+[[nodiscard]] case_key key_of(const noell_case& which) {
+  return {which.material, which.data_ratio, which.outlier_ratio, which.seed};
+}
+
 /// A value made when it is first asked for.
 template <class Value>
 class made_on_demand {
@@ -65,10 +77,15 @@ class made_on_demand {
 template <class Metric>
 struct combinations_under {
   made_on_demand<gonio::measured<Metric>> materials;
+  made_on_demand<gonio::rbf<Metric>> radial_functions;
+  std::map<case_key, Eigen::MatrixXd> radial_weights;  // found beforehand
   std::map<std::pair<double, std::uint64_t>, gonio::planned_decomposition<Metric>> plans;
 };
 
 }  // namespace
+
+/// Only keeps the system solvable where samples are few.
+const gonio::tikhonov radial_penalty{1e-6};
 
 struct noell_experiment::parts {
   gonio::thread_count threads;
@@ -90,6 +107,37 @@ struct noell_experiment::parts {
     });
   }
 
+  template <class Metric>
+  const gonio::rbf<Metric>& radial_functions(const Metric& metric) {
+    return std::get<combinations_under<Metric>>(combinations).radial_functions.get([&] {
+      return gonio::rbf{truths.cells, metric};
+    });
+  }
+
+  /// The weights of radial basis functions for cases that measure at the same cells: they share their normal equations.
+  template <class Metric>
+  void solve_radial(const Metric& metric, std::span<const noell_case> cases) {
+    gonio::located_samples all = gonio::locate_samples(truths.cells, measure(cases.front()), threads);
+    all.values.resize(all.size(), 3 * std::ssize(cases));
+    for (std::size_t i = 0; i < cases.size(); ++i)
+      all.values.middleCols(3 * i, 3) = gonio::locate_samples(truths.cells, measure(cases[i]), threads).values;
+    const gonio::basis_equations equations(radial_functions(metric), std::move(all), threads);
+    const Eigen::MatrixXd weights = equations.solve(radial_penalty).weights;
+    auto& known = std::get<combinations_under<Metric>>(combinations).radial_weights;
+    for (std::size_t i = 0; i < cases.size(); ++i) known[key_of(cases[i])] = weights.middleCols(3 * i, 3);
+  }
+
+  /// Cells at random, the same for all materials, some of them with another cell's value.
+  [[nodiscard]] gonio::sample_set measure(const noell_case& which) const {
+    const std::size_t material = truths.find(which.material);
+    return gonio::sample_table(truths.table(material), cells_of(which), {.outlier_ratio = which.outlier_ratio},
+                               1000 * which.seed + material);
+  }
+
+  [[nodiscard]] std::vector<Eigen::Index> cells_of(const noell_case& which) const {
+    return gonio::random_cells(truths.cells, samples_of(which.data_ratio, truths.cells.size()), which.seed);
+  }
+
   /// The non-negative combination of all other materials.
   template <class Metric>
   [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
@@ -97,7 +145,7 @@ struct noell_experiment::parts {
     auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
     const auto plan =
         plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.locations, gonio::nnls{}, threads);
-    return plan.first->second.without({which.material}).reconstruct(located.channels());
+    return plan.first->second.without(names_of(which.material)).reconstruct(located.channels());
   }
 
   const gonio::correction& corrections_without(const std::string& material, bool printed) {
@@ -108,7 +156,7 @@ struct noell_experiment::parts {
     const auto& all = cache.all.get([&] {
       return gonio::correction{materials(gonio::log{}), rule, gonio::nnls{}, threads};
     });
-    return cache.fewer.get([&] { return all.without({material}); });
+    return cache.fewer.get([&] { return all.without(names_of(material)); });
   }
 
   /// An estimate, and which share of the samples it takes for outliers if it has an opinion.
@@ -124,11 +172,16 @@ struct noell_experiment::parts {
     const auto tabulated = [&](const auto& estimator) -> estimated {
       return {estimator.fit(samples).tabulate(truths.cells, threads)};
     };
-    if (method.method == "rbf")
-      return tabulated(gonio::decomposition{gonio::rbf{truths.cells, metric}, gonio::tikhonov{1e-6}, threads});
+    if (method.method == "rbf") {
+      const auto& functions = radial_functions(metric);
+      const auto& known = std::get<combinations_under<Metric>>(combinations).radial_weights;
+      if (const auto found = known.find(key_of(which)); found != known.end())
+        return {gonio::fitted_brdf{functions, found->second}.tabulate(truths.cells, threads)};
+      return tabulated(gonio::decomposition{functions, radial_penalty, threads});
+    }
     if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
 
-    const auto others = materials(metric).without({which.material});
+    const auto others = materials(metric).without(names_of(which.material));
     if (method.method == "lc") return {combination(metric, which, samples).tabulate(truths.cells, threads)};
     gonio::correction_limits limits;
     limits.rounds = which.iterations.value_or(limits.rounds);
@@ -173,6 +226,21 @@ noell_experiment::~noell_experiment() = default;
 
 const std::vector<std::string>& noell_experiment::names() const noexcept { return parts_->truths.names; }
 
+const gonio::material_set& noell_experiment::materials() const noexcept { return parts_->truths; }
+
+gonio::brdf_table noell_experiment::estimate(const std::string& method, const noell_case& which,
+                                             const gonio::sample_set& samples) {
+  return parts_->estimate(*parse(method), which, samples).table;
+}
+
+gonio::measured<gonio::log> noell_experiment::materials_without(const std::string& material) {
+  return parts_->materials(gonio::log{}).without(names_of(material));
+}
+
+const gonio::correction& noell_experiment::corrections_without(const std::string& material) {
+  return parts_->corrections_without(material, false);
+}
+
 Eigen::Index noell_experiment::samples_of(double data, Eigen::Index cells) noexcept {
   return data <= 1.0 ? gonio::share_of(cells, data) : std::min<Eigen::Index>(std::llround(data), cells);
 }
@@ -193,12 +261,8 @@ namespace {
 }  // namespace
 
 json noell_experiment::run(const std::string& method, const noell_case& which) {
-  const std::size_t material = parts_->truths.find(which.material);
-  const gonio::brdf_table truth = parts_->truths.table(material);
-  const std::size_t count = samples_of(which.data_ratio, truth.cells().size());
-  const auto cells = gonio::random_cells(truth.cells(), count, which.seed);
-  const auto samples =
-      gonio::sample_table(truth, cells, {.outlier_ratio = which.outlier_ratio}, 1000 * which.seed + material);
+  const gonio::brdf_table truth = parts_->truths.table(parts_->truths.find(which.material));
+  const gonio::sample_set samples = parts_->measure(which);
 
   const auto start = std::chrono::steady_clock::now();
   const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
@@ -208,8 +272,23 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   result["seconds"] = elapsed.count();
   if (!outliers) return result;
   result["outliers"] = *outliers;
-  result["off"] = share_off(samples, gonio::sample_table(truth, cells));
+  result["off"] = share_off(samples, gonio::sample_table(truth, parts_->cells_of(which)));
   return result;
+}
+
+void noell_experiment::prepare(const std::string& method, std::span<const noell_case> cases) {
+  const auto name = parse(method);
+  if (name->method != "rbf") return;
+  constexpr std::size_t together = 60;  // 180 right-hand sides of a million values are 1.6 GB
+  for (std::size_t begin = 0; begin < cases.size(); begin += together) {
+    const auto some = cases.subspan(begin, std::min(together, cases.size() - begin));
+    if (name->metric == "lin")
+      parts_->solve_radial(gonio::lin{}, some);
+    else if (name->metric == "root")
+      parts_->solve_radial(gonio::root{}, some);
+    else
+      parts_->solve_radial(gonio::log{}, some);
+  }
 }
 
 bool noell_experiment::iterates(const std::string& method) {

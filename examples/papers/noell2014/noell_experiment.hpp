@@ -4,13 +4,18 @@
 #include "command_line/json.hpp"
 #include "papers/experiments.hpp"
 #include "papers/noell2014/noell_tables.hpp"
+#include <gonio/basis/correction.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/progress.hpp>
+#include <gonio/metric/log.hpp>
+#include <gonio/table/material_set.hpp>
+#include <gonio/table/sample_set.hpp>
 
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,9 +38,26 @@ class noell_experiment {
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept;
 
+  /// The materials' tables.
+  [[nodiscard]] const gonio::material_set& materials() const noexcept;
+
+  /// The estimate by a method from samples, from all materials but that of the case; of all if it has no name.
+  [[nodiscard]] gonio::brdf_table estimate(const std::string& method, const noell_case& which,
+                                           const gonio::sample_set& samples);
+
+  /// All materials but one under the paper's metric.
+  [[nodiscard]] gonio::measured<gonio::log> materials_without(const std::string& material);
+
+  /// The correction functions of all materials but one, by gonio's rule.
+  [[nodiscard]] const gonio::correction& corrections_without(const std::string& material);
+
   /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_measures::judge`);
   /// seconds are those of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
+
+  /// Does what is done once for cases of the same share of data and seed, which are then quicker: radial basis
+  /// functions have their normal equations in common.
+  void prepare(const std::string& method, std::span<const noell_case> cases);
 
   /// How many of the cells are measured, given a share of them or, above 1, a number; at least 1.
   [[nodiscard]] static Eigen::Index samples_of(double data, Eigen::Index cells) noexcept;

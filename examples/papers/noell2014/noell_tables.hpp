@@ -18,6 +18,14 @@ inline constexpr std::array noell_outlier_ratios{0.0, 0.2, 0.4, 0.6, 0.8};
   return outlier_ratio <= 0.0 ? 0.0 : outlier_ratio <= 0.2 ? 3.0 : 6.0;
 }
 
+/// Materials that the robust estimate and its defaults were chosen on, beside Nielsen et al.'s ten test materials.
+inline constexpr std::array noell_tuned_materials{
+    "black-obsidian",        "black-phenolic",          "chrome-steel",
+    "color-changing-paint3", "grease-covered-steel",    "nickel",
+    "red-phenolic",          "silicon-nitrade",         "silver-metallic-paint2",
+    "specular-red-phenolic", "specular-white-phenolic", "ss440",
+    "violet-acrylic",        "white-acrylic",           "white-paint"};
+
 namespace detail {
 
 /// Mean CIELAB differences by outlier ratio and data ratio.
