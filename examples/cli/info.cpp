@@ -108,16 +108,20 @@ json weights_of(const gonio::log_relative_pca& prior, const info_options& option
   return {{"r", array_of(weights.col(0))}, {"g", array_of(weights.col(1))}, {"b", array_of(weights.col(2))}};
 }
 
+/// To four decimals, for people.
+json rounded(const Eigen::VectorXd& values) { return array_of((1e4 * values).array().round() / 1e4); }
+
 /// Draws the components of a prior, and adds what the images mean.
 json describe_components(const gonio::log_relative_pca& prior, const info_options& options) {
   if (options.count > prior.size())
     gonio::refuse({"--count ", options.count, ": ", options.file.native(), " has ", prior.size(), " components"});
-  json facts{{"shares_of_variance", array_of(gonio::variance_shares(prior).head(options.count))},
+  json facts{{"shares_of_variance", rounded(gonio::variance_shares(prior).head(options.count))},
              {"deviations_of_weights", array_of(gonio::weight_deviations(prior.coefficients()).head(options.count))}};
   if (!options.components.empty()) {
     const auto figure = draw_component_slices(prior, options.count, options.size, options.threads);
     gonio::io::write_png(options.components, figure.image);
-    facts["pure_red_stands_for"] = figure.limits;
+    facts["pure_red_stands_for"] =
+        rounded(Eigen::Map<const Eigen::VectorXd>(figure.limits.data(), std::ssize(figure.limits)));
   }
   if (!options.component_spheres.empty())
     gonio::io::write_png(options.component_spheres,
