@@ -30,12 +30,12 @@ TEST_CASE("two priors in one: what both have in common") {
 }
 
 TEST_CASE("two priors over fewer cells are the two priors thinned") {
-  const gonio::valid_cells fine(gonio::grid({10, 9, 15})), coarse(gonio::grid({10, 3, 5}));
-  const auto prior = two_of(synthetic_materials(fine, 5)), thinned = prior.on(coarse);
-  CHECK(thinned.cells() == coarse);
+  const gonio::valid_cells of_many(gonio::grid({10, 9, 15})), of_few(gonio::grid({10, 3, 5}));
+  const auto prior = two_of(synthetic_materials(of_many, 5)), thinned = prior.on(of_few);
+  CHECK(thinned.cells() == of_few);
   CHECK(thinned.threshold() == prior.threshold());
-  CHECK(thinned.soft().components() == gonio::thin(prior.soft(), coarse).components());
-  CHECK(thinned.specular().mean() == gonio::thin(prior.specular(), coarse).mean());
+  CHECK(thinned.soft().components() == gonio::thin(prior.soft(), of_few).components());
+  CHECK(thinned.specular().mean() == gonio::thin(prior.specular(), of_few).mean());
 }
 
 TEST_CASE("priors that do not belong together are refused") {

@@ -39,15 +39,15 @@ TEST_CASE("both halves are learned relative to the reference of all, and parted 
 TEST_CASE("penalties are in proportion to the materials, and add up") {
   const auto prior = gonio::learn_soft_specular_prior(halved_materials(), median_of_all(), 5);
   REQUIRE(prior.materials() == 13);
-  const auto eta = gonio::penalties_in_proportion(prior, 26.0);
-  CHECK(eta.soft == doctest::Approx(2.0 * static_cast<double>(prior.soft().names().size())));
-  CHECK(eta.soft + eta.specular == doctest::Approx(26.0));
+  const auto penalties = gonio::penalties_in_proportion(prior, 26.0);
+  CHECK(penalties.soft == doctest::Approx(2.0 * static_cast<double>(prior.soft().names().size())));
+  CHECK(penalties.soft + penalties.specular == doctest::Approx(26.0));
 }
 
 TEST_CASE("the estimate is the ridge reconstruction by the half that the samples choose") {
   const auto prior = gonio::learn_soft_specular_prior(halved_materials(), median_of_all(), 5);
-  const auto eta = gonio::penalties_in_proportion(prior, 4.0);
-  const auto estimator = gonio::soft_specular_decomposition(prior, eta);
+  const auto penalties = gonio::penalties_in_proportion(prior, 4.0);
+  const auto estimator = gonio::soft_specular_decomposition(prior, penalties);
   int soft = 0;
   for (Eigen::Index m = 0; m < prior.materials(); ++m) {
     const auto samples =
@@ -57,7 +57,7 @@ TEST_CASE("the estimate is the ridge reconstruction by the half that the samples
     CHECK((fit.kind() == gonio::material_kind::soft) == is_soft);
     soft += is_soft ? 1 : 0;
     const auto expected = gonio::decomposition{is_soft ? prior.soft() : prior.specular(),
-                                               gonio::tikhonov{is_soft ? eta.soft : eta.specular}}
+                                               gonio::tikhonov{is_soft ? penalties.soft : penalties.specular}}
                               .fit(samples)
                               .tabulate(cells_with_peak());
     CHECK(std::ranges::equal(fit.tabulate(cells_with_peak()).values(), expected.values()));
