@@ -183,7 +183,10 @@ void add_info(command& app) {
                      "Of a prior: the weights of one of its materials, as gonio expand --weights takes them");
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
-  command.callback([options] {
+  command.callback([command, options] {
+    const bool draws = !options->components.empty() || !options->component_spheres.empty();
+    if (!draws && command.count("--count") + command.count("--size") > 0)
+      gonio::refuse("--count and --size need --components or --component-spheres");
     const json facts = describe_file(*options);
     if (options->print_json)
       std::cout << facts.dump(2) << '\n';

@@ -41,7 +41,7 @@ std::string source_of(const material_source& source, std::size_t materials) {
   return text;
 }
 
-/// "kept 60 components of 20 soft materials of networks.npy".
+/// "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".
 void print_kept(const gonio::log_relative_pca& learned, const std::string& what) {
   std::cout << "kept " << learned.size() << " components of " << what << ": "
             << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";

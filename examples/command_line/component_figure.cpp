@@ -8,6 +8,7 @@
 
 #include <array>
 #include <numbers>
+#include <vector>
 
 namespace cli {
 

@@ -5,13 +5,12 @@
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/parallel.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/slice.hpp>
 
 #include <Eigen/Core>
 
-#include <algorithm>
-#include <span>
 #include <vector>
 
 namespace cli {
