@@ -84,7 +84,8 @@ void require_no_search(const design_command& command) {
                   "--search");
 }
 
-/// A set of the literature.
+/// A set of the literature, as it is printed; of images, the samples are those of the images that a grid of the prior's
+/// cells has.
 designed set_of_the_literature(const gonio::log_relative_pca& prior, const design_command& command) {
   const bool is_of_spheres = command.design.geometry == "sphere";
   designed found;
@@ -92,7 +93,8 @@ designed set_of_the_literature(const gonio::log_relative_pca& prior, const desig
                   : is_of_spheres  ? gonio::design::nielsen_sphere_directions(command.published)
                                    : gonio::design::nielsen_directions(command.published);
   for (const gonio::half_difference& angles : found.samples) found.poses.push_back(gonio::to_directions(angles));
-  return is_of_spheres ? placed(prior, command.design, found.poses) : found;
+  if (is_of_spheres) found.samples = placed(prior, command.design, found.poses).samples;
+  return found;
 }
 
 void run(design_command command) {

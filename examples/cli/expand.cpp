@@ -2,17 +2,23 @@
 
 #include "command_line/chosen_networks.hpp"
 #include "command_line/measurement_files.hpp"
+#include "command_line/prior_material.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/basis/component_variance.hpp>
+#include <gonio/core/finite.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/text.hpp>
 #include <gonio/model/formula_materials.hpp>
 
-#include <algorithm>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace cli {
 
@@ -21,18 +27,56 @@ namespace {
 struct expand_options {
   std::filesystem::path networks, prior, output;
   std::string name, formula;
+  std::vector<std::string> weights;  ///< lists of numbers: one for all channels, or one for each
+  bool in_deviations = false;
   gonio::thread_count threads;
 };
 
-/// One of the materials a prior was learned from, by the coefficients that it stores.
+/// The numbers of a list, as 0.5,-1,2.
+std::vector<double> numbers_of(std::string_view list) {
+  std::vector<double> numbers;
+  for (bool more = true; more;) {
+    const std::size_t comma = list.find(',');
+    const std::string_view field = list.substr(0, comma);
+    double number = 0.0;
+    if (const char* wrong = gonio::io::detail::read_number(field, number))
+      gonio::refuse(
+          {"--weights: number ", numbers.size() + 1, " of a list, ", gonio::io::detail::quoted(field), ",", wrong});
+    numbers.push_back(number);
+    more = comma != std::string_view::npos;
+    if (more) list.remove_prefix(comma + 1);
+  }
+  return numbers;
+}
+
+/// The weights that --weights gives, components x 3: zero where it gives none.
+Eigen::MatrixXd given_weights(const expand_options& options, const gonio::log_relative_pca& prior) {
+  if (options.weights.size() != 1 && options.weights.size() != 3)
+    gonio::refuse(
+        {"--weights needs one list for all channels, or three for red, green and blue, not ", options.weights.size()});
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), 3);
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const auto numbers = numbers_of(options.weights[options.weights.size() == 1 ? 0 : channel]);
+    if (std::ssize(numbers) > prior.size())
+      gonio::refuse({"--weights: ", numbers.size(), " numbers are more than the ", prior.size(), " components of ",
+                     options.prior.native()});
+    for (Eigen::Index j = 0; j < std::ssize(numbers); ++j) weights(j, channel) = numbers[j];
+  }
+  if (options.in_deviations) weights.array().colwise() *= gonio::weight_deviations(prior.coefficients()).array();
+  return weights;
+}
+
+/// One of the materials a prior was learned from, by the coefficients that it stores, or its mean; and what the weights
+/// given add.
 gonio::brdf_table table_of_prior(const expand_options& options, const gonio::valid_cells& cells) {
   const auto prior = gonio::io::read_prior(options.prior);
-  const auto found = std::ranges::find(prior.names(), options.name);
-  if (found == prior.names().end())
-    gonio::refuse(options.prior.string() + ": there is no material named '" + options.name + "'");
-  gonio::solution stored;
-  stored.weights = prior.weights_of(found - prior.names().begin());
-  return gonio::fitted_brdf(prior, std::move(stored)).tabulate(cells, options.threads);
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), 3);
+  if (!options.name.empty()) weights = prior.weights_of(material_number(prior, options.name, options.prior));
+  if (!options.weights.empty()) weights += given_weights(options, prior);
+  gonio::brdf_table table = gonio::fitted_brdf(prior, weights).tabulate(cells, options.threads);
+  if (!options.weights.empty() && !gonio::all_finite(table.values()))
+    gonio::refuse("--weights are too large: their table is not finite (gonio info --components has the deviations)");
+  return table;
 }
 
 gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cells& cells) {
@@ -46,24 +90,37 @@ gonio::brdf_table table_of(const expand_options& options, const gonio::valid_cel
 }  // namespace
 
 void add_expand(command& app) {
-  auto command =
-      app.add_subcommand("expand", "Write a material given by a network, the prior or a formula as a MERL table");
+  auto command = app.add_subcommand(
+      "expand", "Write a material given by a network, the prior, weights or a formula as a MERL table");
   const auto options = std::make_shared<expand_options>();
   auto networks =
       command.add_input("--networks", options->networks, "File of networks (.npy, names in merl_names.txt beside it)");
   add_prior_option(command, options->prior);
   command.add_option("--name", options->name, "Name of a material of the networks, or else of the prior");
+  auto weights = command
+                     .add_option("--weights", options->weights,
+                                 "Weights of the prior's components, as 0.5,-1,2: those that are not given are zero. "
+                                 "Once for all channels, or three times, for red, green and blue. With --name they are "
+                                 "added to that material's")
+                     .repeatable()
+                     .excludes(networks);
+  command
+      .add_flag("--in-deviations", options->in_deviations,
+                "--weights are in standard deviations of the weights that the prior's materials have")
+      .needs(weights);
   std::string known;
   for (const std::string& formula : gonio::model::formula_material_names())
     known += (known.empty() ? "" : ", ") + formula;
   command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
-      .excludes(networks);
+      .excludes(networks)
+      .excludes(weights);
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)")
       .required();
   add_threads_option(command, options->threads);
   command.callback([options] {
-    if (options->formula.empty() && options->name.empty())
-      gonio::refuse("expand needs a material: --name NAME (of --prior or --networks), or --formula NAME");
+    if (options->formula.empty() && options->name.empty() && options->weights.empty())
+      gonio::refuse(
+          "expand needs a material: --name NAME (of --prior or --networks), --weights W1,W2,... or --formula NAME");
     write_table(options->output, table_of(*options, gonio::valid_cells()));
   });
 }

@@ -1,14 +1,20 @@
 /// gonio info: what a file holds.
 
+#include "command_line/component_figure.hpp"
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
 #include "command_line/measures_as_json.hpp"
+#include "command_line/prior_material.hpp"
+#include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/io/image.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/soft_specular_prior.hpp>
 
 #include <iostream>
 #include <memory>
@@ -18,8 +24,17 @@ namespace cli {
 namespace {
 
 struct info_options {
-  std::filesystem::path file;
+  std::filesystem::path file, components, component_spheres;
+  std::string weights_of;
+  Eigen::Index count = 5;
+  int size = 128;
   bool print_json = false;
+  gonio::thread_count threads;
+
+  /// What only a prior has.
+  [[nodiscard]] bool asks_for_prior() const {
+    return !components.empty() || !component_spheres.empty() || !weights_of.empty();
+  }
 };
 
 json describe(const gonio::valid_cells& cells) {
@@ -61,6 +76,20 @@ json describe(const gonio::log_relative_pca& prior) {
   return result;
 }
 
+json describe(const gonio::soft_specular_prior& prior) {
+  const auto half = [](const gonio::log_relative_pca& one) {
+    return json{{"materials", one.names().size()},
+                {"components", one.size()},
+                {"explained_variance", one.explained_variance()},
+                {"names", one.names()}};
+  };
+  json result{{"kind", "soft and specular prior"}, {"source", prior.soft().source()}, {"threshold", prior.threshold()}};
+  result.update(describe(prior.cells()));
+  result["soft"] = half(prior.soft());
+  result["specular"] = half(prior.specular());
+  return result;
+}
+
 json describe(const gonio::sample_set& samples) {
   gonio::rgb low = samples.front().value, high = low;
   for (const gonio::sample& s : samples) {
@@ -71,15 +100,56 @@ json describe(const gonio::sample_set& samples) {
       {"kind", "samples"}, {"samples", samples.size()}, {"minimum", per_channel(low)}, {"maximum", per_channel(high)}};
 }
 
+json array_of(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
+
+/// The weights of one of its materials, as --weights of gonio expand takes them.
+json weights_of(const gonio::log_relative_pca& prior, const info_options& options) {
+  const Eigen::MatrixXd weights = prior.weights_of(material_number(prior, options.weights_of, options.file));
+  return {{"r", array_of(weights.col(0))}, {"g", array_of(weights.col(1))}, {"b", array_of(weights.col(2))}};
+}
+
+/// To four decimals, for people.
+json rounded(const Eigen::VectorXd& values) { return array_of((1e4 * values).array().round() / 1e4); }
+
+/// Draws the components of a prior, and adds what the images mean.
+json describe_components(const gonio::log_relative_pca& prior, const info_options& options) {
+  if (options.count > prior.size())
+    gonio::refuse({"--count ", options.count, ": ", options.file.native(), " has ", prior.size(), " components"});
+  json facts{{"shares_of_variance", rounded(gonio::variance_shares(prior).head(options.count))},
+             {"deviations_of_weights", array_of(gonio::weight_deviations(prior.coefficients()).head(options.count))}};
+  if (!options.components.empty()) {
+    const auto figure = draw_component_slices(prior, options.count, options.size, options.threads);
+    gonio::io::write_png(options.components, figure.image);
+    facts["pure_red_stands_for"] =
+        rounded(Eigen::Map<const Eigen::VectorXd>(figure.limits.data(), std::ssize(figure.limits)));
+  }
+  if (!options.component_spheres.empty())
+    gonio::io::write_png(options.component_spheres,
+                         draw_component_spheres(prior, options.count, options.size, options.threads));
+  return facts;
+}
+
+json describe_prior(const info_options& options) {
+  const auto prior = gonio::io::read_prior(options.file);
+  json facts = describe(prior);
+  if (!options.weights_of.empty()) facts["weights"] = weights_of(prior, options);
+  if (!options.components.empty() || !options.component_spheres.empty())
+    facts.update(describe_components(prior, options));
+  return facts;
+}
+
 /// By what the file starts with or how its name ends.
-json describe_file(const std::filesystem::path& path) {
+json describe_file(const info_options& options) {
+  const std::filesystem::path& path = options.file;
+  if (options.asks_for_prior()) return describe_prior(options);
   const std::string name = path.filename().string();
   if (name.ends_with(".csv") || name.ends_with(".brdf")) return describe(read_measurements(path));
   if (name.ends_with(".npy")) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
   }
-  if (gonio::io::is_prior(path)) return describe(gonio::io::read_prior(path));
+  if (gonio::io::is_prior(path)) return describe_prior(options);
+  if (gonio::io::is_soft_specular_prior(path)) return describe(gonio::io::read_soft_specular_prior(path));
   return describe(gonio::io::read_merl_any(path));
 }
 
@@ -94,9 +164,30 @@ void add_info(command& app) {
   auto command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
   const auto options = std::make_shared<info_options>();
   command.add_input("file", options->file, "The file").required();
+  command.add_output(
+      "--components", options->components, {".png"},
+      "Of a prior: image to write (.png) of slices at phi_d = 90 degrees, theta_h to the right and theta_d upwards: "
+      "the reference BRDF, then what one standard deviation of each of the first components adds to the mapped "
+      "reflectance, from blue (less) over white to red (more), each in a scale of its own (Nielsen et al. 2015, Fig. "
+      "3)");
+  command.add_output("--component-spheres", options->component_spheres, {".png"},
+                     "Of a prior: image to write (.png) of spheres, a column for each of the first components, whose "
+                     "weight is -2, -1, 0, 1 and 2 standard deviations from the top to the bottom");
+  command.add_option("--count", options->count, "How many components are drawn")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--size", options->size, "Rows and columns of each slice or sphere")
+      .check(check::range(8, 1024))
+      .capture_default_str();
+  command.add_option("--weights-of", options->weights_of,
+                     "Of a prior: the weights of one of its materials, as gonio expand --weights takes them");
   command.add_flag("--json", options->print_json, "Print as JSON");
-  command.callback([options] {
-    const json facts = describe_file(options->file);
+  add_threads_option(command, options->threads);
+  command.callback([command, options] {
+    const bool draws = !options->components.empty() || !options->component_spheres.empty();
+    if (!draws && command.count("--count") + command.count("--size") > 0)
+      gonio::refuse("--count and --size need --components or --component-spheres");
+    const json facts = describe_file(*options);
     if (options->print_json)
       std::cout << facts.dump(2) << '\n';
     else

@@ -7,10 +7,14 @@
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/soft_specular_prior.hpp>
 
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
 
 namespace cli {
 
@@ -22,6 +26,7 @@ struct learn_options {
   Eigen::Index components = 60;
   std::string cosine_weight = "product";
   thinning thin{{3, 5}};
+  bool split = false;
   gonio::thread_count threads;
 };
 
@@ -34,6 +39,42 @@ std::string source_of(const material_source& source, std::size_t materials) {
       text += (text.size() == start ? "" : ", ") + path.lexically_normal().filename().string();
   for (const std::string& name : source.exclude) text += (name == source.exclude.front() ? ", without " : ", ") + name;
   return text;
+}
+
+/// "kept 60 components of 45 soft of 90 materials of networks.npy: 99.87 % of the mapped variance".
+void print_kept(const gonio::log_relative_pca& learned, const std::string& what) {
+  std::cout << "kept " << learned.size() << " components of " << what << ": "
+            << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";
+}
+
+/// One prior for the soft and one for the specular materials.
+void learn_split(const learn_options& options, const gonio::material_set& materials, const gonio::log_relative& metric,
+                 const std::string& source, const gonio::progress& listener) {
+  const auto cells = options.thin.of(materials.cells);
+  const auto learned =
+      gonio::learn_soft_specular_prior(materials, metric, options.components, {}, options.threads, listener);
+  gonio::io::write_soft_specular_prior(options.output, learned.on(cells).with_source(source));
+  const auto half = [&](const gonio::log_relative_pca& prior, const char* kind) {
+    print_kept(prior, std::to_string(prior.names().size()) + ' ' + kind + " of " + source);
+  };
+  half(learned.soft(), "soft");
+  half(learned.specular(), "specular");
+  std::cout << "a material is specular from a highlight contrast of " << fixed(learned.threshold(), 3) << " on\n";
+}
+
+void learn(const learn_options& options) {
+  progress_bar bar;
+  auto materials = read_materials(options.materials, options.threads, bar.listener());
+  const std::string source = source_of(options.materials, materials.names.size());
+  const auto weighting =
+      options.cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
+  const auto metric = gonio::log_relative::to_median_of(materials, options.threads).weighted_by(weighting);
+  if (options.split) return learn_split(options, materials, metric, source, bar.listener());
+  const auto cells = options.thin.of(materials.cells);
+  const auto learned =
+      gonio::learn_pca(std::move(materials), metric, options.components, options.threads, bar.listener());
+  gonio::io::write_prior(options.output, gonio::thin(learned, cells).with_source(source));
+  print_kept(learned, source);
 }
 
 }  // namespace
@@ -51,23 +92,13 @@ void add_learn(command& app) {
                   "2015, Eq. 2), or the larger of them (Xu et al. 2016, section 3). The prior keeps it")
       .check(check::one_of({"product", "larger"}))
       .capture_default_str();
+  command.add_flag("--split", options->split,
+                   "Two priors in one file, of the soft and of the specular half of the materials by the contrast of "
+                   "their highlights, for gonio reconstruct --method soft-specular (Nielsen et al. 2015, section 8)");
   add_thin_option(command, options->thin);
   command.add_output("-o,--output", options->output, {".prior"}, "Prior to write (.prior)").required();
   add_threads_option(command, options->threads);
-  command.callback([options] {
-    progress_bar bar;
-    auto materials = read_materials(options->materials, options->threads, bar.listener());
-    const std::string source_text = source_of(options->materials, materials.names.size());
-    const auto cells = options->thin.of(materials.cells);
-    const auto weighting =
-        options->cosine_weight == "larger" ? gonio::cosine_weighting::larger : gonio::cosine_weighting::product;
-    const auto metric = gonio::log_relative::to_median_of(materials, options->threads).weighted_by(weighting);
-    const auto learned =
-        gonio::learn_pca(std::move(materials), metric, options->components, options->threads, bar.listener());
-    gonio::io::write_prior(options->output, gonio::thin(learned, cells).with_source(source_text));
-    std::cout << "kept " << learned.size() << " components of " << source_text << ": "
-              << fixed(100.0 * learned.explained_variance(), 2) << " % of the mapped variance\n";
-  });
+  command.callback([options] { learn(*options); });
 }
 
 }  // namespace cli

@@ -44,6 +44,12 @@ const std::vector<method>& methods() {
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
         "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
         "--uncertainty-image"}},  // refuses some of them itself, and says why
+      {"soft-specular",
+       "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
+       "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "
+       "et al. 2015, section 8)",
+       reconstruct_by_soft_or_specular,
+       {"--prior", "--eta"}},
       {"linear",
        "a combination of the materials themselves (Noell et al. 2014)",
        reconstruct_by_materials,

@@ -13,14 +13,21 @@
 #include <gonio/estimate/errors_in_variables_decomposition.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/pull_push.hpp>
+#include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <cmath>
+#include <string>
+#include <variant>
 
 namespace cli {
 
 namespace {
+
+/// The penalty of Nielsen et al. 2015, section 6.
+constexpr double published_eta = 40.0;
 
 /// The solver's report.
 void describe(const gonio::solution& found, std::size_t samples, reconstruction& result) {
@@ -101,6 +108,31 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options.threads);
   result.details["eta"] = eta;
   result.sentence += ", eta " + fixed(eta, 3);
+  return result;
+}
+
+reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const std::filesystem::path& file = options.materials.prior;
+  if (gonio::io::is_prior(file))
+    gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
+                   " has one of all materials"});
+  const auto prior = gonio::io::read_soft_specular_prior(file);
+  const std::string& stated = options.solver.eta;
+  if (stated == "gcv" || stated == "loo")
+    gonio::refuse("--method soft-specular needs a number as its --eta, not " + stated);
+  const double eta = stated.empty() ? published_eta : number_of_eta(stated);
+  const auto penalties = gonio::penalties_in_proportion(prior, eta);
+  const auto fitted = gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples);
+  const bool is_soft = fitted.kind() == gonio::material_kind::soft;
+  reconstruction result = std::visit(
+      [&](const auto& chosen) { return described(chosen, samples.size(), options.threads); }, fitted.chosen());
+  result.details["kind"] = is_soft ? "soft" : "specular";
+  result.details["contrast"] = fitted.contrast();
+  result.details["threshold"] = prior.threshold();
+  result.details["eta"] = is_soft ? penalties.soft : penalties.specular;
+  result.sentence = std::string("taken for ") + (is_soft ? "soft" : "specular") + ": a highlight contrast of " +
+                    fixed(fitted.contrast(), 2) + ", where " + fixed(prior.threshold(), 2) + " divides; " +
+                    result.sentence;
   return result;
 }
 

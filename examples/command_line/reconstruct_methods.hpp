@@ -55,6 +55,10 @@ struct reconstruction {
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
 
+/// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
+[[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
+                                                             const gonio::sample_set& samples);
+
 /// The materials themselves under any metric (Noell et al. 2014, section 2.2).
 [[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);

@@ -20,6 +20,7 @@ void add_directions(command& app);
 void add_directions_measured(command& app);
 void add_figures(command& app);
 void add_soft_specular(command& app);
+void add_components(command& app);
 void add_eta(command& app);
 void add_models(command& app);
 void add_model_properties(command& app);

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
   papers::add_directions_measured(app);
   papers::add_figures(app);
   papers::add_soft_specular(app);
+  papers::add_components(app);
   papers::add_eta(app);
   papers::add_models(app);
   papers::add_model_properties(app);

@@ -4,6 +4,7 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/combine.hpp>
+#include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/correction.hpp>
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/basis/expand_materials.hpp>
@@ -14,3 +15,4 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/project.hpp>
 #include <gonio/basis/rbf.hpp>
+#include <gonio/basis/soft_specular_prior.hpp>

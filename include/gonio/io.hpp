@@ -26,6 +26,7 @@
 #include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
+#include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>

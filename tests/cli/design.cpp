@@ -174,12 +174,42 @@ TEST_CASE("the literature's sets are written as they are printed") {
   CHECK(board.unknown_after("--published 2 --geometry sphere") <
         board.unknown_after("--published 1 --geometry sphere"));
 
+  REQUIRE(board.design("--published 2 --geometry sphere", "images.csv").exit_code == 0);
+  const auto images = board.poses("images.csv");
+  REQUIRE(images.size() == 2);
+  CHECK(gonio::degrees(gonio::to_half_difference(images[0].wi, images[0].wo).theta_d) == doctest::Approx(4.0));
+  CHECK(gonio::degrees(gonio::to_half_difference(images[1].wi, images[1].wo).theta_d) == doctest::Approx(70.0));
+
   board.refuses("--published 3", {"there is no published set of 3", "1, 2, 5, 10 or 20"});
   board.refuses("--published 10 --geometry sphere", {"images of a sphere", "1, 2 or 5"});
   board.refuses("--published 1 --geometry near-field", {"--published needs --geometry point or sphere"});
   board.refuses("--industry --geometry sphere", {"--industry needs --geometry point"});
   board.refuses("--industry --published 5", {"choose one"});
   board.refuses("--published 5 --criterion perceived", {"--published searches for nothing", "--criterion"});
+}
+
+TEST_CASE("the literature's sets that ship are what the tool writes, and can be read as they are") {
+  const drawing_board board;
+  const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/directions/";
+  const auto ships = [&](const std::string& name, const std::string& arguments, std::size_t count) {
+    CAPTURE(name);
+    const auto result = board.design(arguments, "d.csv");
+    REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+    CHECK(scratch::get(shipped + name) == scratch::get(board.at("d.csv")));
+    CHECK(gonio::io::read_directions(shipped + name).size() == count);
+  };
+  for (const std::size_t n : {1, 2, 5, 10, 20})
+    ships("point-" + std::to_string(n) + "-published.csv", "--published " + std::to_string(n), n);
+  for (const std::size_t n : {1, 2, 5})
+    ships("sphere-" + std::to_string(n) + "-published.csv", "--geometry sphere --published " + std::to_string(n), n);
+  ships("point-5-industry.csv", "--industry", 5);
+
+  const std::string table = board.at("grey.binary"), samples = board.at("samples.csv");
+  REQUIRE(gonio_tool("expand --formula grey-lambertian -o " + table).exit_code == 0);
+  const auto measured =
+      gonio_tool("sample " + table + " --directions " + shipped + "point-10-published.csv -o " + samples);
+  REQUIRE_MESSAGE(measured.exit_code == 0, measured.output);
+  CHECK(gonio::io::read_samples(samples).size() == 10);
 }
 
 TEST_CASE("designs that cannot be made") {

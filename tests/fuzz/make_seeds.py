@@ -112,6 +112,8 @@ put("gzip", "stored", struct.pack("<H", 5) + zlib.compress(b"plain", 0))
 for extents, k, m in (((2, 2, 2), 1, 1), ((3, 4, 5), 3, 2)):
     put("prior", f"payload-{k}", prior(*extents, k, m))
     put("prior", f"whole-{k}.prior", checked(b"gonio-pca", prior(*extents, k, m)))
+halves = [prior(2, 2, 2, k, 1) for k in (1, 2)]
+put("prior", "split", b"gonio-split" + struct.pack("<d", 0.5) + b"".join(struct.pack("<Q", len(h)) + h for h in halves))
 for p, k, m in ((3, 1, 1), (6, 2, 3)):
     put("shape_model", f"payload-{k}", shapes(p, k, m))
     put("shape_model", f"whole-{k}.shapes", checked(b"gonio-shapes", shapes(p, k, m)))
@@ -162,7 +164,7 @@ put("json", "twice.json", '{"a":1,"b":{},"a":[18446744073709551615,-922337203685
 words = {
     "merl": ['\\x5A\\x00\\x00\\x00', '\\xB4\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x1F\\x8B\\x08', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF0\\xBF', '\\x00\\x00\\x00\\x00\\x00\\x00\\xF8\\x7F'],
     "gzip": ['\\x1F\\x8B\\x08', '\\x78\\x9C', '\\x78\\xDA', '\\x00\\x00\\xFF\\xFF', '\\x03\\x00'],
-    "prior": ['gonio-pca', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F', '\\x00\\x00\\xC0\\x7F'],
+    "prior": ['gonio-pca', 'gonio-split', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F', '\\x00\\x00\\xC0\\x7F'],
     "shape_model": ['gonio-shapes', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x00\\x80', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F'],
     "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
     "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],

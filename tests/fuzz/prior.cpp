@@ -1,14 +1,21 @@
-/// Priors: whole files, or the payload of one, to which the checksum is added.
+/// Priors, and files of a soft and a specular one: whole files, or the payload of a prior, to which the checksum is
+/// added.
 
 #include "harness.hpp"
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/soft_specular_prior.hpp>
 
 namespace {
 
 void read(fuzz::input bytes) {
   const gonio::io::checked_file_kind kind{"gonio-pca", 1, "prior"};
-  if (fuzz::text_of(bytes).starts_with(kind.magic))
+  const gonio::io::checked_file_kind split{"gonio-split", 1, "soft and specular prior"};
+  if (fuzz::text_of(bytes).starts_with(split.magic))
+    // What follows the magic word is a payload: with a checksum of its own hardly anything would get through.
+    static_cast<void>(gonio::io::decode_soft_specular_prior(
+        gonio::io::encode_checked(split, bytes.subspan(split.magic.size())), fuzz::bytes_name));
+  else if (fuzz::text_of(bytes).starts_with(kind.magic))
     static_cast<void>(gonio::io::decode_prior(bytes, fuzz::bytes_name));
   else
     static_cast<void>(gonio::io::decode_prior(gonio::io::encode_checked(kind, bytes), fuzz::bytes_name));

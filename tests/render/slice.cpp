@@ -41,6 +41,8 @@ TEST_CASE("theta_h runs to the right and theta_d upwards, at pixel centres, at p
       const rgb expected(x * x * pi / 2.0, y * pi / 2.0, pi / 2.0);
       CHECK((pixel(root, row, column) / pi - expected).abs().maxCoeff() < 1e-6);  // floats
       CHECK((pixel(linear, row, column) / pi - rgb(x * pi / 2.0, expected.y(), expected.z())).abs().maxCoeff() < 1e-6);
+      const auto angles = gonio::render::slice_angles({.rows = 6, .columns = 9}, row, column);
+      CHECK((rgb(angles.theta_h, angles.theta_d, angles.phi_d) - expected).abs().maxCoeff() < 1e-12);
     }
 }
 

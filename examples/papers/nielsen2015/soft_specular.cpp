@@ -12,10 +12,11 @@
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/few_samples.hpp"
 #include <gonio/basis/learn_pca.hpp>
-#include <gonio/basis/pca.hpp>
+#include <gonio/basis/soft_specular_prior.hpp>
 #include <gonio/design/published_directions.hpp>
-#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
+#include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/evaluate/appearance_metric.hpp>
 #include <gonio/evaluate/comparison.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
@@ -41,14 +42,14 @@ struct soft_specular_options {
   gonio::thread_count threads;
 };
 
-using ridge = gonio::decomposition<gonio::log_relative_pca, gonio::tikhonov>;
+using ridge = gonio::ridge_reconstruction;
 
 /// One estimator for all materials, and one for each half of them.
 struct rivals {
   ridge all;
   gonio::soft_or_specular<ridge, ridge> switching;
-  gonio::log_relative metric;
-  std::vector<std::string> soft, specular;  ///< the halves
+  gonio::soft_specular_prior halves;
+  gonio::soft_specular_penalties eta;  ///< of the halves
 };
 
 /// What a row of the table is about: the reconstruction taken of each material.
@@ -60,31 +61,23 @@ struct chosen_results {
 /// The materials whose errors the paper shows (Figure 2): soft, and not captured by the one prior.
 constexpr auto papers_example = "white-fabric";
 
-/// The weights of principal components have the variance 1 / (3 materials), whatever the materials, so the penalty that
-/// stands for the same noise is proportional to their number.
-double eta_of_half(const soft_specular_options& options, std::size_t half, std::size_t all) {
-  return options.eta_of_halves.value_or(options.eta * static_cast<double>(half) / static_cast<double>(all));
+/// In proportion to the materials of each half, or that of --eta-of-halves.
+gonio::soft_specular_penalties penalties_of(const soft_specular_options& options,
+                                            const gonio::soft_specular_prior& prior) {
+  if (options.eta_of_halves) return {*options.eta_of_halves, *options.eta_of_halves};
+  return gonio::penalties_in_proportion(prior, options.eta);
 }
 
 rivals learn_rivals(const soft_specular_options& options, gonio::material_set training,
                     const gonio::progress& listener) {
-  constexpr std::size_t every_component = 300;
-  const std::size_t count = training.names.size();
+  constexpr Eigen::Index every_component = 300;
   const auto metric = gonio::log_relative::to_median_of(training, options.threads);
-  auto [soft, specular, threshold] = gonio::split_by_contrast(training, metric, options.threshold, {}, options.threads);
-  const auto soft_names = soft.names, specular_names = specular.names;
-  const auto learn = [&](gonio::material_set from, double eta) {
-    return ridge{gonio::learn_pca(std::move(from), metric, every_component, options.threads, listener),
-                 gonio::tikhonov{eta}};
-  };
-  auto all = learn(std::move(training), options.eta);
-  auto for_soft = learn(std::move(soft), eta_of_half(options, soft_names.size(), count));
-  auto for_specular = learn(std::move(specular), eta_of_half(options, specular_names.size(), count));
-  return {std::move(all),
-          {std::move(for_soft), std::move(for_specular), metric, threshold},
-          metric,
-          soft_names,
-          specular_names};
+  auto halves =
+      gonio::learn_soft_specular_prior(training, metric, every_component, options.threshold, options.threads, listener);
+  const auto eta = penalties_of(options, halves);
+  auto switching = gonio::soft_specular_decomposition(halves, eta);
+  auto all = gonio::learn_pca(std::move(training), metric, every_component, options.threads, listener);
+  return {ridge{std::move(all), gonio::tikhonov{options.eta}}, std::move(switching), std::move(halves), eta};
 }
 
 /// For each material the one of two results that `takes_second(m)` says.
@@ -111,19 +104,20 @@ std::vector<chosen_results> reconstruct_all_ways(const rivals& from, const gonio
                                                  const gonio::appearance_metric& appearance, std::size_t count,
                                                  gonio::thread_count threads) {
   const auto cells = gonio::cells_at(truths.cells, gonio::design::nielsen_directions(count));
+  const gonio::log_relative& metric = from.halves.metric();
   const auto reconstruct = [&](const ridge& estimator) {
-    return reconstruct_from_cells(estimator, cells, truths, from.metric, appearance, threads);
+    return reconstruct_from_cells(estimator, cells, truths, metric, appearance, threads);
   };
   const auto all = reconstruct(from.all), soft = reconstruct(from.switching.soft()),
              specular = reconstruct(from.switching.specular());
   std::vector<chosen_results> rows{{"one prior", all}, {"soft prior", soft}, {"specular prior", specular}};
   const auto samples_of = [&](std::size_t m) { return gonio::sample_table(truths.table(m), cells); };
-  if (gonio::highlight_contrast(from.metric, samples_of(0)))
+  if (gonio::highlight_contrast(metric, samples_of(0)))
     rows.push_back({"switch by the samples", choose(soft, specular, [&](std::size_t m) {
                       return from.switching.choose(samples_of(m)) == gonio::material_kind::specular;
                     })});
   rows.push_back({"switch by the whole table", choose(soft, specular, [&](std::size_t m) {
-                    return gonio::highlight_contrast(from.metric, truths.table(m), {}, threads) >=
+                    return gonio::highlight_contrast(metric, truths.table(m), {}, threads) >=
                            from.switching.threshold();
                   })});
   rows.push_back({"oracle: the better rms", better(soft, specular, mapped_rms)});
@@ -141,11 +135,12 @@ void print_row(std::size_t count, const chosen_results& row) {
 }
 
 void print_heading(const rivals& from, const gonio::material_set& truths, const soft_specular_options& options) {
-  const std::size_t soft = from.soft.size(), specular = from.specular.size(), all = soft + specular;
-  std::cout << "Means over " << truths.names.size() << " test materials, " << all << " learned, eta = " << options.eta
-            << "; by contrast " << soft << " are soft (eta = " << fixed(eta_of_half(options, soft, all), 1) << ") and "
-            << specular << " specular (eta = " << fixed(eta_of_half(options, specular, all), 1) << "), parted at "
-            << fixed(from.switching.threshold(), 3) << ".\n\n"
+  const gonio::soft_specular_prior& halves = from.halves;
+  std::cout << "Means over " << truths.names.size() << " test materials, " << halves.materials()
+            << " learned, eta = " << options.eta << "; by contrast " << halves.soft().names().size()
+            << " are soft (eta = " << fixed(from.eta.soft, 1) << ") and " << halves.specular().names().size()
+            << " specular (eta = " << fixed(from.eta.specular, 1) << "), parted at " << fixed(halves.threshold(), 3)
+            << ".\n\n"
             << "| n | prior | rms | Delta E env | Delta E lights | " << papers_example
             << ": rms | Delta E env | Delta E lights |\n|---|---|---|---|---|---|---|---|\n";
 }
@@ -162,9 +157,9 @@ void run(const soft_specular_options& options) {
       listener);
   const gonio::appearance_metric appearance(cells, 36, options.threads);
 
-  json result{{"threshold", from.switching.threshold()},
-              {"soft_materials", from.soft},
-              {"specular_materials", from.specular},
+  json result{{"threshold", from.halves.threshold()},
+              {"soft_materials", from.halves.soft().names()},
+              {"specular_materials", from.halves.specular().names()},
               {"directions", json::object()}};
   if (!options.print_json) print_heading(from, truths, options);
   for (const Eigen::Index count : options.counts) {

@@ -1,6 +1,7 @@
 #pragma once
-/// A number as a colour, from blue over green to red, for images of differences. Noell, Koehler and Stricker 2014,
-/// Fig. 3: CIELAB differences "from blue (0.0), over green to red (20.0 and higher)".
+/// Numbers as colours. From blue over green to red, for images of how large a difference is: Noell, Koehler and
+/// Stricker 2014, Fig. 3, CIELAB differences "from blue (0.0), over green to red (20.0 and higher)". From blue over
+/// white to red, for what has a sign.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/rgb.hpp>
@@ -25,6 +26,15 @@ struct false_colour_range {
   // -1 is blue, 0 green, 1 red.
   const double place = std::clamp(2.0 * (value - range.blue) / (range.red - range.blue) - 1.0, -1.0, 1.0);
   return {std::max(place, 0.0), 1.0 - std::abs(place), std::max(-place, 0.0)};
+}
+
+/// The linear colour of a value with a sign: white at zero, red from `limit` on, blue up to minus that, mixed in linear
+/// light between them, so that for any value from -limit to limit red - blue is value / limit. NaN is not a value.
+[[nodiscard]] inline rgb diverging_colour(double value, double limit) noexcept {
+  GONIO_ASSERT(limit > 0.0);
+  GONIO_ASSERT(value == value);
+  const double share = std::clamp(value / limit, -1.0, 1.0);
+  return {1.0 + std::min(share, 0.0), 1.0 - std::abs(share), 1.0 - std::max(share, 0.0)};
 }
 
 }  // namespace gonio::render

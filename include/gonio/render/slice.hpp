@@ -27,6 +27,17 @@ struct slice_view {
   slice_axis axis = slice_axis::square_root;
 };
 
+/// Where a pixel of a slice is: theta_h and theta_d at its centre, phi_d = 90 degrees, in radians. Row 0 is at the top.
+[[nodiscard]] inline half_difference slice_angles(const slice_view& view, Eigen::Index row, Eigen::Index column) {
+  GONIO_ASSERT(row >= 0 && row < view.rows && column >= 0 && column < view.columns);
+  const grid nodes({view.columns, view.rows, 1}, cell_anchor::centre);
+  constexpr double right_angle = std::numbers::pi / 2.0;
+  const double theta_h = view.axis == slice_axis::square_root
+                             ? nodes.theta_h(static_cast<int>(column))
+                             : (static_cast<double>(column) + 0.5) / view.columns * right_angle;
+  return {theta_h, nodes.theta_d(view.rows - 1 - static_cast<int>(row)), right_angle};
+}
+
 /// f * pi over theta_h (along x, 0 at the left) and theta_d (along y, 0 at the bottom), both from 0 to 90 degrees
 /// and taken at pixel centres. The factor pi shows a white Lambertian surface as white; nothing is clipped. Grazing
 /// reflection is in the top row, mirror reflection in the left column, retro-reflection at the bottom, and all of
@@ -35,20 +46,14 @@ struct slice_view {
 template <brdf Brdf>
 [[nodiscard]] image render_slice(const Brdf& f, const slice_view& view = {}, thread_count threads = {}) {
   GONIO_ASSERT(view.rows >= 1 && view.columns >= 1);
-  const grid nodes({view.columns, view.rows, 1}, cell_anchor::centre);
-  const auto theta_h = [&](int column) {
-    if (view.axis == slice_axis::square_root) return nodes.theta_h(column);
-    return (column + 0.5) / view.columns * (std::numbers::pi / 2.0);
-  };
   const std::size_t rows = view.rows, columns = view.columns;
   image picture({rows, columns, std::size_t{3}});
   for_each_block(
       rows, 1,
       [&](block range) {
         const auto row = range.begin;
-        const double theta_d = nodes.theta_d(view.rows - 1 - static_cast<int>(row));
         for (int column = 0; column < view.columns; ++column) {
-          const auto [wi, wo] = to_directions({theta_h(column), theta_d, std::numbers::pi / 2.0});
+          const auto [wi, wo] = to_directions(slice_angles(view, row, column));
           set_pixel(picture, row, column, std::numbers::pi * rgb(f(wi, wo)));
         }
       },

@@ -10,6 +10,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,7 @@
 namespace gonio::io::detail {
 
 inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
+inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft and specular prior"};
 
 /// How cells are anchored and reflectance is weighted, in one number: version 1 has had the anchor's 0 and 1 there from
 /// the start, so that older programs refuse weights that they do not know.
@@ -177,6 +179,8 @@ GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) 
 }
 
 GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
+  if (detail::as_text(bytes).starts_with(detail::soft_specular_kind.magic))
+    gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
   return detail::take_prior(in, name);

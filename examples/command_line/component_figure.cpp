@@ -1,0 +1,70 @@
+#include "component_figure.hpp"
+
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/render/exposure.hpp>
+#include <gonio/render/false_colour.hpp>
+#include <gonio/render/horizon_lookup.hpp>
+#include <gonio/render/sphere.hpp>
+
+#include <array>
+#include <numbers>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+constexpr std::size_t margin = 6;
+const gonio::rgb paper = gonio::rgb::Constant(0.35);
+
+/// An image whose pixels are `colour(i)`, row by row from the top.
+template <class Colour>
+gonio::image square_image(int size, const Colour& colour) {
+  const std::size_t side = size;
+  gonio::image square({side, side, std::size_t{3}});
+  for (std::size_t row = 0; row < side; ++row)
+    for (std::size_t column = 0; column < side; ++column)
+      gonio::set_pixel(square, row, column, colour(static_cast<Eigen::Index>(row * side + column)));
+  return square;
+}
+
+}  // namespace
+
+component_figure detail::colour_slices(const Eigen::MatrixXd& values, int size) {
+  component_figure figure;
+  std::vector<gonio::image> slices{
+      square_image(size, [&](Eigen::Index i) { return gonio::rgb::Constant(std::numbers::pi * values(i, 0)); })};
+  for (Eigen::Index k = 1; k < values.cols(); ++k) {
+    const double largest = values.col(k).cwiseAbs().maxCoeff(), limit = largest > 0.0 ? largest : 1.0;
+    figure.limits.push_back(largest);
+    slices.push_back(
+        square_image(size, [&](Eigen::Index i) { return gonio::render::diverging_colour(values(i, k), limit); }));
+  }
+  figure.image = gonio::render::side_by_side(slices, margin, paper);
+  return figure;
+}
+
+gonio::image draw_component_spheres(const gonio::log_relative_pca& prior, Eigen::Index count, int size,
+                                    gonio::thread_count threads) {
+  const Eigen::VectorXd deviations = gonio::weight_deviations(prior.coefficients());
+  const auto sphere = [&](Eigen::Index component, double weight) {
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(prior.size(), 3);
+    weights.row(component).setConstant(weight * deviations[component]);
+    const auto table = gonio::fitted_brdf(prior, weights).tabulate(prior.cells(), threads);
+    return gonio::render::render_sphere(gonio::render::horizon_lookup(table), gonio::render::two_lights(),
+                                        {.size = size, .supersampling = 3}, threads);
+  };
+  const std::array mean{sphere(0, 0.0)};
+  const double exposure = gonio::render::exposure_of_spheres(mean);
+  std::vector<gonio::image> columns;
+  for (Eigen::Index component = 0; component < count; ++component) {
+    std::vector<gonio::image> spheres;
+    for (const int weight : {-2, -1, 0, 1, 2})
+      spheres.push_back(weight == 0 ? mean.front() : sphere(component, weight));
+    for (gonio::image& each : spheres) gonio::render::expose(each, exposure);
+    columns.push_back(gonio::render::stacked(spheres, margin / 2));
+  }
+  return gonio::render::side_by_side(columns, margin / 2);
+}
+
+}  // namespace cli
