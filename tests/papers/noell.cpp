@@ -128,8 +128,8 @@ TEST_CASE("noell-figures: each is drawn") {
   const std::string light = database.at("light.hdr"), image = database.at("figure.png");
   gonio::io::write_hdr(light, gonio::uniform_image(8, 16, gonio::rgb::Constant(0.5)));
   for (const std::string figure : {"2", "3"}) {
-    const std::string printed =
-        database.evaluate("noell-figures --material b --environment " + light + " --figure " + figure + " -o " + image);
+    const std::string printed = database.evaluate("noell-figures --data 0.002 --material b --environment " + light +
+                                                  " --figure " + figure + " -o " + image);
     CHECK(lines_with(printed, "| 1 | a |").size() == (figure == "2" ? 1 : 0));
     CHECK(lines_with(printed, "| our | ").size() == (figure == "3" ? 1 : 0));
     REQUIRE(std::filesystem::exists(image));

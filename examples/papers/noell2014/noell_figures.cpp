@@ -28,6 +28,7 @@ struct figure_options {
   int figure = 3;
   std::filesystem::path networks, environment, table, image;
   std::string material = "specular-red-phenolic";
+  double data_ratio = 0.1;
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -59,19 +60,19 @@ class noell_figures {
   }
 
  private:
-  /// Fig. 1: a tenth of the cells beyond 12 degrees of the highlight, two of ten with another cell's value.
+  /// Fig. 1: some of the cells beyond 12 degrees of the highlight, two of ten with another cell's value.
   void draw_overview() {
     const gonio::brdf_table truth = truth_of_material();
-    std::vector<Eigen::Index> cells = random_tenth(truth.cells());
+    std::vector<Eigen::Index> cells = random_cells_of(truth.cells());
     std::erase_if(cells, [&](Eigen::Index cell) { return truth.cells().angles(cell).theta_h < gonio::radians(12.0); });
     compare(truth, gonio::sample_table(truth, cells, {.outlier_ratio = 0.2}, options_.seed), options_.material,
             grace());
   }
 
-  /// Fig. 3: a random tenth, four of ten with another cell's value.
+  /// Fig. 3: cells at random, four of ten with another cell's value.
   void draw_methods() {
     const gonio::brdf_table truth = truth_of_material();
-    compare(truth, measured_tenth(truth), options_.material, grace());
+    compare(truth, measured_share(truth), options_.material, grace());
   }
 
   /// Fig. 5: a measured table that the database knows nothing of, under point lights.
@@ -79,7 +80,7 @@ class noell_figures {
     if (options_.table.empty()) gonio::refuse("--figure 5 needs --table FILE, a measured table");
     const gonio::brdf_table truth =
         gonio::resample(gonio::io::read_merl_any(options_.table), gonio::valid_cells(), options_.threads);
-    const auto cells = random_tenth(truth.cells());
+    const auto cells = random_cells_of(truth.cells());
     compare(truth, gonio::sample_table(truth, cells), "",
             {truth.cells(), gonio::render::two_lights(), cells_across_tile, gonio::sphere_delta_e::middle_grey,
              options_.threads});
@@ -97,8 +98,8 @@ class noell_figures {
               << "| method | Delta E |\n|---|---|\n";
     for (const std::string& method : all_methods) {
       gonio::report(listener_, method, 0.0);
-      const gonio::brdf_table estimate =
-          experiment_.estimate(method, {.material = left_out, .data_ratio = 0.1, .outlier_ratio = 0.4}, samples);
+      const gonio::brdf_table estimate = experiment_.estimate(
+          method, {.material = left_out, .data_ratio = options_.data_ratio, .outlier_ratio = 0.4}, samples);
       auto [image, mean] = spheres.difference(estimate);
       columns.push_back({slice_tile(estimate, options_.threads), spheres.sphere(estimate), std::move(image)});
       std::cout << "| " << method << " | " << fixed(mean, 2) << " |\n";
@@ -128,7 +129,7 @@ class noell_figures {
   /// Fig. 4: what the first rounds of our iteration do with the measurements of Fig. 3.
   void draw_iteration() {
     const gonio::brdf_table truth = truth_of_material();
-    const gonio::sample_set samples = measured_tenth(truth);
+    const gonio::sample_set samples = measured_share(truth);
     const gonio::correction& functions = experiment_.corrections_without(options_.material);
     iteration_figure figure(functions, samples, truth, options_.threads);
     const gonio::robust_reconstruction method{
@@ -150,12 +151,12 @@ class noell_figures {
     return experiment_.materials().table(experiment_.materials().find(options_.material));
   }
 
-  [[nodiscard]] std::vector<Eigen::Index> random_tenth(const gonio::valid_cells& cells) const {
-    return gonio::random_cells(cells, gonio::share_of(cells.size(), 0.1), options_.seed);
+  [[nodiscard]] std::vector<Eigen::Index> random_cells_of(const gonio::valid_cells& cells) const {
+    return gonio::random_cells(cells, gonio::share_of(cells.size(), options_.data_ratio), options_.seed);
   }
 
-  [[nodiscard]] gonio::sample_set measured_tenth(const gonio::brdf_table& truth) const {
-    return gonio::sample_table(truth, random_tenth(truth.cells()), {.outlier_ratio = 0.4}, options_.seed);
+  [[nodiscard]] gonio::sample_set measured_share(const gonio::brdf_table& truth) const {
+    return gonio::sample_table(truth, random_cells_of(truth.cells()), {.outlier_ratio = 0.4}, options_.seed);
   }
 
   /// The paper's light.
@@ -192,6 +193,9 @@ void add_noell_figures(command& app) {
   command.add_input("--environment", options->environment, "Latitude-longitude image of a natural light (.hdr)");
   command.add_input("--table", options->table, "The measured table of --figure 5 (MERL's format)");
   command.add_option("--material", options->material, "The material of the networks that is measured, but in 2 and 5")
+      .capture_default_str();
+  command.add_option("--data", options->data_ratio, "Share of the table that is measured")
+      .check(check::range(0.0, 1.0))
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
   command.add_output("-o,--output", options->image, {".png"}, "The figure");
