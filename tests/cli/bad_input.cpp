@@ -132,7 +132,9 @@ TEST_CASE("options of one method given to another") {
   refuses(start + "pull-push --iteration-figure " + (folder / "story").string(),
           {"--iteration-figure", "--method correction"});
   refuses(start + "correction --solver nnls", {"--solver", "pca or linear"});
-  refuses(start + "rbf --eta 3", {"--eta", "pca or linear"});
+  refuses(start + "rbf --eta 3", {"--eta", "pca or soft-specular or linear"});
+  refuses(start + "soft-specular --solver nnls", {"--solver", "pca or linear"});
+  refuses(start + "soft-specular --uncertainty u.binary", {"--uncertainty", "--method pca"});
   refuses(start + "rbf --exclude chrome", {"--exclude", "linear"});
   refuses(start + "pull-push --metric log", {"--metric", "rbf"});
   refuses(start + "linear --seed 3", {"--seed", "correction or rbf"});
