@@ -1,0 +1,113 @@
+#pragma once
+/// Scattered measurements as a BRDF, without a prior: the value of the nearest one, or a mean of the k nearest weighted
+/// by inverse distance. D. Shepard, "A two-dimensional interpolation function for irregularly-spaced data", ACM 1968
+/// (doi:10.1145/800186.810616), with weights that fade out at the next neighbour: R. Franke and G. Nielson, "Smooth
+/// interpolation of large sets of scattered data", 1980 (doi:10.1002/nme.1620151110). Needs gonio::scattered
+/// (nanoflann).
+///
+/// ```cpp
+/// const auto paint = gonio::scattered_interpolation{}.fit(gonio::io::read_cornell("garnet_red.brdf"));
+/// ```
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/estimate/estimator.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace gonio {
+
+/// Where a pair of directions lies in a space in which the distance says how different pairs are.
+///
+/// With s = sqrt(theta_h / (pi / 2)) and t = theta_d / (pi / 2) the coordinates are
+/// (s, a t, b r cos 2 phi_d, b r sin 2 phi_d), where r = sin theta_h sin theta_d:
+/// - the root resolves highlights, as MERL's grid does;
+/// - 2 phi_d: by reciprocity phi_d and phi_d + pi are one pair;
+/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not see it, since it turns both
+///   directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
+/// Pairs that differ for a reciprocal isotropic material have a distance, all others have none: what a BRDF must keep
+/// is kept. A mirrored material (phi_d and -phi_d alike) is not assumed; the measured ones are not.
+struct pair_embedding {
+  double theta_d_scale = 1.0;  ///< a
+  double phi_d_scale = 0.25;   ///< b
+
+  [[nodiscard]] std::array<double, 4> operator()(const half_difference& angles) const noexcept;
+};
+
+/// What a mean of neighbours is taken of.
+enum class interpolation_domain {
+  reflectance,
+  logarithm,  ///< ln(rho + 0.001 sr^-1), with negative values as zero: `log_relative` of a black reference
+};
+
+/// The defaults are the best on measured materials, each judged by the choice of the others: docs/results/scattered.md.
+struct scattered_options {
+  Eigen::Index neighbours = 8;  ///< k, from 1 (the nearest alone) to 64
+  double exponent = 2.0;        ///< p, above 0
+  pair_embedding embedding = {};
+  interpolation_domain domain = interpolation_domain::logarithm;
+};
+
+/// What `scattered_interpolation` fits. Copies share the samples.
+class scattered_brdf {
+ public:
+  /// Reflectance in sr^-1, at least zero; zero below the horizon. With the distances d_i of the k nearest samples, R of
+  /// the next one and the weights w_i that they were given, each counts by w_i ((R - d_i) / (R d_i))^p, so that the
+  /// result is continuous, and a sample's own value in its own direction. Exactly reciprocal; isotropic up to rounding,
+  /// which decides where more than k samples are equally near. O(k log n).
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept;
+
+  /// The same at the cells of a grid. Same bytes for any number of threads.
+  [[nodiscard]] brdf_table tabulate(const valid_cells& cells, thread_count threads = {}) const {
+    return gonio::tabulate(*this, cells, threads);
+  }
+
+ private:
+  friend class scattered_interpolation;
+  struct embedded_samples;
+
+  explicit scattered_brdf(const scattered_options& options) : options_(options) {}
+
+  [[nodiscard]] rgb mean_of_neighbours(const embedded_samples& of, const std::array<double, 4>& place) const noexcept;
+
+  scattered_options options_;
+  /// One for all channels, or one for each where samples count more in one channel than in another.
+  std::vector<std::shared_ptr<const embedded_samples>> channels_;
+};
+
+static_assert(tabulated_brdf<scattered_brdf>);
+
+/// Interpolates measurements, and adds nothing to them. It resolves what they resolve: a highlight that was not
+/// measured is not there.
+class scattered_interpolation {
+ public:
+  /// Throws gonio::error for options out of their range.
+  explicit scattered_interpolation(const scattered_options& options = {});
+
+  [[nodiscard]] const scattered_options& options() const noexcept { return options_; }
+
+  /// O(n log n). Repeated measurements count together. Throws gonio::error for unusable samples (`require_usable`), and
+  /// if none has a weight, in one of the channels.
+  [[nodiscard]] scattered_brdf fit(const sample_set& samples) const;
+
+  template <sample_range Samples>
+  [[nodiscard]] scattered_brdf fit(const Samples& samples) const {
+    sample_set all;
+    for (const sample& s : samples) all.push_back(s);
+    return fit(all);
+  }
+
+ private:
+  scattered_options options_;
+};
+
+static_assert(estimator<scattered_interpolation>);
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/estimate/impl/scattered_brdf.ipp>
+#endif
