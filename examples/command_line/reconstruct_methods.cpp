@@ -6,6 +6,7 @@
 #include "materials.hpp"
 #include "measures_as_json.hpp"
 #include "progress_bar.hpp"
+#include "scattered_samples.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
@@ -131,6 +132,16 @@ reconstruction reconstruct_by_radial_functions(const reconstruct_options& option
 
 reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {
   return {gonio::pull_push{gonio::valid_cells(), options.threads}.fit(samples).table()};
+}
+
+reconstruction reconstruct_by_neighbours(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const interpolated_samples f = interpolate(samples, {.neighbours = options.neighbours});
+  reconstruction result{gonio::tabulate(f, gonio::valid_cells(), options.threads)};
+  result.details["neighbours"] = options.neighbours;
+  result.sentence = options.neighbours == 1
+                        ? "the nearest counts"
+                        : "the nearest " + std::to_string(options.neighbours) + " count in each direction";
+  return result;
 }
 
 }  // namespace cli

@@ -107,7 +107,7 @@ TEST_CASE("anything usable: samples come back, values lie between them, a consta
     const int count = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 60));
     const scattered_options options{
         .neighbours = *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(1, 65)),
-        .exponent = 0.1 * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(20, 50)),
+        .exponent = 0.1 * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(15, 50)),
         .domain = *rc::gen::element(interpolation_domain::reflectance, interpolation_domain::logarithm)};
     sample_set samples = scattered_samples(count, generator);
     const auto f = scattered_interpolation{options}.fit(samples);

@@ -11,6 +11,7 @@
 
 #include <gonio/core/parallel.hpp>
 #include <gonio/estimate/estimator.hpp>
+#include <gonio/estimate/scattered_options.hpp>
 
 #include <Eigen/Core>
 
@@ -19,37 +20,6 @@
 #include <vector>
 
 namespace gonio {
-
-/// Where a pair of directions lies in a space in which the distance says how different pairs are.
-///
-/// With s = sqrt(theta_h / (pi / 2)) and t = theta_d / (pi / 2) the coordinates are
-/// (s, a t, b r cos 2 phi_d, b r sin 2 phi_d), where r = sin theta_h sin theta_d:
-/// - the root resolves highlights, as MERL's grid does;
-/// - 2 phi_d: by reciprocity phi_d and phi_d + pi are one pair;
-/// - r: at theta_d = 0 there is no phi_d, and at theta_h = 0 an isotropic material does not see it, since it turns both
-///   directions about the normal. r cos phi_d is half the difference of the cosines of light and viewer.
-/// Pairs that differ for a reciprocal isotropic material have a distance, all others have none: what a BRDF must keep
-/// is kept. A mirrored material (phi_d and -phi_d alike) is not assumed; the measured ones are not.
-struct pair_embedding {
-  double theta_d_scale = 1.0;  ///< a
-  double phi_d_scale = 0.25;   ///< b
-
-  [[nodiscard]] std::array<double, 4> operator()(const half_difference& angles) const noexcept;
-};
-
-/// What a mean of neighbours is taken of.
-enum class interpolation_domain {
-  reflectance,
-  logarithm,  ///< ln(rho + 0.001 sr^-1), with negative values as zero: `log_relative` of a black reference
-};
-
-/// The defaults are the best on measured materials, each judged by the choice of the others: docs/results/scattered.md.
-struct scattered_options {
-  Eigen::Index neighbours = 8;  ///< k, from 1 (the nearest alone) to 64
-  double exponent = 2.0;        ///< p, above 0
-  pair_embedding embedding = {};
-  interpolation_domain domain = interpolation_domain::logarithm;
-};
 
 /// What `scattered_interpolation` fits. Copies share the samples.
 class scattered_brdf {
@@ -85,7 +55,9 @@ static_assert(tabulated_brdf<scattered_brdf>);
 class scattered_interpolation {
  public:
   /// Throws gonio::error for options out of their range.
-  explicit scattered_interpolation(const scattered_options& options = {});
+  explicit scattered_interpolation(const scattered_options& options = {}) : options_(options) {
+    require_usable(options);
+  }
 
   [[nodiscard]] const scattered_options& options() const noexcept { return options_; }
 

@@ -14,13 +14,10 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <numbers>
 #include <tuple>
 #include <vector>
 
 namespace gonio::detail {
-
-inline constexpr Eigen::Index most_neighbours = 64;
 
 /// As `log_relative` of a reference of zero and no cosines.
 [[nodiscard]] GONIO_INLINE double to_domain(interpolation_domain domain, double rho) noexcept {
@@ -39,13 +36,6 @@ inline constexpr Eigen::Index most_neighbours = 64;
 }  // namespace gonio::detail
 
 namespace gonio {
-
-GONIO_INLINE std::array<double, 4> pair_embedding::operator()(const half_difference& angles) const noexcept {
-  constexpr double right_angle = std::numbers::pi / 2.0;
-  const double around = phi_d_scale * std::sin(angles.theta_h) * std::sin(angles.theta_d);
-  return {std::sqrt(std::max(angles.theta_h, 0.0) / right_angle), theta_d_scale * angles.theta_d / right_angle,
-          around * std::cos(2.0 * angles.phi_d), around * std::sin(2.0 * angles.phi_d)};
-}
 
 /// The tree reads the points where they are, so that this stays where it is.
 struct scattered_brdf::embedded_samples {
@@ -78,13 +68,13 @@ struct scattered_brdf::embedded_samples {
 GONIO_INLINE rgb scattered_brdf::mean_of_neighbours(const embedded_samples& of,
                                                     const std::array<double, 4>& place) const noexcept {
   // One more than are averaged: its distance is where weights end.
-  std::array<std::uint32_t, detail::most_neighbours + 1> numbers;
-  std::array<double, detail::most_neighbours + 1> distances;
+  std::array<std::uint32_t, scattered_options::most_neighbours + 1> numbers;
+  std::array<double, scattered_options::most_neighbours + 1> distances;
   const Eigen::Index found = of.tree.nearest(place.data(), options_.neighbours + 1, numbers.data(), distances.data()),
                      count = std::min(found, options_.neighbours);
   // A distance of rounding errors is none. The end lies a little beyond the next one: weights of equally near
   // neighbours would be rounding errors, too.
-  constexpr double least = 1e-10, beyond = 1.0 + 1e-6;
+  constexpr double least = 1e-12, beyond = 1.0 + 1e-6;
   for (Eigen::Index i = 0; i < found; ++i) distances[i] = std::max(std::sqrt(distances[i]), least);
   const double end = beyond * distances[found - 1];
   const auto closeness = [&](double distance) {
@@ -113,19 +103,6 @@ GONIO_INLINE rgb scattered_brdf::operator()(const direction& wi, const direction
   rgb value;
   for (Eigen::Index c = 0; c < 3; ++c) value[c] = mean_of_neighbours(*channels_[c], place)[c];
   return value;
-}
-
-GONIO_INLINE scattered_interpolation::scattered_interpolation(const scattered_options& options) : options_(options) {
-  if (options.neighbours < 1 || options.neighbours > detail::most_neighbours)
-    refuse({"scattered samples are interpolated between 1 to ", detail::most_neighbours, " neighbours, not ",
-            options.neighbours});
-  const auto require_positive = [](const char* what, double value) {
-    if (!(value > 0.0 && value <= 100.0))
-      refuse({"the ", what, " of scattered samples must be above 0 and at most 100, not ", value});
-  };
-  require_positive("exponent", options.exponent);
-  require_positive("theta_d scale", options.embedding.theta_d_scale);
-  require_positive("phi_d scale", options.embedding.phi_d_scale);
 }
 
 GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& samples) const {
