@@ -87,6 +87,7 @@ TEST_CASE("the nearest samples need no prior, and take none") {
   }
   CHECK(parse_json(first.output)["neighbours"] == 16);
   const auto mean = scratch::get(forty.at("out.binary"));
+  CHECK(contains(forty.reconstruct("--method scattered"), "is usually 2.1 times as far off as --method pca"));
   CHECK(contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, the nearest counts"));
   CHECK(scratch::get(forty.at("out.binary")) != mean);
   // What was sampled comes back.

@@ -61,8 +61,8 @@ class scattered_interpolation {
 
   [[nodiscard]] const scattered_options& options() const noexcept { return options_; }
 
-  /// O(n log n). Repeated measurements count together. Throws gonio::error for unusable samples (`require_usable`), and
-  /// if none has a weight, in one of the channels.
+  /// O(n log n). Measurements of the same angles are one, with their weighted mean. Throws gonio::error for unusable
+  /// samples (`require_usable`), and if none has a weight, in one of the channels.
   [[nodiscard]] scattered_brdf fit(const sample_set& samples) const;
 
   template <sample_range Samples>

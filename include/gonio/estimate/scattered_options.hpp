@@ -38,7 +38,7 @@ struct scattered_options {
   static constexpr Eigen::Index most_neighbours = 64;
 
   Eigen::Index neighbours = 16;  ///< k, from 1 (the nearest alone) to `most_neighbours`
-  double exponent = 1.5;        ///< p, above 0
+  double exponent = 1.5;         ///< p, above 0
   pair_embedding embedding = {};
   interpolation_domain domain = interpolation_domain::logarithm;
 };

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace gonio::detail {
@@ -33,18 +34,32 @@ namespace gonio::detail {
   return std::tuple(wi.z(), wi.x(), wi.y()) <= std::tuple(wo.z(), wo.x(), wo.y());
 }
 
+/// Where a sample lies, and its number in the set.
+using sample_place = std::pair<std::array<double, 4>, Eigen::Index>;
+
+/// The samples that count in a channel, sorted by place, so that repeats are next to each other.
+[[nodiscard]] GONIO_INLINE std::vector<sample_place> sorted_places(const sample_set& samples, Eigen::Index channel,
+                                                                   const pair_embedding& embedding) {
+  std::vector<sample_place> places;
+  for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
+    if (samples[i].weight[channel] > 0.0) places.emplace_back(embedding(samples[i].angles()), i);
+  std::ranges::sort(places);
+  return places;
+}
+
 }  // namespace gonio::detail
 
 namespace gonio {
 
 /// The tree reads the points where they are, so that this stays where it is.
 struct scattered_brdf::embedded_samples {
-  embedded_samples(const sample_set& samples, const std::vector<Eigen::Index>& counting, Eigen::Index channel,
-                   const scattered_options& options)
-      : points(4, std::ssize(counting)),
-        values(3, std::ssize(counting)),
-        weights(std::ssize(counting)),
-        tree(fill(samples, counting, channel, options)) {}
+  /// There is a place at least.
+  embedded_samples(const sample_set& samples, const std::vector<detail::sample_place>& places, Eigen::Index channel,
+                   interpolation_domain domain)
+      : points(4, std::ssize(places)),
+        values(Eigen::Array3Xd::Zero(3, std::ssize(places))),
+        weights(Eigen::VectorXd::Zero(std::ssize(places))),
+        tree(merge(samples, places, channel, domain)) {}
 
   Eigen::Matrix4Xd points;
   Eigen::Array3Xd values;  ///< in the domain of the interpolation
@@ -52,15 +67,23 @@ struct scattered_brdf::embedded_samples {
   k_d_tree<4> tree;
 
  private:
-  const Eigen::Matrix4Xd& fill(const sample_set& samples, const std::vector<Eigen::Index>& counting,
-                               Eigen::Index channel, const scattered_options& options) {
-    for (Eigen::Index i = 0; i < std::ssize(counting); ++i) {
-      const sample& s = samples[counting[i]];
-      const std::array<double, 4> place = options.embedding(s.angles());
-      std::ranges::copy(place, points.col(i).data());
-      for (Eigen::Index c = 0; c < 3; ++c) values(c, i) = detail::to_domain(options.domain, s.value[c]);
-      weights[i] = s.weight[channel];
+  /// Repeats are one point, with the weighted mean of their values as they are, so that noise cancels.
+  const Eigen::Matrix4Xd& merge(const sample_set& samples, const std::vector<detail::sample_place>& places,
+                                Eigen::Index channel, interpolation_domain domain) {
+    Eigen::Index merged = 0;
+    for (Eigen::Index i = 0; i < std::ssize(places); ++i) {
+      const auto& [place, number] = places[i];
+      if (i > 0 && place != places[i - 1].first) ++merged;
+      std::ranges::copy(place, points.col(merged).data());
+      values.col(merged) += samples[number].weight[channel] * samples[number].value;
+      weights[merged] += samples[number].weight[channel];
     }
+    ++merged;
+    points.conservativeResize(Eigen::NoChange, merged);
+    values.conservativeResize(Eigen::NoChange, merged);
+    weights.conservativeResize(merged);
+    for (Eigen::Index i = 0; i < merged; ++i)
+      for (Eigen::Index c = 0; c < 3; ++c) values(c, i) = detail::to_domain(domain, values(c, i) / weights[i]);
     return points;
   }
 };
@@ -110,14 +133,12 @@ GONIO_INLINE scattered_brdf scattered_interpolation::fit(const sample_set& sampl
   scattered_brdf fitted(options_);
   const Eigen::Index channels = weigh_channels_apart(samples) ? 3 : 1;
   for (Eigen::Index channel = 0; channel < channels; ++channel) {
-    std::vector<Eigen::Index> counting;
-    for (Eigen::Index i = 0; i < std::ssize(samples); ++i)
-      if (samples[i].weight[channel] > 0.0) counting.push_back(i);
-    if (counting.empty())
+    const std::vector<detail::sample_place> places = detail::sorted_places(samples, channel, options_.embedding);
+    if (places.empty())
       refuse(channels == 1 ? "all samples have weight zero: nothing is known"
                            : "all samples have weight zero in one of the channels: nothing is known of it");
     fitted.channels_.push_back(
-        std::make_shared<const scattered_brdf::embedded_samples>(samples, counting, channel, options_));
+        std::make_shared<const scattered_brdf::embedded_samples>(samples, places, channel, options_.domain));
   }
   return fitted;
 }
