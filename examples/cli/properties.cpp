@@ -133,10 +133,13 @@ json properties_of_samples(const properties_options& options) {
   return all;
 }
 
+bool holds_samples(const std::filesystem::path& file) {
+  return file.extension() == ".csv" || file.extension() == ".brdf";
+}
+
 json properties_of_file(const properties_options& options) {
-  const std::string name = options.file.filename().string();
-  if (name.ends_with(".csv") || name.ends_with(".brdf")) return properties_of_samples(options);
-  if (name.ends_with(".bsdf")) return properties_of_rgl(options.file, options.threads);
+  if (holds_samples(options.file)) return properties_of_samples(options);
+  if (options.file.extension() == ".bsdf") return properties_of_rgl(options.file, options.threads);
   return properties_of_merl(options.file);
 }
 
@@ -217,7 +220,9 @@ void add_properties(command& app) {
       .capture_default_str();
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
-  command.callback([options] {
+  command.callback([command, options] {
+    if (command.count("--tolerance") > 0 && !holds_samples(options->file))
+      gonio::refuse("--tolerance needs samples (.csv or .brdf), not " + options->file.string());
     const json all = properties_of_file(*options);
     if (options->print_json)
       std::cout << all.dump(2) << '\n';

@@ -17,7 +17,9 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace cli {
 
@@ -138,9 +140,9 @@ reconstruction reconstruct_by_neighbours(const reconstruct_options& options, con
   const interpolated_samples f = interpolate(samples, {.neighbours = options.neighbours});
   reconstruction result{gonio::tabulate(f, gonio::valid_cells(), options.threads)};
   result.details["neighbours"] = options.neighbours;
-  result.sentence = options.neighbours == 1
-                        ? "the nearest counts"
-                        : "the nearest " + std::to_string(options.neighbours) + " count in each direction";
+  const Eigen::Index count = std::min(options.neighbours, std::ssize(samples));
+  result.sentence =
+      count == 1 ? "the nearest counts" : "the nearest " + std::to_string(count) + " count in each direction";
   return result;
 }
 

@@ -123,7 +123,7 @@ TEST_CASE("what has no properties is refused in one line") {
   scratch::put(folder / "s.csv", "theta_h,theta_d,phi_d,r,g,b\n1,2,3,nan,1,1\n");
   for (const std::string& arguments :
        std::vector<std::string>{(folder / "t.binary").string(), (folder / "s.csv").string(),
-                                (folder / "none.bsdf").string(), "--tolerance 0 x.csv"}) {
+                                (folder / "none.bsdf").string(), "--tolerance 0 x.csv", "--tolerance 1 x.bsdf"}) {
     CAPTURE(arguments);
     const auto result = gonio_tool("properties " + arguments);
     CHECK(result.exit_code == 2);
