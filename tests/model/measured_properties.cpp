@@ -130,6 +130,14 @@ TEST_CASE("near the normal azimuths mean little; elsewhere they do") {
   CHECK(compare_equal_samples(in_plane).reciprocal.pairs == 1);
 }
 
+TEST_CASE("half and difference angles have no azimuths: nothing is turned") {
+  sample_set samples{{{0.001, 0.7, 0.3}, rgb::Ones()}, {{0.001, 0.7, 2.0}, rgb::Ones()}};
+  CHECK(compare_equal_samples(samples).turned.pairs == 0);
+  // The same with azimuths: a sample elsewhere says that they are known.
+  samples.push_back({pair_of(spherical_direction(0.5, 1.0), spherical_direction(1.0, 1.0)), rgb::Ones()});
+  CHECK(compare_equal_samples(samples).turned.pairs == 1);
+}
+
 TEST_CASE("a reciprocal isotropic material has no differences, whatever is measured; an anisotropic one has") {
   CHECK(rc::check([] {
     std::mt19937_64 generator(*rc::gen::arbitrary<std::uint64_t>());

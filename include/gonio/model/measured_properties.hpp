@@ -50,7 +50,8 @@ struct sample_symmetries {
 
 /// Compares all pairs of samples whose directions agree to `tolerance` (radians, above 0 and at most 0.1) after a turn
 /// about the normal or a swap, each sample with at most a hundred others that come after it. Weights do not count: a
-/// sample of weight 0 is compared, too. O(n log n) where samples are spread. Throws gonio::error for unusable samples
+/// sample of weight 0 is compared, too. Where all half vectors have the azimuth 0, as which half and difference angles
+/// are read, nothing is turned. O(n log n) where samples are spread. Throws gonio::error for unusable samples
 /// (`require_usable`) and a tolerance out of its range.
 [[nodiscard]] sample_symmetries compare_equal_samples(const sample_set& samples, double tolerance = radians(0.5));
 

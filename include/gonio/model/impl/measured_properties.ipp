@@ -53,6 +53,15 @@ struct turned_pair {
       std::remainder(azimuth(by_light ? a.wi : a.wo) - azimuth(by_light ? b.wi : b.wo), 2.0 * std::numbers::pi));
 }
 
+/// Is the half vector's azimuth 0 everywhere, as it is where half and difference angles are all that is known?
+[[nodiscard]] GONIO_INLINE bool lacks_azimuths(const sample_set& samples) {
+  constexpr double rounding = 1e-9;
+  return std::ranges::all_of(samples, [](const sample& s) {
+    const direction_pair& pair = s.directions.pair();
+    return std::abs(pair.wi.y() + pair.wo.y()) <= rounding && pair.wi.x() + pair.wo.x() >= -rounding;
+  });
+}
+
 /// Samples in boxes of polar angles as wide as the tolerance, so that those which agree are in neighbouring boxes.
 class boxed_samples {
  public:
@@ -177,6 +186,7 @@ GONIO_INLINE sample_symmetries compare_equal_samples(const sample_set& samples, 
     refuse({"directions agree to a tolerance above 0 and at most 0.1 radians, not ", tolerance});
   constexpr int most_partners = 100;
   constexpr double least_turn = 10.0;
+  const bool has_azimuths = !detail::lacks_azimuths(samples);
   const detail::boxed_samples boxed(samples, tolerance);
   detail::pair_differences repeated, turned, reciprocal;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -187,7 +197,7 @@ GONIO_INLINE sample_symmetries compare_equal_samples(const sample_set& samples, 
       const direction_pair &one = samples[i].directions.pair(), &other = samples[j].directions.pair();
       if (detail::same_directions(one, other, tolerance))
         repeated.add(samples, i, j);
-      else if (detail::turn_between(one, other) > least_turn * tolerance)
+      else if (has_azimuths && detail::turn_between(one, other) > least_turn * tolerance)
         turned.add(samples, i, j);
       else
         return true;
