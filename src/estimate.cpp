@@ -15,6 +15,7 @@
 #include <gonio/estimate/impl/pull_push.ipp>
 #include <gonio/estimate/impl/robust_decomposition.ipp>
 #include <gonio/estimate/impl/sample_regions.ipp>
+#include <gonio/estimate/impl/scattered_options.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
 
 namespace gonio {

@@ -7,6 +7,7 @@
 #include <gonio/model/impl/formula_materials.ipp>
 #include <gonio/model/impl/lobe.ipp>
 #include <gonio/model/impl/lobe_sampler.ipp>
+#include <gonio/model/impl/measured_properties.ipp>
 #include <gonio/model/impl/model_loss.ipp>
 #include <gonio/model/impl/network_brdf.ipp>
 #include <gonio/model/impl/physical_properties.ipp>

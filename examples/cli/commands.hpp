@@ -18,6 +18,7 @@ void add_compare(command& app);
 void add_check(command& app);
 void add_render(command& app);
 void add_info(command& app);
+void add_properties(command& app);
 void add_lab(command& app);
 void add_shape(command& app);
 

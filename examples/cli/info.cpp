@@ -15,6 +15,7 @@
 #include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/model/measured_properties.hpp>
 
 #include <iostream>
 #include <memory>
@@ -46,21 +47,13 @@ json describe(const gonio::valid_cells& cells) {
 }
 
 json describe(const gonio::brdf_table& table) {
-  gonio::rgb low = table.at(0), high = low, sum = gonio::rgb::Zero();
-  Eigen::Index negative = 0;
-  for (Eigen::Index cell = 0; cell < table.cells().size(); ++cell) {
-    const gonio::rgb value = table.at(cell);
-    low = low.min(value);
-    high = high.max(value);
-    sum += value;
-    if ((value < 0.0).any()) ++negative;
-  }
+  const gonio::model::table_values values = gonio::model::summarise(table);
   json result{{"kind", "MERL table"}};
   result.update(describe(table.cells()));
-  result["minimum"] = per_channel(low);
-  result["mean"] = per_channel(sum / static_cast<double>(table.cells().size()));
-  result["maximum"] = per_channel(high);
-  result["cells_with_negative_values"] = negative;
+  result["minimum"] = per_channel(values.minimum);
+  result["mean"] = per_channel(values.mean);
+  result["maximum"] = per_channel(values.maximum);
+  result["cells_with_negative_values"] = values.negative_cells;
   return result;
 }
 

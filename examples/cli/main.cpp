@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   cli::add_check(app);
   cli::add_render(app);
   cli::add_info(app);
+  cli::add_properties(app);
   cli::add_lab(app);
   cli::add_shape(app);
   return app.run(argc, argv);

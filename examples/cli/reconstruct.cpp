@@ -66,7 +66,11 @@ const std::vector<method>& methods() {
        "radial basis functions (a rival of Noell et al. 2014)",
        reconstruct_by_radial_functions,
        {"--prior", "--metric", "--root", "--seed"}},
-      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}}};
+      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}},
+      {"scattered",
+       "a mean of the nearest samples (Shepard 1968), from which nothing else is known: no prior",
+       reconstruct_by_neighbours,
+       {"--neighbours"}}};
   return all;
 }
 
@@ -229,6 +233,11 @@ void add_reconstruct(command& app) {
       .add_option("--misplaced", options->angular_error,
                   "Degrees by which light and viewer of each sample may be off their directions: samples on the flanks "
                   "of highlights count less then (for images: gonio near-field --misplaced)")
+      .capture_default_str();
+  command
+      .add_option("--neighbours", options->neighbours,
+                  "How many samples around each direction scattered takes the mean of; 1: the nearest")
+      .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
       .capture_default_str();
   // Declare what is written.
   command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)");

@@ -43,7 +43,13 @@ constexpr std::array records{record{"pca", 1, 1.0, 0, 3},
                              record{"pull-push", 20, 15.25, 20, 12},
                              record{"pull-push", 100, 26.78, 20, 10},
                              record{"pull-push", 500, 47.13, 20, 10},
-                             record{"pull-push", 2000, 31.92, 20, 7}};
+                             record{"pull-push", 2000, 31.92, 20, 7},
+                             record{"scattered", 1, 1.55, 6, 13},
+                             record{"scattered", 5, 0.94, 0, 1},
+                             record{"scattered", 20, 2.1, 12, 0},
+                             record{"scattered", 100, 2.51, 19, 0},
+                             record{"scattered", 500, 2.93, 18, 0},
+                             record{"scattered", 2000, 2.06, 12, 0}};
 
 }  // namespace
 

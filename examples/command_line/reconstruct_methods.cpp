@@ -6,6 +6,7 @@
 #include "materials.hpp"
 #include "measures_as_json.hpp"
 #include "progress_bar.hpp"
+#include "scattered_samples.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/basis/rbf.hpp>
@@ -18,7 +19,9 @@
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <variant>
 
@@ -163,6 +166,16 @@ reconstruction reconstruct_by_radial_functions(const reconstruct_options& option
 
 reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {
   return {gonio::pull_push{gonio::valid_cells(), options.threads}.fit(samples).table()};
+}
+
+reconstruction reconstruct_by_neighbours(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const interpolated_samples f = interpolate(samples, {.neighbours = options.neighbours});
+  reconstruction result{gonio::tabulate(f, gonio::valid_cells(), options.threads)};
+  result.details["neighbours"] = options.neighbours;
+  const Eigen::Index count = std::min(options.neighbours, std::ssize(samples));
+  result.sentence =
+      count == 1 ? "the nearest counts" : "the nearest " + std::to_string(count) + " count in each direction";
+  return result;
 }
 
 }  // namespace cli

@@ -7,6 +7,7 @@
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
+#include <gonio/estimate/scattered_options.hpp>
 #include <gonio/metric/any_metric.hpp>
 #include <gonio/render/image.hpp>
 
@@ -28,6 +29,7 @@ struct reconstruct_options {
   bool as_printed = false;       ///< correction as Noell et al. 2014 print it
   int iterations = 10;
   std::uint64_t seed = 0;
+  Eigen::Index neighbours = gonio::scattered_options{}.neighbours;
   material_source materials;
   solver_choice solver;
   bool print_json = false;
@@ -75,6 +77,10 @@ struct reconstruction {
 /// Scattered-data interpolation (Gortler et al. 1996).
 [[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
+
+/// The mean of the samples nearest to each direction.
+[[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
+                                                       const gonio::sample_set& samples);
 
 /// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
 template <class Relative>

@@ -32,6 +32,7 @@ void add_real_materials(command& app);
 void add_conformity(command& app);
 void add_real_fits(command& app);
 void add_real_methods(command& app);
+void add_scattered_samples(command& app);
 void add_adaptive_design(command& app);
 void add_in_plane(command& app);
 void add_sphere_photograph(command& app);

@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   papers::add_conformity(app);
   papers::add_real_fits(app);
   papers::add_real_methods(app);
+  papers::add_scattered_samples(app);
   papers::add_adaptive_design(app);
   papers::add_in_plane(app);
   papers::add_sphere_photograph(app);

@@ -1,5 +1,6 @@
 #pragma once
-/// All of `core/`: directions, half and difference angles, colours, errors, loops over threads.
+/// All of `core/` but k_d_tree.hpp, which needs nanoflann: directions, half and difference angles, colours, errors,
+/// loops over threads.
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>

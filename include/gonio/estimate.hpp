@@ -1,5 +1,5 @@
 #pragma once
-/// All of `estimate/`: from samples to a BRDF.
+/// All of `estimate/` but scattered_brdf.hpp, which needs nanoflann: from samples to a BRDF.
 
 #include <gonio/estimate/angular_error.hpp>
 #include <gonio/estimate/basis_equations.hpp>
@@ -31,6 +31,7 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/estimate/sample_regions.hpp>
 #include <gonio/estimate/sampled_functions.hpp>
+#include <gonio/estimate/scattered_options.hpp>
 #include <gonio/estimate/screened_samples.hpp>
 #include <gonio/estimate/soft_or_specular.hpp>
 #include <gonio/estimate/soft_specular_decomposition.hpp>

@@ -13,6 +13,7 @@
 #include <gonio/model/lambert.hpp>
 #include <gonio/model/lobe.hpp>
 #include <gonio/model/lobe_sampler.hpp>
+#include <gonio/model/measured_properties.hpp>
 #include <gonio/model/model_loss.hpp>
 #include <gonio/model/network_brdf.hpp>
 #include <gonio/model/phong.hpp>

@@ -23,7 +23,7 @@ void refuses(const std::string& arguments, std::initializer_list<const char*> wo
 
 TEST_CASE("help is no error") {
   for (const char* command : {"", "learn ", "expand ", "design ", "plan ", "sample ", "near-field ", "reconstruct ",
-                              "fit ", "compare ", "render ", "info "}) {
+                              "fit ", "compare ", "render ", "properties ", "info "}) {
     const auto result = gonio_tool(std::string(command) + "--help");
     CHECK(result.exit_code == 0);
     CHECK(result.output.size() > 100);
@@ -128,6 +128,7 @@ TEST_CASE("options of one method given to another") {
   const std::string start = "reconstruct " + path.string() + " -o " + (folder / "out.binary").string() + " --method ";
   refuses(start + "linear --gamma 3", {"--gamma", "--method linear", "--method correction"});
   refuses(start + "pca --history h.csv", {"--history", "--method pca", "--method correction"});
+  refuses(start + "pca --neighbours 3", {"--neighbours", "--method pca", "--method scattered"});
   refuses(start + "rbf --iterations 3", {"--iterations", "--method correction"});
   refuses(start + "pull-push --iteration-figure " + (folder / "story").string(),
           {"--iteration-figure", "--method correction"});

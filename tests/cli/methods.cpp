@@ -76,6 +76,34 @@ TEST_CASE("methods that lose on measured materials say so on standard error") {
   CHECK(contains(sampled_paint(1).reconstruct("--method pca"), "further off than the median material for 3 of 20"));
 }
 
+TEST_CASE("the nearest samples need no prior, and take none") {
+  const sampled_paint forty(40);
+  const std::string start =
+      "reconstruct " + forty.at("samples.csv") + " --method scattered -o " + forty.at("out.binary");
+  const auto first = gonio_tool(start + " --json");
+  if (first.exit_code == 2) {
+    MESSAGE("skipped: no nanoflann");
+    return;
+  }
+  CHECK(parse_json(first.output.substr(first.output.find('{')))["neighbours"] == 16);
+  const auto mean = scratch::get(forty.at("out.binary"));
+  CHECK(contains(forty.reconstruct("--method scattered"), "is usually 2.1 times as far off as --method pca"));
+  CHECK(contains(forty.reconstruct("--method scattered --neighbours 1"), "40 samples, the nearest counts"));
+  CHECK(scratch::get(forty.at("out.binary")) != mean);
+  // What was sampled comes back.
+  REQUIRE(
+      gonio_tool("sample " + forty.at("out.binary") + " --count 40 --seed 3 -o " + forty.at("again.csv")).exit_code ==
+      0);
+  CHECK(scratch::get(forty.at("again.csv")) == scratch::get(forty.at("samples.csv")));
+  for (const char* wrong : {" --prior x.prior", " --metric log", " --noise 0.1", " --uncertainty u.binary", " --seed 1",
+                            " --solver nnls", " --neighbours 0", " --neighbours 65"}) {
+    CAPTURE(wrong);
+    const auto refused = gonio_tool(start + wrong);
+    CHECK(refused.exit_code == 2);
+    CHECK(contains(refused.output, std::string(wrong).substr(1, std::string(wrong).find(' ', 1) - 1).c_str()));
+  }
+}
+
 TEST_CASE("of many samples outliers count less, unless all are to be kept") {
   const sampled_paint paint(400);
   REQUIRE(gonio_tool("sample " + paint.at("truth.binary") + " --count 400 --outliers 0.3 --seed 3 -o " +

@@ -6,17 +6,19 @@ cmake_minimum_required(VERSION 3.25)
 # A module is a folder, or a folder or a single header in it where that has rules of its own. Used before user.
 set(edges
   "core       ->"
+  "core/k_d_tree.hpp -> core" # apart, because it needs nanoflann
   "solve      -> core"
   "table      -> core"
   "metric     -> table"
   "basis      -> metric solve"
   "estimate   -> basis"
+  "estimate/scattered_brdf.hpp -> estimate core/k_d_tree.hpp" # apart, because it needs nanoflann
   "design     -> estimate"
   "model      -> table solve metric"
   "capture    -> table solve"
   "render     -> table"
   "evaluate   -> estimate render design"
-  "shape      -> estimate render"
+  "shape      -> estimate render core/k_d_tree.hpp"
   "io         -> design capture model render"
   "io/image.hpp -> io" # apart, because it needs stb
   "io/exr.hpp -> io" # apart, because it needs OpenEXR
@@ -91,8 +93,8 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 
-# A header is in the one of its module; render.hpp is what a renderer needs, and io/image.hpp and io/exr.hpp need
-# libraries of their own. A body is in one of the sources of gonio::compiled.
+# A header is in the one of its module; render.hpp is what a renderer needs, and those that need libraries of their own
+# are apart. A body is in one of the sources of gonio::compiled.
 if(EXISTS "${ROOT}/gonio.hpp")
   file(GLOB sources "${ROOT}/../../src/*.cpp")
   set(compiled)
@@ -103,7 +105,7 @@ if(EXISTS "${ROOT}/gonio.hpp")
   foreach(header IN LISTS headers)
     if(header MATCHES "[.]ipp$")
       set(places "${compiled}")
-    elseif(header MATCHES "^(render/.*|io/(image|exr)[.]hpp|[a-z]+[.]hpp)$")
+    elseif(header MATCHES "^(render/.*|io/(image|exr)[.]hpp|core/k_d_tree[.]hpp|estimate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
       continue()
     else()
       string(REGEX REPLACE "/.*" "" module "${header}")

@@ -30,6 +30,8 @@ TEST_CASE("what breaks them is found, and where") {
   const unphysical f;
   const auto asymmetry = gonio::model::worst_asymmetry(f);
   CHECK(asymmetry.amount > 0.9);
+  CHECK(asymmetry.median > 0.1);
+  CHECK(asymmetry.median < asymmetry.amount);
   const auto [wi, wo] = asymmetry.at;
   CHECK(gonio::model::detail::relative_difference(f(wi, wo), f(wo, wi)) == doctest::Approx(asymmetry.amount));
   const auto negative = gonio::model::worst_negative(f);

@@ -293,7 +293,8 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
       .add_option(
           "--methods", options->methods,
           "Any of: our, printed (the paper's method as printed), gamma-G (our corrections with the paper's weights), "
-          "lc, rbf, pull-push; all but gamma-G and pull-push with -lin or -root for another metric than log")
+          "lc, rbf, pull-push, scattered; all but gamma-G and the last two with -lin or -root for another metric than "
+          "log")
       .check(check::without([](const std::string& method) { return noell_experiment::complaint(method); }, "METHOD"))
       .capture_default_str();
   // Declare the measurements.

@@ -1,6 +1,7 @@
 #include "papers/noell2014/noell_experiment.hpp"
 
 #include "command_line/json.hpp"
+#include "command_line/scattered_samples.hpp"
 #include "papers/noell2014/noell_measures.hpp"
 #include <gonio/basis/rbf.hpp>
 #include <gonio/estimate/basis_equations.hpp>
@@ -35,7 +36,7 @@ struct method_name {
   const auto has_metric = [](const std::string& name) {
     return name == "our" || name == "printed" || name == "lc" || name == "rbf";
   };
-  if (text == "pull-push" || has_metric(text)) return method_name{text};
+  if (text == "pull-push" || text == "scattered" || has_metric(text)) return method_name{text};
   const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
   if (head == "gamma") {
     double gamma = 0.0;
@@ -180,6 +181,7 @@ struct noell_experiment::parts {
       return tabulated(gonio::decomposition{functions, radial_penalty, threads});
     }
     if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
+    if (method.method == "scattered") return {gonio::tabulate(interpolate(samples, {}), truths.cells, threads)};
 
     const auto others = materials(metric).without(names_of(which.material));
     if (method.method == "lc") return {combination(metric, which, samples).tabulate(truths.cells, threads)};

@@ -3,6 +3,7 @@
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/scattered_samples.hpp"
 #include "papers/distribution.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/left_out_families.hpp"
@@ -31,7 +32,7 @@ namespace {
 struct real_methods_options : left_out_options {
   std::vector<Eigen::Index> random{1, 5, 20, 100, 500, 2000};
   std::vector<double> wrong{0.0};
-  std::vector<std::string> methods{"median", "pca", "robust", "linear", "correction", "rbf", "pull-push"};
+  std::vector<std::string> methods{"median", "pca", "robust", "linear", "correction", "rbf", "pull-push", "scattered"};
   Eigen::Index repetitions = 2;
 };
 
@@ -80,6 +81,8 @@ class tool_methods {
       return gonio::decomposition{functions, gonio::tikhonov{1e-6}, threads_}.fit(samples).tabulate(cells, threads_);
     }
     if (method == "pull-push") return gonio::pull_push{gonio::valid_cells(), threads_}.fit(samples).table();
+    if (method == "scattered") return gonio::tabulate(interpolate(samples, {}), cells, threads_);
+    if (method == "nearest") return gonio::tabulate(interpolate(samples, {.neighbours = 1}), cells, threads_);
     if (method == "correction")
       return gonio::robust_reconstruction{known_.materials(), known_.corrections(), {}, {}, threads_}
           .fit(samples)
@@ -247,8 +250,9 @@ void add_real_methods(command& app) {
   command
       .add_option("--methods", options->methods,
                   "Those of gonio reconstruct; keeping: pca without looking for wrong samples; median: the median of "
-                  "all materials, whatever the samples")
-      .check(check::one_of({"median", "pca", "keeping", "robust", "linear", "correction", "rbf", "pull-push"}))
+                  "all materials, whatever the samples; nearest: the nearest sample")
+      .check(check::one_of(
+          {"median", "pca", "keeping", "robust", "linear", "correction", "rbf", "pull-push", "scattered", "nearest"}))
       .capture_default_str();
   command.add_option("--repetitions", options->repetitions, "Random sets of each number")
       .check(check::positive_number())

@@ -3,10 +3,12 @@
 /// does it reflect? J. B. Nielsen's thesis (2016), Sec. 2.2.
 
 #include <gonio/core/brdf.hpp>
+#include <gonio/core/statistics.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace gonio::model {
 
@@ -14,6 +16,7 @@ namespace gonio::model {
 struct worst_pair {
   double amount = 0.0;  ///< 0: nothing is wrong
   direction_pair at{direction(0.0, 0.0, 1.0), direction(0.0, 0.0, 1.0)};
+  double median = 0.0;  ///< of the amounts of all pairs that were tried
 };
 
 /// How densely pairs of directions are tried: `steps`^3 of them, about the normal and denser near highlights.
@@ -29,6 +32,7 @@ template <class Amount>
 [[nodiscard]] worst_pair worst_of_pairs(const pair_grid& grid, Amount&& amount) {
   constexpr double pi = std::numbers::pi, azimuth = 0.4;
   worst_pair worst;
+  std::vector<double> all;
   const auto share = [&](int i) { return (i + 0.5) / grid.steps; };
   for (int i = 0; i < grid.steps; ++i)
     for (int j = 0; j < grid.steps; ++j)
@@ -38,9 +42,10 @@ template <class Amount>
         const direction h = spherical_direction(share(j) * share(j) * pi / 2.0, 2.0 * pi * share(k));
         const direction wi = 2.0 * h.dot(wo) * h - wo;
         if (!(wi.z() > 0.0 && h.dot(wo) > 0.0)) continue;
-        const double here = amount(wi, wo);
-        if (here > worst.amount) worst = {here, {wi, wo}};
+        all.push_back(amount(wi, wo));
+        if (all.back() > worst.amount) worst = {all.back(), {wi, wo}};
       }
+  if (!all.empty()) worst.median = median(all);
   return worst;
 }
 
@@ -94,21 +99,34 @@ template <brdf Brdf>
   return sum;
 }
 
+/// What is reflected of the light that falls in at an angle from the normal, in radians.
+struct albedo_at_angle {
+  double theta = 0.0;
+  rgb value{0.0, 0.0, 0.0};
+};
+
+/// `directional_albedo` in steps of five degrees up to 85, and at 88.
+template <brdf Brdf>
+[[nodiscard]] std::vector<albedo_at_angle> albedo_by_angle(const Brdf& f, int bins = 400) {
+  std::vector<albedo_at_angle> all;
+  for (int degree = 0; degree <= 90; degree += 5) {
+    const double theta = radians(degree == 90 ? 88.0 : degree);
+    all.push_back({theta, directional_albedo(f, theta, bins)});
+  }
+  return all;
+}
+
 /// The largest albedo, over the channels, and the angle where it is reached. More than 1 is more than falls in.
 struct largest_albedo {
   double value = 0.0, theta = 0.0;
 };
 
-/// Angles in steps of five degrees up to 85, and 88.
+[[nodiscard]] largest_albedo largest_of(const std::vector<albedo_at_angle>& albedos);
+
+/// Over the angles of `albedo_by_angle`.
 template <brdf Brdf>
 [[nodiscard]] largest_albedo find_largest_albedo(const Brdf& f, int bins = 400) {
-  largest_albedo found;
-  for (int degree = 0; degree <= 90; degree += 5) {
-    const double theta = radians(degree == 90 ? 88.0 : degree);
-    const double albedo = directional_albedo(f, theta, bins).maxCoeff();
-    if (albedo > found.value) found = {albedo, theta};
-  }
-  return found;
+  return largest_of(albedo_by_angle(f, bins));
 }
 
 }  // namespace gonio::model

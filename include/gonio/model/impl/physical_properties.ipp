@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace gonio::model::detail {
 
@@ -17,3 +18,14 @@ GONIO_INLINE double relative_difference(const rgb& a, const rgb& b) {
 }
 
 }  // namespace gonio::model::detail
+
+namespace gonio::model {
+
+GONIO_INLINE largest_albedo largest_of(const std::vector<albedo_at_angle>& albedos) {
+  largest_albedo found;
+  for (const auto& [theta, value] : albedos)
+    if (value.maxCoeff() > found.value) found = {value.maxCoeff(), theta};
+  return found;
+}
+
+}  // namespace gonio::model

@@ -4,6 +4,7 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/k_d_tree.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/shape/assignment.hpp>
 #include <gonio/shape/shape_context.hpp>
@@ -11,7 +12,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <nanoflann.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,26 +58,8 @@ GONIO_INLINE void require_finite_mesh(const triangle_mesh& mesh) {
   return areas;
 }
 
-struct point_tree::built_tree {
-  /// What nanoflann asks for.
-  struct adaptor {
-    const point_columns& points;
-
-    [[nodiscard]] Eigen::Index kdtree_get_point_count() const { return points.cols(); }
-    [[nodiscard]] double kdtree_get_pt(Eigen::Index index, Eigen::Index axis) const { return points(axis, index); }
-    template <class Box>
-    [[nodiscard]] bool kdtree_get_bbox(Box&) const {
-      return false;
-    }
-  };
-  using metric = nanoflann::L2_Simple_Adaptor<double, adaptor>;
-
-  static constexpr Eigen::Index leaf_size = 16;
-
-  explicit built_tree(const point_columns& of) : points{of}, tree(3, points, {leaf_size}) {}
-
-  adaptor points;
-  nanoflann::KDTreeSingleIndexAdaptor<metric, adaptor, 3> tree;
+struct point_tree::built_tree : k_d_tree<3> {
+  using k_d_tree<3>::k_d_tree;
 };
 
 GONIO_INLINE point_tree::point_tree(const point_columns& points) : tree_(std::make_shared<const built_tree>(points)) {}
@@ -85,17 +67,12 @@ GONIO_INLINE point_tree::point_tree(const point_columns& points) : tree_(std::ma
 GONIO_INLINE double point_tree::squared_distance(const Eigen::Vector3d& place) const {
   std::uint32_t index = 0;
   double squared = 0.0;
-  tree_->tree.knnSearch(place.data(), 1, &index, &squared);
+  tree_->nearest(place.data(), 1, &index, &squared);
   return squared;
 }
 
 GONIO_INLINE std::vector<Eigen::Index> point_tree::within(double radius, const Eigen::Vector3d& place) const {
-  std::vector<std::pair<std::uint32_t, double>> found;
-  tree_->tree.radiusSearch(place.data(), radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
-  std::vector<Eigen::Index> numbers;
-  numbers.reserve(found.size());
-  for (const auto& [number, squared] : found) numbers.push_back(number);
-  return numbers;
+  return tree_->within(radius, place.data());
 }
 
 }  // namespace gonio::shape::detail

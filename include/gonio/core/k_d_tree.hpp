@@ -1,0 +1,61 @@
+#pragma once
+/// The points nearest to a place, by a k-d tree. Needs nanoflann, which the targets gonio::scattered and gonio::shape
+/// link; only bodies include this header, so that who uses them does not parse nanoflann.
+
+#include <Eigen/Core>
+#include <nanoflann.hpp>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace gonio {
+
+/// Points in a k-d tree, which reads them where they are: they must outlive it, and it stays where it is.
+template <int Dimension>
+class k_d_tree {
+ public:
+  using points = Eigen::Matrix<double, Dimension, Eigen::Dynamic>;
+
+  /// O(n log n).
+  explicit k_d_tree(const points& of) : points_{of}, tree_(Dimension, points_, {leaf_size}) {}
+
+  k_d_tree(const k_d_tree&) = delete;
+  k_d_tree& operator=(const k_d_tree&) = delete;
+
+  /// Writes the numbers of the `count` nearest points, or of all if there are fewer, and the squares of their
+  /// distances, the nearest first. Returns how many there are. O(count log n); allocates nothing.
+  Eigen::Index nearest(const double* place, Eigen::Index count, std::uint32_t* numbers, double* squared) const {
+    return static_cast<Eigen::Index>(tree_.knnSearch(place, static_cast<std::size_t>(count), numbers, squared));
+  }
+
+  /// The numbers of the points nearer than a radius, always in the same order.
+  [[nodiscard]] std::vector<Eigen::Index> within(double radius, const double* place) const {
+    std::vector<std::pair<std::uint32_t, double>> found;
+    tree_.radiusSearch(place, radius * radius, found, nanoflann::SearchParams(0, 0.0F, false));
+    std::vector<Eigen::Index> numbers;
+    numbers.reserve(found.size());
+    for (const auto& [number, square] : found) numbers.push_back(number);
+    return numbers;
+  }
+
+ private:
+  /// What nanoflann asks for.
+  struct adaptor {
+    const points& of;
+
+    [[nodiscard]] Eigen::Index kdtree_get_point_count() const { return of.cols(); }
+    [[nodiscard]] double kdtree_get_pt(Eigen::Index index, Eigen::Index axis) const { return of(axis, index); }
+    template <class Box>
+    [[nodiscard]] bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+
+  static constexpr Eigen::Index leaf_size = 16;
+
+  adaptor points_;
+  nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, adaptor>, adaptor, Dimension> tree_;
+};
+
+}  // namespace gonio
