@@ -10,6 +10,7 @@
 #include <gonio/capture/impl/merged_frames.ipp>
 #include <gonio/capture/impl/mirror_sphere.ipp>
 #include <gonio/capture/impl/near_field_image.ipp>
+#include <gonio/capture/impl/reference_reflectance.ipp>
 #include <gonio/capture/impl/relative_reflectance.ipp>
 #include <gonio/capture/impl/scan.ipp>
 #include <gonio/capture/impl/sphere_outline.ipp>

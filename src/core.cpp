@@ -9,6 +9,7 @@
 #include <gonio/core/impl/printable.ipp>
 #include <gonio/core/impl/probability.ipp>
 #include <gonio/core/impl/random.ipp>
+#include <gonio/core/impl/rotation.ipp>
 
 namespace gonio::detail {
 

@@ -17,6 +17,7 @@
 #include <gonio/io/impl/npy.ipp>
 #include <gonio/io/impl/pnm.ipp>
 #include <gonio/io/impl/prior.ipp>
+#include <gonio/io/impl/reference_reflectance.ipp>
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>
 #include <gonio/io/impl/rules.ipp>

@@ -80,9 +80,10 @@ gonio::capture::measured_reflectance measured_at(std::size_t pose, const gonio::
 }
 
 void require_reference(const calibrate_command& options,
-                       const std::vector<gonio::capture::measured_reflectance>& usable) {
+                       const std::vector<gonio::capture::measured_reflectance>& usable,
+                       const gonio::capture::reference_reflectance& reflectance) {
   if (!options.brighter) try {
-      gonio::capture::require_bright_reference(usable, options.calibration.reflectance);
+      gonio::capture::require_bright_reference(usable, reflectance);
     } catch (const gonio::error& refusal) {
       gonio::refuse({options.reference.native(), ": ", refusal.what(),
                      " (if not, as where only a highlight was measured: --brighter)"});
@@ -106,7 +107,7 @@ void run(const calibrate_command& options) {
       std::cout << "left out: pose " << i + 1 << ", " << in_degrees(material.poses[i]) << ": " << found.doubt << '\n';
   }
   if (usable.empty()) gonio::refuse(options.material.string() + ": no pose can be used");
-  require_reference(options, usable);
+  require_reference(options, usable, known.reflectance);
   // Write the samples, and say how well they are known.
   gonio::sample_set samples;
   std::vector<double> deviations;

@@ -4,17 +4,24 @@
 #include "command_line/machine_choice.hpp"
 #include "lab.hpp"
 #include <gonio/capture/scan.hpp>
+#include <gonio/capture/trajectory.hpp>
+#include <gonio/io/file.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/io/text.hpp>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace cli {
 
 namespace {
 
 struct plan_command {
-  std::filesystem::path directions, output;
+  std::filesystem::path directions, output, poses;
   machine_choice machine;
   bool whole = false;
 };
@@ -59,9 +66,43 @@ timed_plan plan_of(const plan_command& options) {
   return result;
 }
 
+/// A line for each reading: where each tool is, and which lamp burns where the machine has more than one.
+template <class Machine>
+std::string pose_table(const Machine& machine, const std::vector<gonio::direction_pair>& pairs) {
+  std::string text = "pose";
+  std::vector<std::vector<gonio::capture::tool_pose>> paths;
+  for (const lab::carried_tool& tool : machine.tools()) {
+    for (const char* number : {"x", "y", "z", "qw", "qx", "qy", "qz"}) text += ',' + tool.name + '_' + number;
+    std::vector<gonio::direction> directions;
+    for (const gonio::direction_pair& pair : pairs) directions.push_back(pair.*tool.towards);
+    paths.push_back(gonio::capture::tool_path(tool.sphere, directions));
+  }
+  constexpr bool has_lamps = requires { machine.arc(); };
+  text += has_lamps ? ",lamp\n" : "\n";
+  const auto rounded = [](double number) { return gonio::io::detail::shortest(std::round(number * 1e9) / 1e9 + 0.0); };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    text += std::to_string(i + 1);
+    for (const auto& path : paths) {
+      for (const double number : path[i].position) text += ',' + rounded(number);
+      for (const double number : path[i].quaternion) text += ',' + rounded(number);
+    }
+    if constexpr (has_lamps) text += ',' + std::to_string(machine.arc().nearest(pairs[i].wi) + 1);
+    text += '\n';
+  }
+  return text;
+}
+
+void write_poses(const plan_command& options, const std::vector<gonio::direction_pair>& pairs) {
+  lab::dark_room room(lab::white(), {}, {});
+  const std::string text =
+      with_machine(options.machine, room, [&](const auto& machine) { return pose_table(machine, pairs); });
+  gonio::io::write_atomically(options.poses, std::as_bytes(std::span(text)));
+}
+
 void run(const plan_command& options) {
   const auto [plan, stops, lamps] = plan_of(options);
   if (plan.poses.empty()) gonio::refuse("the machine can measure none of the directions");
+  if (!options.poses.empty()) write_poses(options, plan.poses);
   gonio::io::write_direction_pairs(options.output, plan.poses);
   const double minutes = gonio::capture::duration_of_scan(plan.length, stops, lamps) / 60.0;
   std::cout << plan.poses.size() << " poses, " << plan.unreachable.size() << " cannot be reached; the way is "
@@ -80,6 +121,9 @@ void add_lab_plan(command& lab) {
                 "Every camera pose of the half hemisphere under every lamp of the robot's arc");
   what.require_option(1);
   add_machine_options(command, options->machine);
+  command.add_output("--poses", options->poses, {".csv"},
+                     "Position and quaternion of what the machine moves, for each pose, to write (.csv, "
+                     "docs/reference/formats.md)");
   command.add_output("-o,--output", options->output, {".csv"}, "Poses to write (.csv)").required();
   command.callback([options] { run(*options); });
 }

@@ -29,7 +29,8 @@ struct scan_command {
   bool white = false, ideal = false, adaptive = false;
   adaptive_options choice;
   std::string camera = "linear", label;
-  double reflectance = 0.99, misalignment = 0.5, outliers = 0.0, noise = 1.0;
+  std::filesystem::path reflectance = "0.99";  ///< of the white reference: a number, or a table's file
+  double misalignment = 0.5, outliers = 0.0, noise = 1.0;
   std::uint64_t room_seed = 1, seed = 1;
 };
 
@@ -44,7 +45,7 @@ lab::response_curve curve_named(const std::string& name) {
 }
 
 lab::surface surface_of(const scan_command& options) {
-  if (options.white) return lab::white(options.reflectance);
+  if (options.white) return lab::white(reflectance_of(options.reflectance));
   return [table = gonio::io::read_merl_any(options.material)](const gonio::direction& wi, const gonio::direction& wo) {
     return table(wi, wo);
   };
@@ -74,7 +75,10 @@ gonio::io::scan_subject subject_of(const scan_command& options) {
   gonio::io::scan_subject subject;
   subject.seed = options.seed;
   if (options.white) {
-    subject.sample = "white reference, reflectance " + shortest(options.reflectance);
+    const auto number = number_of_reflectance(options.reflectance);
+    const std::string reflectance = number ? shortest(*number) : "of " + options.reflectance.filename().string();
+    subject.sample = "white reference, reflectance " + reflectance;
+    if (!number) subject.checksum = gonio::io::checksum_of_file(options.reflectance);
   } else {
     subject.sample = options.material.filename().string();
     subject.checksum = gonio::io::checksum_of_file(options.material);
@@ -186,9 +190,7 @@ void add_lab_scan(command& lab) {
   what.add_input("--material", options->material, "A material's table (.binary or .binary.gz)");
   what.add_flag("--white", options->white, "The white reference");
   what.require_option(1);
-  command.add_option("--reflectance", options->reflectance, "Of the white reference")
-      .check(check::range(0.01, 1.0))
-      .capture_default_str();
+  add_reflectance_option(command, options->reflectance);
   add_label_option(command, options->label);
   // Declare the machine and its camera.
   add_machine_options(command, options->machine);

@@ -6,16 +6,29 @@
 #include <gonio/io/scan_journal.hpp>
 
 #include <cstdint>
+#include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace cli {
 
 struct calibration_options {
-  double gamma = 0.0;  ///< of a camera that is known; 0: find its response
-  double reflectance = 0.99, saturation = 0.98;
+  double gamma = 0.0;                          ///< of a camera that is known; 0: find its response
+  std::filesystem::path reflectance = "0.99";  ///< of the white reference: a number, or a table's file
+  double saturation = 0.98;
   gonio::capture::sensor_noise noise{.read = 1.6, .shot = 0.2};
 };
+
+/// Adds `--reflectance`, a number or a file.
+void add_reflectance_option(command& to, std::filesystem::path& given);
+
+/// What was given with it as a number, if it is one. Throws gonio::error unless that is from 0.01 to 1.
+[[nodiscard]] std::optional<double> number_of_reflectance(const std::filesystem::path& given);
+
+/// The number, or the table that the file has (docs/reference/formats.md).
+[[nodiscard]] gonio::capture::reference_reflectance reflectance_of(const std::filesystem::path& given);
 
 /// Adds `--reflectance`, `--gamma`, `--saturation`, `--read-noise`, `--shot-noise` and `--flicker`.
 void add_calibration_options(command& to, calibration_options& options);

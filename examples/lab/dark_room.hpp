@@ -4,6 +4,8 @@
 
 #include "random_turn.hpp"
 #include <gonio/capture/device.hpp>
+#include <gonio/capture/reference_reflectance.hpp>
+#include <gonio/capture/trajectory.hpp>
 #include <gonio/core/rgb.hpp>
 
 #include <algorithm>
@@ -77,9 +79,10 @@ struct sensor {
 using surface = std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)>;
 
 /// The white reference.
-[[nodiscard]] inline surface white(double reflectance = 0.99) {
+[[nodiscard]] inline surface white(const gonio::capture::reference_reflectance& reflectance = 0.99) {
   return [=](const gonio::direction& wi, const gonio::direction& wo) -> gonio::rgb {
-    return gonio::rgb::Constant(wi.z() > 0.0 && wo.z() > 0.0 ? reflectance * std::numbers::inv_pi : 0.0);
+    if (wi.z() <= 0.0 || wo.z() <= 0.0) return gonio::rgb::Zero();
+    return reflectance.at({wi, wo}) * std::numbers::inv_pi;
   };
 }
 
@@ -220,6 +223,13 @@ class room_camera {
   dark_room* room_;
 };
 static_assert(gonio::capture::camera<room_camera>);
+
+/// What a machine carries on a sphere about the sample, and always looks at it.
+struct carried_tool {
+  std::string name;
+  gonio::capture::camera_sphere sphere;                   ///< in the machine's axes
+  gonio::direction gonio::direction_pair::*towards = {};  ///< which of a pair's directions it is at
+};
 
 /// Switches a lamp on, and off again whatever happens.
 template <gonio::capture::light_source Lights>

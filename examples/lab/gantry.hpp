@@ -73,6 +73,12 @@ class gantry {
     return gonio::capture::expose_bracket(camera_);
   }
 
+  /// Both arms, in the sample's axes.
+  [[nodiscard]] static std::vector<carried_tool> tools() {
+    return {{"camera", {.radius = camera_distance, .arc_azimuth = 0.0}, &gonio::direction_pair::wo},
+            {"lamp", {.radius = lamp_distance, .arc_azimuth = 0.0}, &gonio::direction_pair::wi}};
+  }
+
   static constexpr double lamp_distance = 1000.0, camera_distance = 600.0;
 
  private:

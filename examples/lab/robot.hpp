@@ -92,6 +92,11 @@ class robot {
   [[nodiscard]] std::uint16_t largest_count() const { return camera_.largest_count(); }
   [[nodiscard]] const lamp_arc& arc() const { return arc_; }
 
+  /// The camera in its hand, in the robot's axes.
+  [[nodiscard]] std::vector<carried_tool> tools() const {
+    return {{"camera", arm_.sphere(), &gonio::direction_pair::wo}};
+  }
+
   [[nodiscard]] gonio::capture::reading measure(const gonio::direction_pair& pair) {
     room_->begin(pair);
     arm_.move_to(pair.wo);

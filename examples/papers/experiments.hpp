@@ -36,6 +36,8 @@ void add_scattered_samples(command& app);
 void add_adaptive_design(command& app);
 void add_in_plane(command& app);
 void add_sphere_photograph(command& app);
+void add_shape_poses(command& app);
+void add_shape_fields(command& app);
 void add_run(command& app);
 
 }  // namespace papers

@@ -37,6 +37,8 @@ int main(int argc, char** argv) {
   papers::add_adaptive_design(app);
   papers::add_in_plane(app);
   papers::add_sphere_photograph(app);
+  papers::add_shape_poses(app);
+  papers::add_shape_fields(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

@@ -12,6 +12,7 @@
 #include <gonio/capture/merged_frames.hpp>
 #include <gonio/capture/mirror_sphere.hpp>
 #include <gonio/capture/near_field_image.hpp>
+#include <gonio/capture/reference_reflectance.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/capture/scan.hpp>
 #include <gonio/capture/sphere_outline.hpp>

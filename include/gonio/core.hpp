@@ -18,6 +18,7 @@
 #include <gonio/core/progress.hpp>
 #include <gonio/core/random.hpp>
 #include <gonio/core/rgb.hpp>
+#include <gonio/core/rotation.hpp>
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/statistics.hpp>

@@ -21,6 +21,7 @@
 #include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>
+#include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/renderer_material.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/rules.hpp>

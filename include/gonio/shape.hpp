@@ -15,6 +15,7 @@
 #include <gonio/shape/io/mesh_parts.hpp>
 #include <gonio/shape/io/obj.hpp>
 #include <gonio/shape/io/ply.hpp>
+#include <gonio/shape/io/pose.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/mesh_image.hpp>
 #include <gonio/shape/mesh_part.hpp>

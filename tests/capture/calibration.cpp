@@ -77,6 +77,32 @@ TEST_CASE("calibration: a reference that was measured under other lights serves 
                        "a reference has 1 readings at 2 poses, expected one at each", gonio::error);
 }
 
+TEST_CASE("calibration: a reference that is darker at grazing light is known by its table, also at another pose") {
+  const auto pose = [](double light) {
+    return gonio::direction_pair{gonio::spherical_direction(light, 0.0), gonio::spherical_direction(0.2, 1.0)};
+  };
+  const gonio::rgb above(0.99, 0.98, 0.97), grazing(0.8, 0.7, 0.6);
+  gonio::capture::calibration with_table = known;
+  with_table.reflectance = {{0.0, 1.5}, {}, {above, grazing}};
+  const reading grey = photographed(gonio::rgb::Constant(10'000.0));
+  const auto beside = [&](const gonio::rgb& factor) { return photographed(20'000.0 * factor); };
+  for (const auto& [light, factor] : {std::pair{0.0, above}, std::pair{1.5, grazing}}) {
+    const auto found = measure_reflectance(grey, beside(factor), pose(light), with_table);
+    CHECK(((found.value * std::numbers::pi - 0.5).abs() < 2e-3).all());
+    const auto without = measure_reflectance(grey, beside(factor), pose(light), known);
+    CHECK(((without.value * std::numbers::pi - 0.5 * 0.99 / factor).abs() < 2e-3).all());
+    CHECK(found.relative_deviation() == doctest::Approx(without.relative_deviation()).epsilon(0.05));
+  }
+  // The factor is that of the pose at which the reference was read.
+  const gonio::capture::reference_readings reference({pose(0.0)}, {beside(above)});
+  const auto found =
+      reference.measure(photographed(gonio::rgb::Constant(10'000.0 * std::cos(1.0))), pose(1.0), with_table);
+  CHECK(((found.value * std::numbers::pi - 0.5).abs() < 2e-3).all());
+  with_table.reflectance = {{0.0, 1.0}, {}, {above, grazing}};
+  CHECK_THROWS_WITH_AS(measure_reflectance(grey, grey, pose(1.5), with_table), doctest::Contains("covers theta_i"),
+                       gonio::error);
+}
+
 TEST_CASE("calibration: what means nothing says why") {
   const reading white = photographed({20'000, 20'000, 20'000}), black = photographed({0, 0, 0}),
                 bright = photographed({1e6, 1e6, 1e6});

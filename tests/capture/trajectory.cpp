@@ -44,6 +44,36 @@ TEST_CASE("trajectory: Eq. 1-5, and the camera looks at the sample") {
   CHECK(along_arc.position.y() == doctest::Approx(350.0 * std::sqrt(0.5)));
 }
 
+TEST_CASE("trajectory: poses of a tool lead back to the directions, and their quaternions do not jump") {
+  rc::check("position and orientation are two ways back", [] {
+    const auto directions = scattered(20, *rc::gen::arbitrary<unsigned>());
+    const camera_sphere sphere{{10.0, 20.0, 300.0}, 500.0, *rc::gen::inRange(-360, 360) * 0.0175};
+    const auto path = gonio::capture::tool_path(sphere, directions);
+    RC_ASSERT(path.size() == directions.size());
+    RC_ASSERT(path.front().quaternion[0] >= 0.0);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const direction from_position = (path[i].position - sphere.centre).normalized();
+      for (const direction& back : {from_position, direction(-path[i].looks_along())})
+        RC_ASSERT((gonio::turned_about_normal(back, -sphere.arc_azimuth) - directions[i]).norm() < 1e-9);
+      RC_ASSERT(std::abs(path[i].quaternion.norm() - 1.0) < 1e-12);
+      if (i > 0) RC_ASSERT(path[i].quaternion.dot(path[i - 1].quaternion) >= 0.0);
+    }
+  });
+  // A known one: from 30 degrees above x, the tool's x turns by 120 degrees about y.
+  const std::vector one{gonio::spherical_direction(gonio::radians(30.0), 0.0)};
+  const auto pose = gonio::capture::tool_path({.arc_azimuth = 0.0}, one).front();
+  CHECK((pose.quaternion - Eigen::Vector4d(0.5, 0.0, std::sqrt(0.75), 0.0)).norm() < 1e-12);
+  // Once round: the orientation comes back by steps of as little as the directions', where q itself ends at -q.
+  std::vector<direction> circle;
+  for (int i = 0; i <= 360; ++i) circle.push_back(gonio::spherical_direction(0.7, gonio::radians(i)));
+  const auto round = gonio::capture::tool_path({}, circle);
+  for (std::size_t i = 1; i < round.size(); ++i)
+    CHECK((round[i].quaternion - round[i - 1].quaternion).norm() < gonio::radians(1.0));
+  CHECK((round.front().quaternion + round.back().quaternion).norm() < 1e-9);
+  CHECK_THROWS_WITH_AS(gonio::capture::tool_path({.radius = 0.0}, one), doctest::Contains("positive radius"),
+                       gonio::error);
+}
+
 TEST_CASE("trajectory: 11 rows of 25, and right above; 23 lamps") {
   const auto seen = gonio::capture::half_hemisphere();
   CHECK(seen.size() == 11 * 25 + 1);

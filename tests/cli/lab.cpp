@@ -3,8 +3,10 @@
 #include "../io/scratch.hpp"
 #include "../json.hpp"
 #include "tool.hpp"
+#include <gonio/capture/trajectory.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
+#include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/model/formula_materials.hpp>
@@ -13,7 +15,9 @@
 #include <stb/stb_image_write.h>
 
 #include <cmath>
+#include <sstream>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -102,6 +106,51 @@ TEST_CASE("lab: a scan with all defects is calibrated by itself, and goes on whe
   CHECK(errors["delta_e_env"].get<double>() < 10.0);
 }
 
+TEST_CASE("lab: a reference whose reflectance depends on the angle needs its table") {
+  const laboratory room;
+  const std::string table = std::string(GONIO_SOURCE_DIR) + "/examples/data/white-by-formula.csv";
+  const std::string plan = room.at("plan.csv"), white = room.at("white.scan"), paint = room.at("paint.scan");
+  run("lab plan " + directions + " -o " + plan);
+  run("lab scan " + plan + " --ideal --white --reflectance " + table + " -o " + white);
+  run("lab scan " + plan + " --ideal" + room.material + "-o " + paint);
+  const std::string calibrate = "lab calibrate " + paint + " --reference " + white +
+                                " --gamma 1 --read-noise 0 --shot-noise 0 --flicker 0 -o " + room.at("samples.csv");
+  const gonio::brdf_table truth = gonio::io::read_merl(room.at("truth.binary"));
+  const auto known = gonio::io::read_reference_reflectance(table);
+  const auto check_samples = [&](const std::string& options, auto&& share_of_truth) {
+    run(calibrate + options);
+    double most_off = 0.0;
+    const auto samples = gonio::io::read_samples(room.at("samples.csv"));
+    // A sample's phi_d may have light and viewer exchanged; the plan has not.
+    const auto pairs = gonio::io::read_direction_pairs(plan);
+    REQUIRE(samples.size() == pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const gonio::rgb& found = samples[i].value;
+      const gonio::rgb expected = share_of_truth(pairs[i]) * truth(pairs[i].wi, pairs[i].wo);
+      CHECK(((found - expected).abs() < 1e-3 * expected).all());
+      most_off = std::max(most_off, found.sum() / truth(pairs[i].wi, pairs[i].wo).sum() - 1.0);
+    }
+    return most_off;
+  };
+  CHECK(check_samples(" --reflectance " + table, [](const auto&) { return 1.0; }) < 1e-3);
+  // Without the table, samples are off by what it says, at grazing light by a tenth and more.
+  const auto constant_beside = [&](const auto& pair) -> gonio::rgb { return 0.99 / known.at(pair); };
+  CHECK(check_samples("", constant_beside) > 0.1);
+  CHECK(check_samples(" --nearest-reference --reflectance " + table, [](const auto&) { return 1.0; }) < 1e-3);
+
+  // The journal knows the table. One that ends too early, or is none, is refused, and nothing is written.
+  refuses("lab scan " + plan + " --ideal --white -o " + white, "reflectance of white-by-formula.csv");
+  std::filesystem::remove(room.at("samples.csv"));
+  scratch::put(room.at("short.csv"), "theta_i,factor\n0,0.99\n40,0.95\n");
+  refuses(calibrate + " --reflectance " + room.at("short.csv"), "covers theta_i from 0.000000 to 40.000000 degrees");
+  refuses(calibrate + " --reflectance " + plan, "plan.csv, line 1: column 'phi_i' is unknown");
+  refuses(calibrate + " --reflectance 1.1", "--reflectance 1.1: expected a number from 0.01 to 1, or a table's file");
+  refuses(calibrate + " --reflectance none.csv", "none.csv");
+  refuses("lab scan " + plan + " --white --reflectance 0 -o " + room.at("b.scan"), "--reflectance 0: expected");
+  CHECK(!std::filesystem::exists(room.at("samples.csv")));
+  CHECK(!std::filesystem::exists(room.at("b.scan")));
+}
+
 TEST_CASE("lab: an adaptive scan chooses its poses, and is the same however often it was stopped") {
   const laboratory room;
   const std::string white = room.at("white.scan"), plan = room.at("plan.csv"), paint = room.at("paint.scan");
@@ -184,6 +233,51 @@ TEST_CASE("lab: a plan names what cannot be reached") {
   refuses("lab plan --whole --machine gantry" + out, "--machine robot");
   scratch::put(folder / "two.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,30,2\n");
   refuses("lab plan " + (folder / "two.csv").string() + out, "can measure none");
+}
+
+TEST_CASE("lab: a plan's poses lead back to its directions, for both machines") {
+  const scratch::folder folder;
+  const std::string plan = (folder / "plan.csv").string(), poses = (folder / "poses.csv").string();
+  for (const bool is_robot : {false, true}) {
+    run("lab plan " + directions + (is_robot ? " --machine robot --lamp-tolerance 4" : "") + " --poses " + poses +
+        " -o " + plan);
+    const auto pairs = gonio::io::read_direction_pairs(plan);
+    std::istringstream lines(scratch::get(poses));
+    std::string line;
+    std::getline(lines, line);
+    const std::string camera = "pose,camera_x,camera_y,camera_z,camera_qw,camera_qx,camera_qy,camera_qz,";
+    CHECK(line == camera + (is_robot ? "lamp" : "lamp_x,lamp_y,lamp_z,lamp_qw,lamp_qx,lamp_qy,lamp_qz"));
+    Eigen::Vector4d before = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      REQUIRE(std::getline(lines, line));
+      std::vector<double> numbers;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) numbers.push_back(std::stod(field));
+      REQUIRE(numbers.size() == (is_robot ? 9 : 15));
+      CHECK(numbers[0] == static_cast<double>(i + 1));
+      const auto check_tool = [&](std::size_t first, const gonio::direction& expected, double radius) {
+        const Eigen::Vector3d position(numbers[first], numbers[first + 1], numbers[first + 2]);
+        const gonio::capture::tool_pose pose{position, Eigen::Vector4d(&numbers[first + 3])};
+        CHECK(position.norm() == doctest::Approx(radius));
+        CHECK(std::abs(pose.quaternion.norm() - 1.0) < 1e-8);
+        for (const gonio::direction& back :
+             {gonio::direction(position / radius), gonio::direction(-pose.looks_along())})
+          CHECK(gonio::angle_between(gonio::turned_about_normal(back, is_robot ? -std::numbers::pi / 2.0 : 0.0),
+                                     expected) < 1e-7);
+        return pose.quaternion;
+      };
+      const Eigen::Vector4d quaternion = check_tool(1, pairs[i].wo, is_robot ? 350.0 : 600.0);
+      CHECK(quaternion.dot(before) >= 0.0);
+      before = quaternion;
+      if (is_robot)
+        CHECK(gonio::angle_between(gonio::capture::arc_lamps()[static_cast<std::size_t>(numbers[8]) - 1], pairs[i].wi) <
+              1e-7);
+      else
+        check_tool(8, pairs[i].wi, 1000.0);
+    }
+    CHECK(!std::getline(lines, line));
+  }
+  refuses("lab plan " + directions + " --poses " + plan + " -o " + plan, "is what ");
 }
 
 TEST_CASE("lab: frames of a real laboratory go the same way, and those that are missing are named") {

@@ -4,6 +4,7 @@
 #include "../json.hpp"
 #include "tool.hpp"
 #include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/pose.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 
 #include <doctest/doctest.h>
@@ -117,6 +118,38 @@ TEST_CASE("shape recover: the scan of the demo, beside the truth") {
   const auto found = io::read_mesh(made.at("found.ply")), shown = io::read_mesh(made.ear("recovered.ply"));
   REQUIRE(found.triangles == shown.triangles);
   CHECK((found.vertices - shown.vertices).cwiseAbs().maxCoeff() < 1e-3);
+}
+
+TEST_CASE("shape recover: from a pose that was written down, which may be held") {
+  const auto& made = demonstrated();
+  const std::string files = "recover " + made.ear("scan.ply") + " --model " + made.ear("ears.shapes");
+  run_shape(files + " --found-pose " + made.at("pose.txt") + " -o " + made.at("first.ply"));
+  const auto first = io::read_mesh(made.at("first.ply"));
+  const auto off_by = [&](const std::string& options) {
+    run_shape(files + options + " -o " + made.at("again.ply"));
+    return (io::read_mesh(made.at("again.ply")).vertices - first.vertices).cwiseAbs().maxCoeff();
+  };
+  // A fit that begins where another one ended ends there, to some of its tolerance.
+  CHECK(off_by(" --pose " + made.at("pose.txt")) < 0.1);
+  CHECK(off_by(" --pose " + made.at("pose.txt") + " --hold-pose") < 0.1);
+  const auto pose = io::read_pose(made.at("pose.txt"));
+  io::write_pose(made.at("off.txt"), gonio::shape::similarity_transform{.translation = {0.5, 0.0, 0.5}} * pose);
+  CHECK(off_by(" --pose " + made.at("off.txt")) < 0.1);
+  CHECK(off_by(" --pose " + made.at("off.txt") + " --hold-pose") > 0.1);
+  run_shape(files + " --pose " + made.at("off.txt") + " --hold-pose --found-pose " + made.at("held.txt") + " -o " +
+            made.at("again.ply"));
+  const auto held = io::read_pose(made.at("held.txt")), off = io::read_pose(made.at("off.txt"));
+  CHECK((held.rotation - off.rotation).norm() < 1e-12);
+  CHECK(held.translation == off.translation);
+
+  const std::string never = " -o " + made.at("never.ply");
+  scratch::put(made.at("scaled.txt"), std::string("1.1 0 0 0\n0 1.1 0 0\n0 0 1.1 0\n0 0 0 1\n"));
+  refuses_shape(files + " --pose " + made.at("scaled.txt") + never, "scaled.txt: is no rigid motion");
+  scratch::put(made.at("far.txt"), std::string("1 0 0 900\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"));
+  refuses_shape(files + " --pose " + made.at("far.txt") + never, "is its pose right?");
+  refuses_shape(files + " --hold-pose" + never, "--pose");
+  refuses_shape(files + " --pose " + made.at("pose.txt") + " --hold-pose --trials 12" + never, "--hold-pose");
+  CHECK_FALSE(std::filesystem::exists(made.at("never.ply")));
 }
 
 TEST_CASE("shape learn: a model of meshes in correspondence, and what it recovers") {

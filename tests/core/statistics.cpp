@@ -4,6 +4,7 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 TEST_CASE("quantiles and medians are those of the sorted numbers") {
@@ -29,4 +30,9 @@ TEST_CASE("the least and the greatest; a temporary is a vector, too") {
   CHECK(gonio::quantile(numbers, 0.0) == 1);
   CHECK(gonio::quantile(numbers, 1.0) == 4);
   CHECK(gonio::median(std::vector<float>{2.0f, 1.0f}) == 1.5f);
+}
+
+TEST_CASE("half of all normal numbers are within a median's distance of the mean") {
+  // P(|x| < d) of a normal number is erf(d / sqrt(2)).
+  CHECK(std::erf(1.0 / gonio::deviation_by_median / std::sqrt(2.0)) == doctest::Approx(0.5).epsilon(1e-4));
 }

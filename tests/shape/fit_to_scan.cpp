@@ -105,3 +105,24 @@ TEST_CASE("a pose that is wrong is refused") {
                        "the scan shows 0 of the model's 500 vertices, expected at least 10: is its pose right?",
                        gonio::error);
 }
+
+TEST_CASE("a pose that is held stays as it was given, bit by bit, and costs what it is off") {
+  const small_ears& ears = small_ears::of_sixty();
+  const synthetic::ear_scan scan = ears.scan(1);
+  const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
+  const auto off_with = [&](double degrees, double shift, bool holds_pose) {
+    const auto pose = about_right(scan, ears.model, degrees, shift);
+    gonio::shape::fit_to_scan_options options;
+    options.holds_pose = holds_pose;
+    const auto found = gonio::shape::fit_to_scan(ears.model, index, pose, options);
+    if (holds_pose) {
+      CHECK(found.pose.rotation == pose.rotation);
+      CHECK(found.pose.translation == pose.translation);
+      CHECK(found.all_weights.tail<6>().norm() == 0.0);
+    }
+    return gonio::shape::distance_to(complete, found.pose.inverse()(found.shape())).absolute_mean;
+  };
+  // Where it is right it serves as well as one that is fitted; where it is off it does not.
+  CHECK(off_with(0.0, 0.0, true) < 1.5 * off_with(0.0, 0.0, false));
+  CHECK(off_with(6.0, 1.0, true) > 2.0 * off_with(6.0, 1.0, false));
+}

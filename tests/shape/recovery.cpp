@@ -58,6 +58,22 @@ TEST_CASE("a large hole is recovered closer to the truth than a thin plate fills
   CHECK(ours < 0.6 * thin_plate);
 }
 
+TEST_CASE("Algorithm 1 aligns in each round: from a pose that is off it comes nearer to the truth than without") {
+  const small_ears& ears = small_ears::of_sixty();
+  const recovered_hole judge(ears, 1);
+  const gonio::shape::similarity_transform off{1.0, Eigen::Matrix3d::Identity(), {0.7, -0.7, 0.0}};
+  const auto off_with = [&](bool aligns) {
+    gonio::shape::algorithm_1_options options;
+    options.coarse.holds_pose = true;
+    options.aligns = aligns;
+    options.local_rounds = 0;
+    const auto found = gonio::shape::recover_algorithm_1(ears.model, judge.index, off * judge.pose, options);
+    if (!aligns) CHECK(found.pose.translation == (off * judge.pose).translation);
+    return judge.off(found.surface.vertices, found.pose);
+  };
+  CHECK(off_with(true) < off_with(false));
+}
+
 TEST_CASE("Algorithm 1 recovers, too, with and without its local rounds") {
   const small_ears& ears = small_ears::of_sixty();
   const recovered_hole judge(ears, 1);

@@ -16,6 +16,27 @@ TEST_CASE("a registered scan is a shape of the model's vertices on the scan") {
   CHECK((found.vertices - found.pose(scan.truth)).colwise().norm().mean() < 1.5);
 }
 
+TEST_CASE("a scan may be aligned anew while the model is propagated: it stays where it belongs, and the shape on it") {
+  const small_ears& ears = small_ears::of_sixty();
+  const synthetic::ear_scan scan = ears.scan(7);
+  const gonio::shape::surface_index index(scan.mesh);
+  const auto right = gonio::shape::align(scan.truth, ears.model.mean().vertices);
+  const auto registered = [&](bool realigns) {
+    gonio::shape::registration_options options;
+    options.fit.holds_pose = true;
+    options.realigns = realigns;
+    const auto found = gonio::shape::register_scan(ears.model, index, right, options);
+    CHECK(gonio::shape::distance_to(index, found.pose.inverse()(found.vertices)).absolute_mean < 0.05);
+    return found.pose;
+  };
+  const auto held = registered(false), anew = registered(true);
+  CHECK(held.rotation == right.rotation);
+  CHECK(held.translation == right.translation);
+  CHECK(anew.translation != right.translation);
+  CHECK((anew.rotation * anew.rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-9);
+  CHECK((anew(scan.truth) - right(scan.truth)).colwise().norm().mean() < 0.3);
+}
+
 TEST_CASE("each test of a registration refuses by a sentence") {
   const small_ears& ears = small_ears::of_sixty();
   const synthetic::ear_scan scan = ears.scan(7, small_ears::with_hole());

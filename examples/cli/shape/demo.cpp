@@ -6,7 +6,7 @@
 #include "command_line/json.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
-#include "synthetic/ear_canal_scans.hpp"
+#include "synthetic/ear_study.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
@@ -52,36 +52,12 @@ struct judged_ear {
   std::optional<double> inside;  ///< share of the hole's true vertices in the 95 % ellipsoids, if that was asked for
 };
 
-gonio::shape::shape_model learn_ear_canals(const synthetic::ear_canal_template& common,
-                                           const shape_demo_command& options) {
-  const synthetic::ear_canal_family family;
-  std::vector<gonio::shape::point_columns> shapes;
-  std::vector<std::string> names;
-  synthetic::number_source seeds(options.seed);
-  for (Eigen::Index i = 0; i < options.shapes; ++i) {
-    shapes.push_back(common.corresponded(family.draw(seeds.seed())));
-    names.push_back("ear-" + std::to_string(i + 1));
-  }
-  return gonio::shape::learn_shape_model(shapes, names, common.mesh().triangles, options.threads);
-}
-
-synthetic::ear_scan scan_held_out(const synthetic::ear_canal_template& common, const shape_demo_command& options,
-                                  Eigen::Index i) {
+synthetic::ear_scan scan_held_out(const synthetic::ear_study& study, const shape_demo_command& options,
+                                  Eigen::Index number) {
   synthetic::scan_options how;
   how.hole = options.hole == "large" ? synthetic::hole_options::large() : synthetic::hole_options::small();
   how.hole->edge_noise = options.edge_noise;
-  // A source of its own, so that who is held out does not depend on how many were learned from.
-  synthetic::number_source seeds(options.seed + 1'000'003 * (i + 1));
-  const std::uint64_t individual = seeds.seed(), scanner = seeds.seed();
-  return synthetic::scan_of(synthetic::ear_canal_family().draw(individual), common, scanner, how);
-}
-
-/// The vertices in the hole of a scan.
-std::vector<Eigen::Index> hole_of(const synthetic::ear_canal_template& common, const synthetic::ear_scan& scan) {
-  std::vector<Eigen::Index> hole;
-  for (std::size_t v = 0; v < scan.covered.size(); ++v)
-    if (!scan.covered[v] && common.places()(0, v) > 0.1) hole.push_back(v);
-  return hole;
+  return study.held_out(number, how);
 }
 
 /// The share of vertices whose true place is in the 95 % ellipsoid about where they were recovered.
@@ -97,11 +73,11 @@ double share_inside(const gonio::shape::cross_validated_uncertainty& uncertainty
 }
 
 /// The ways to recover a scan, judged where it has its hole.
-judged_ear judge_ear(const gonio::shape::shape_model& model, const synthetic::ear_canal_template& common,
+judged_ear judge_ear(const gonio::shape::shape_model& model, const synthetic::ear_study& study,
                      const synthetic::ear_scan& scan, const shape_demo_command& options) {
   const gonio::shape::surface_index index(scan.mesh), complete(scan.complete);
   const gonio::shape::similarity_transform pose = find_pose(model, scan.mesh, options.threads);
-  const std::vector<Eigen::Index> hole = hole_of(common, scan);
+  const std::vector<Eigen::Index> hole = study.hole_of(scan);
   judged_ear judged;
   judged.missing = hole.size();
   const auto judge = [&](std::string name, const gonio::shape::point_columns& vertices, const auto& to_model) {
@@ -198,14 +174,14 @@ void write_example(const std::filesystem::path& folder, const gonio::shape::shap
 
 void show_shapes(const shape_demo_command& options) {
   if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
-  const synthetic::ear_canal_template common;
-  const gonio::shape::shape_model model = learn_ear_canals(common, options);
+  const synthetic::ear_study study(options.seed);
+  const gonio::shape::shape_model model = study.learn(options.shapes, options.threads);
   json report = {{"shapes", model.shapes()}, {"vertices", model.vertices()}, {"held_out", json::array()}};
   std::vector<gonio::image> rows;
   std::vector<judged_ear> ears;
   for (Eigen::Index i = 0; i < options.held_out; ++i) {
-    const synthetic::ear_scan scan = scan_held_out(common, options, i);
-    judged_ear ear = judge_ear(model, common, scan, options);
+    const synthetic::ear_scan scan = scan_held_out(study, options, i);
+    judged_ear ear = judge_ear(model, study, scan, options);
     if (!options.as_json) print_ear(i + 1, ear);
     report["held_out"].push_back(json_of(ear));
     if (!options.folder.empty()) {

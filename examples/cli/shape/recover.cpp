@@ -7,6 +7,7 @@
 #include <gonio/render/false_colour.hpp>
 #include <gonio/shape/cross_validated_uncertainty.hpp>
 #include <gonio/shape/io/mesh.hpp>
+#include <gonio/shape/io/pose.hpp>
 #include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/surface_distance.hpp>
@@ -20,8 +21,9 @@ namespace cli {
 namespace {
 
 struct shape_recover_command {
-  std::filesystem::path scan, model, output, truth, image;
+  std::filesystem::path scan, model, output, truth, image, pose, found_pose;
   double noise = 0.05;
+  bool holds_pose = false;
   Eigen::Index trials = 0;
   gonio::thread_count threads;
 };
@@ -52,17 +54,26 @@ void print_how_sure(const gonio::shape::cross_validated_uncertainty& uncertainty
             << fixed(std::sqrt(all / count), 3) << " mm with what vertices slide along it\n";
 }
 
+/// The pose to begin with: as given, or by shape context.
+gonio::shape::similarity_transform begin_pose(const shape_recover_command& options,
+                                              const gonio::shape::shape_model& model,
+                                              const gonio::shape::triangle_mesh& scan) {
+  if (!options.pose.empty()) return gonio::io::read_pose(options.pose);
+  return in_file(options.scan, [&] { return find_pose(model, scan, options.threads); });
+}
+
 void recover_shape(const shape_recover_command& options) {
   // Read the model and the scan.
   const gonio::shape::shape_model model = gonio::io::read_shape_model(options.model);
   const gonio::shape::triangle_mesh scan = gonio::io::read_mesh(options.scan);
   gonio::shape::recovery_options how;
   how.fine.position_error = options.noise;
+  how.coarse.holds_pose = how.fine.holds_pose = options.holds_pose;
   // Recover the shape, and bring it into the frame of the model.
   const gonio::shape::surface_index index = in_file(options.scan, [&] { return gonio::shape::surface_index(scan); });
-  const gonio::shape::recovered_shape found = in_file(options.scan, [&] {
-    return gonio::shape::recover(model, index, find_pose(model, scan, options.threads), how, options.threads);
-  });
+  const gonio::shape::similarity_transform pose = begin_pose(options, model, scan);
+  const gonio::shape::recovered_shape found =
+      in_file(options.scan, [&] { return gonio::shape::recover(model, index, pose, how, options.threads); });
   gonio::shape::triangle_mesh recovered = model.mesh(found.pose.inverse()(found.surface.vertices));
 
   // List the vertices that the scan does not show.
@@ -89,7 +100,8 @@ void recover_shape(const shape_recover_command& options) {
                 << fixed(off.absolute_mean, 3) << " mm, largest " << fixed(off.largest, 3) << " mm\n";
     }
   }
-  // Write the mesh, coloured by its distance from the truth, and the image.
+  // Write the pose, the mesh, coloured by its distance from the truth, and the image.
+  if (!options.found_pose.empty()) gonio::io::write_pose(options.found_pose, found.pose);
   if (colours.empty())
     gonio::io::write_mesh(options.output, recovered);
   else
@@ -107,13 +119,23 @@ void add_shape_recover(command& shape) {
   command.add_option("--noise", options->noise, "Of the scan, mm")
       .check(check::range(1e-4, 10.0))
       .capture_default_str();
+  auto pose = command.add_input("--pose", options->pose,
+                                "Where the scan lies, from it to the model, instead of finding it by its shape (.txt, "
+                                "docs/reference/formats.md)");
+  auto hold = command
+                  .add_flag("--hold-pose", options->holds_pose,
+                            "The pose is right as it is: it is not fitted together with the shape")
+                  .needs(pose);
   command
       .add_option("--trials", options->trials,
                   "Shapes of the model to leave out and recover, to tell how sure this is; 0 for none, else 10 or more")
       .check(check::range(0, 100000))
+      .excludes(hold)
       .capture_default_str();
   command.add_input("--truth", options->truth, "The whole surface, to compare with");
   command.add_output("--image", options->image, {".png"}, "The recovered surface from two sides (.png)");
+  command.add_output("--found-pose", options->found_pose, {".txt"},
+                     "The pose that was found, from the scan to the model, to write (.txt)");
   add_threads_option(command, options->threads);
   command
       .add_output("-o,--output", options->output, {".ply", ".obj"},

@@ -3,11 +3,13 @@
 /// 2016, note on relative BRDF measurement, Sec. 3 and 4).
 
 #include <gonio/capture/high_dynamic_range.hpp>
+#include <gonio/capture/reference_reflectance.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/core/rgb.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +20,7 @@ namespace gonio::capture {
 struct calibration {
   std::array<camera_response, 3> responses;  ///< of red, green and blue
   sensor_noise noise = {};
-  double reflectance = 0.99;     ///< of the reference: Spectralon's
+  reference_reflectance reflectance = 0.99;  ///< Spectralon's
   std::uint16_t saturation = 0;  ///< from this count on a pixel is saturated; 0 stands for the largest count
 };
 
@@ -65,15 +67,20 @@ struct measured_reflectance {
 /// the radiances of all pixels on average. A channel that is dark in every exposure has the value 0. `illumination`
 /// says where the surfaces lay, if not in the same place (Eq. 22).
 ///
-/// Throws gonio::error as merge_exposures, reference_light and reference_light::brdf do.
+/// The reference's reflectance is that at the same pair: where its normal is another, a table needs the pair as the
+/// reference sees it, in `reference_pose`.
+///
+/// Throws gonio::error as merge_exposures, reference_reflectance::at, reference_light and reference_light::brdf do.
 [[nodiscard]] measured_reflectance measure_reflectance(const reading& material, const reading& reference,
                                                        const direction_pair& at, const calibration& known,
                                                        const illumination& material_at = {},
-                                                       const illumination& reference_at = {});
+                                                       const illumination& reference_at = {},
+                                                       const std::optional<direction_pair>& reference_pose = {});
 
 /// Readings of a white reference that serve poses at which it was not measured. The reference is matte and lies where
-/// the material does: its radiance falls as the cosine of incidence and is the same for every viewer (Eq. 21 and 22). A
-/// pose takes the reading whose light is nearest to its own, so that a lamp of an arc is compared with itself.
+/// the material does: its radiance falls as the cosine of incidence and is the same for every viewer (Eq. 21 and 22),
+/// but for what a table of its reflectance says of the pose of the reading. A pose takes the reading whose light is
+/// nearest to its own, so that a lamp of an arc is compared with itself.
 class reference_readings {
  public:
   /// Throws gonio::error if there is no reading, or not one for each pose.
@@ -88,10 +95,10 @@ class reference_readings {
   std::vector<reading> readings_;
 };
 
-/// Throws gonio::error if the reference is darker than the material, by over 5 %, in most samples, or in most of those
-/// whose half vector is over 10 degrees from the normal: the two were exchanged. It is right only where nothing but a
-/// highlight was measured, or what is whiter than the reference.
-void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance);
+/// Throws gonio::error if the reference is darker than the material, by over 5 % of the largest of its factors, in most
+/// samples, or in most of those whose half vector is over 10 degrees from the normal: the two were exchanged. It is
+/// right only where nothing but a highlight was measured, or what is whiter than the reference.
+void require_bright_reference(std::span<const measured_reflectance> usable, const reference_reflectance& reflectance);
 
 }  // namespace gonio::capture
 

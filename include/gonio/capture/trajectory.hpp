@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,6 +46,23 @@ struct camera_sphere {
   /// The direction in the sample's axes from which a pose sees it: the inverse of `towards`.
   [[nodiscard]] direction seen_from(const camera_pose& pose) const;
 };
+
+/// Where a tool is, and how it is turned, as a robot's controller takes it.
+struct tool_pose {
+  Eigen::Vector3d position;  ///< in mm, in the robot's axes
+  /// w, x, y, z of a unit quaternion q (Hamilton's product): a vector v in the tool's axes is q v q* in the robot's.
+  /// The tool looks along its x axis.
+  Eigen::Vector4d quaternion;
+
+  [[nodiscard]] direction looks_along() const;
+};
+
+/// The poses from which a tool on a sphere looks at its centre, one for each direction in the sample's axes, in their
+/// order (Eq. 1-5). q and -q are the same orientation: the first q has w >= 0, each next one is the nearer of the two
+/// to the one before, so that a controller that interpolates between them turns the short way. O(directions).
+///
+/// Throws gonio::error as `require_usable` does.
+[[nodiscard]] std::vector<tool_pose> tool_path(const camera_sphere& sphere, std::span<const direction> directions);
 
 /// Every n-th of a right angle, in radians: 7.5 degrees in the note.
 struct angular_grid {

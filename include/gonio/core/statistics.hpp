@@ -8,6 +8,10 @@
 
 namespace gonio {
 
+/// Times the median distance from the median, this is the standard deviation of normal numbers, whatever a few others
+/// among them are: 1 over the normal distribution's quantile of 0.75.
+inline constexpr double deviation_by_median = 1.4826;
+
 /// The number at floor(share (n - 1)) when they are sorted: the least for a share of 0, the greatest for 1.
 template <class Numbers>
 [[nodiscard]] auto quantile(Numbers&& numbers, double share) {

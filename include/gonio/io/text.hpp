@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -29,6 +30,9 @@ struct text_place {
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
+
+/// The fields of a line between its commas, trimmed; what `fields` held before is dropped.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields);
 
 /// Takes the next line that holds something off the front of a text, trimmed; `place` is then there. Lines that start
 /// with # are comments.

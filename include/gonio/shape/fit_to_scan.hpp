@@ -27,6 +27,9 @@ struct fit_to_scan_options {
   /// Down-weight outlying correspondences (Geman-McClure). Noise at the edges of holes then counts little, but the
   /// weights no longer tell a scan of something else.
   bool robust = false;
+  /// Is the pose right as it is, so that only the shape is fitted? `uncertainty` does not know: it is wider than it
+  /// need be.
+  bool holds_pose = false;
   double tolerance = 1e-3;  ///< the change of the shape that ends the iteration, root mean square in mm
   int most_iterations = 100;
 };

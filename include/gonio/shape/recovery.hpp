@@ -44,6 +44,7 @@ struct algorithm_1_options {
   int rounds = 10;               ///< of all vertices at once, while the explained variance rises
   int local_rounds = 3;          ///< vertex by vertex, which smooths locally; 0 to go without
   Eigen::Index neighbours = 10;  ///< known vertices that predict one in a local round
+  bool aligns = true;            ///< the shape with the mean, and the scan with it, in each round (line 4)
   double confidence = 0.999;     ///< that a shape of the family is not refused
 };
 

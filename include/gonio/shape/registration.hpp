@@ -12,7 +12,10 @@ namespace gonio::shape {
 /// How a model is propagated, and what is accepted (section 2).
 struct registration_options {
   fit_to_scan_options fit;
-  double reach = 2.0;                    ///< along a normal, mm
+  double reach = 2.0;  ///< along a normal, mm
+  /// Are the places on the scan aligned with the fitted shape anew in each round, as section 2 has it? The fit has
+  /// found the pose already: docs/results/shapes.md says what this is worth.
+  bool realigns = false;
   int rounds = 20;                       ///< of smoothing and propagating, at most
   double tolerance = 0.01;               ///< the change that ends them, root mean square in mm
   double most_missing = 0.12;            ///< share of the vertices that the scan may not show

@@ -3,6 +3,7 @@
 
 #include <gonio/capture/calibration.hpp>
 #include <gonio/capture/high_dynamic_range.hpp>
+#include <gonio/capture/reference_reflectance.hpp>
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/rgb.hpp>
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -76,9 +78,10 @@ GONIO_INLINE channel_weights measured_reflectance::weights() const {
 
 GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, const reading& reference,
                                                       const direction_pair& at, const calibration& known,
-                                                      const illumination& material_at,
-                                                      const illumination& reference_at) {
+                                                      const illumination& material_at, const illumination& reference_at,
+                                                      const std::optional<direction_pair>& reference_pose) {
   measured_reflectance result{at};
+  const rgb factor = known.reflectance.at(reference_pose.value_or(at));
   bool is_dark = true;
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
     const camera_response& response = known.responses[channel];
@@ -89,10 +92,11 @@ GONIO_INLINE measured_reflectance measure_reflectance(const reading& material, c
     if (!white.usable()) result.doubt = std::string("the reference is ") + (white.dark ? "dark" : "saturated");
     if (seen.saturated) result.doubt = "saturated in every exposure";
     if (!result.is_usable()) return result;
-    const reference_light light({white.value, white.deviation}, known.reflectance, reference_at);
+    // Beside a perfect diffuser, of which the reference has a part.
+    const reference_light light({white.value, white.deviation}, 1.0, reference_at);
     const uncertain f = light.brdf({seen.value, seen.deviation}, material_at);
-    result.value[channel] = f.value;
-    result.deviation[channel] = f.deviation;
+    result.value[channel] = factor[channel] * f.value;
+    result.deviation[channel] = factor[channel] * f.deviation;
     is_dark = is_dark && seen.dark;
   }
   if (is_dark) result.doubt = "dark in every exposure";
@@ -111,14 +115,15 @@ GONIO_INLINE measured_reflectance reference_readings::measure(const reading& mat
   const auto nearest =
       std::ranges::min_element(poses_, {}, [&](const direction_pair& pose) { return angle_between(pose.wi, at.wi); });
   const reading& white = readings_[nearest - poses_.begin()];
-  return measure_reflectance(material, white, at, known, {.cosine = at.wi.z()}, {.cosine = nearest->wi.z()});
+  return measure_reflectance(material, white, at, known, {.cosine = at.wi.z()}, {.cosine = nearest->wi.z()}, *nearest);
 }
 
-GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance> usable, double reflectance) {
+GONIO_INLINE void require_bright_reference(std::span<const measured_reflectance> usable,
+                                           const reference_reflectance& reflectance) {
   constexpr double margin = 1.05;
   Eigen::Index darker = 0, matte = 0, darker_matte = 0;
   for (const measured_reflectance& each : usable) {
-    const bool is_darker = each.value.mean() > margin * reflectance * std::numbers::inv_pi;
+    const bool is_darker = each.value.mean() > margin * reflectance.largest() * std::numbers::inv_pi;
     const bool is_matte = to_half_difference(each.at.wi, each.at.wo).theta_h > radians(10.0);
     darker += is_darker ? 1 : 0;
     matte += is_matte ? 1 : 0;

@@ -69,14 +69,14 @@ GONIO_INLINE void dark_signal::fit(std::span<const exposed_frame> frames) {
 }
 
 GONIO_INLINE void dark_signal::find_hot_pixels(double longest) {
-  constexpr double robust_deviation = 1.4826, deviations = 8.0, counts = 4.0;
+  constexpr double deviations = 8.0, counts = 4.0;
   std::vector<double> dark(pedestals_.size());
   for (Eigen::Index i = 0; i < size(); ++i) dark[i] = count(i, longest);
   const double middle = upper_median(std::vector<double>(dark));
   std::vector<double> distances;
   distances.reserve(dark.size());
   for (const double each : dark) distances.push_back(std::abs(each - middle));
-  const double limit = middle + std::max(counts, deviations * robust_deviation * upper_median(distances));
+  const double limit = middle + std::max(counts, deviations * deviation_by_median * upper_median(distances));
   for (Eigen::Index pixel = 0; pixel < size() / 3; ++pixel)
     if (std::max({dark[3 * pixel], dark[3 * pixel + 1], dark[3 * pixel + 2]}) > limit) hot_.push_back(pixel);
 }

@@ -61,7 +61,7 @@ GONIO_INLINE contrast_image contrast_of(const image& photograph) {
     }
   const double background = median(border);
   for (double& each : border) each = std::abs(each - background);
-  const double noise = 1.4826 * median(std::move(border));
+  const double noise = deviation_by_median * median(std::move(border));
   for (double& each : contrast.values) each = std::abs(each - background);
   contrast.threshold = threshold_of(contrast.values, noise);
   return contrast;
@@ -202,36 +202,23 @@ namespace gonio::capture {
 
 GONIO_INLINE std::vector<Eigen::Vector2d> edge_points(const image& photograph) {
   const detail::contrast_image contrast = detail::contrast_of(photograph);
-  const Eigen::Index last_row = contrast.rows - 1, last_column = contrast.columns - 1;
-  const double limit = contrast.threshold;
   std::vector<Eigen::Vector2d> points;
-  const auto width = static_cast<double>(contrast.columns), height = static_cast<double>(contrast.rows);
-  detail::add_steep_edges(
-      contrast.rows,
-      [&](Eigen::Index row) {
-        return detail::first_edge(contrast.columns, limit, [&](Eigen::Index i) { return contrast.at(row, i); });
-      },
-      [&](double edge, double row) { points.emplace_back(edge, row); });
-  detail::add_steep_edges(
-      contrast.rows,
-      [&](Eigen::Index row) {
-        return detail::first_edge(contrast.columns, limit,
-                                  [&](Eigen::Index i) { return contrast.at(row, last_column - i); });
-      },
-      [&](double edge, double row) { points.emplace_back(width - edge, row); });
-  detail::add_steep_edges(
-      contrast.columns,
-      [&](Eigen::Index column) {
-        return detail::first_edge(contrast.rows, limit, [&](Eigen::Index i) { return contrast.at(i, column); });
-      },
-      [&](double edge, double column) { points.emplace_back(column, edge); });
-  detail::add_steep_edges(
-      contrast.columns,
-      [&](Eigen::Index column) {
-        return detail::first_edge(contrast.rows, limit,
-                                  [&](Eigen::Index i) { return contrast.at(last_row - i, column); });
-      },
-      [&](double edge, double column) { points.emplace_back(column, height - edge); });
+  // From both ends of all rows, then of all columns.
+  for (const bool is_row : {true, false})
+    for (const bool is_backward : {false, true}) {
+      const Eigen::Index lines = is_row ? contrast.rows : contrast.columns,
+                         length = is_row ? contrast.columns : contrast.rows;
+      const auto scan = [&](Eigen::Index line) {
+        return detail::first_edge(length, contrast.threshold, [&](Eigen::Index i) {
+          const Eigen::Index along = is_backward ? length - 1 - i : i;
+          return is_row ? contrast.at(line, along) : contrast.at(along, line);
+        });
+      };
+      detail::add_steep_edges(lines, scan, [&](double edge, double line) {
+        const double along = is_backward ? static_cast<double>(length) - edge : edge;
+        points.emplace_back(is_row ? along : line, is_row ? line : along);
+      });
+    }
   return points;
 }
 

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,24 @@ GONIO_INLINE camera_pose camera_sphere::towards(const direction& wo) const {
 
 GONIO_INLINE direction camera_sphere::seen_from(const camera_pose& pose) const {
   return turned_about_normal((pose.position - centre).normalized(), -arc_azimuth);
+}
+
+GONIO_INLINE direction tool_pose::looks_along() const {
+  return Eigen::Quaterniond(quaternion[0], quaternion[1], quaternion[2], quaternion[3]) * Eigen::Vector3d::UnitX();
+}
+
+GONIO_INLINE std::vector<tool_pose> tool_path(const camera_sphere& sphere, std::span<const direction> directions) {
+  sphere.require_usable();
+  std::vector<tool_pose> path;
+  Eigen::Vector4d before = Eigen::Vector4d::UnitX();
+  for (const direction& towards : directions) {
+    const camera_pose pose = sphere.towards(towards);
+    const Eigen::Quaterniond turn = pose.orientation();
+    const Eigen::Vector4d quaternion(turn.w(), turn.x(), turn.y(), turn.z());
+    before = quaternion.dot(before) < 0.0 ? -quaternion : quaternion;
+    path.push_back({pose.position, before});
+  }
+  return path;
 }
 
 GONIO_INLINE int angular_grid::steps_to_horizon() const {

@@ -5,6 +5,7 @@
 #include <gonio/core/direction.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/pinhole_camera.hpp>
+#include <gonio/core/rotation.hpp>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -32,10 +33,7 @@ GONIO_INLINE pinhole_camera::pinhole_camera(const camera_intrinsics& intrinsics,
   if (!(intrinsics.focal_length_x > 0.0 && intrinsics.focal_length_y > 0.0))
     refuse({"a camera's focal lengths must be positive, not ", intrinsics.focal_length_x, " and ",
             intrinsics.focal_length_y});
-  constexpr double tolerance = 1e-3;
-  if (!((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm() < tolerance) ||
-      !(rotation.determinant() > 0.0))
-    refuse("a camera's rotation must be an orthogonal matrix of determinant 1");
+  if (!is_rotation(rotation)) refuse("a camera's rotation must be an orthogonal matrix of determinant 1");
 }
 
 GONIO_INLINE pinhole_camera pinhole_camera::look_at(const camera_intrinsics& intrinsics,

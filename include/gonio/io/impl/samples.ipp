@@ -39,15 +39,6 @@ inline constexpr column_group channel_weight_group{17, 3};
 
 using sample_row = std::array<double, sample_columns.size()>;
 
-GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
-  fields.clear();
-  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
-    fields.push_back(trimmed(line.substr(0, comma)));
-    line.remove_prefix(comma + 1);
-  }
-  fields.push_back(trimmed(line));
-}
-
 /// The header line: which column each field of a line is, and how directions are given.
 class sample_header {
  public:

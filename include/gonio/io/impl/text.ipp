@@ -13,6 +13,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -49,6 +50,15 @@ GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::stri
     if (!line.empty() && line.front() != '#') return true;
   }
   return false;
+}
+
+GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
+    fields.push_back(trimmed(line.substr(0, comma)));
+    line.remove_prefix(comma + 1);
+  }
+  fields.push_back(trimmed(line));
 }
 
 GONIO_INLINE const char* read_number(std::string_view field, double& value) {

@@ -83,6 +83,18 @@ GONIO_INLINE Eigen::VectorXd inlier_weights(const vertex_observations& places, c
   return places;
 }
 
+/// The weights of the shape that has these places, and of its motion, which are 0 where the pose is held.
+[[nodiscard]] GONIO_INLINE Eigen::VectorXd fitted_weights(const shape_with_motion& functions,
+                                                          const vertex_observations& places, const tikhonov& solver,
+                                                          bool holds_pose, thread_count threads) {
+  const located_samples located = locate_vertices(functions.cells(), places);
+  if (!holds_pose) return basis_equations(functions, located, threads).solve(solver).weights.col(0);
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(functions.size());
+  weights.head(functions.shape().size()) =
+      basis_equations(functions.shape(), located, threads).solve(solver).weights.col(0);
+  return weights;
+}
+
 }  // namespace gonio::shape::detail
 
 namespace gonio::shape {
@@ -99,8 +111,7 @@ GONIO_INLINE fit_to_scan_result fit_to_scan(const shape_model& model, const surf
     vertex_observations places = detail::weighted_places(posed, shape, options, threads);
     require_shown(places, part);
     shape_with_motion functions(part.basis(), shape.vertices);
-    const basis_equations equations(functions, locate_vertices(functions.cells(), places), threads);
-    Eigen::VectorXd weights = equations.solve(solver).weights.col(0);
+    Eigen::VectorXd weights = detail::fitted_weights(functions, places, solver, options.holds_pose, threads);
     const auto [shape_weights, motion] = functions.split(weights);
     // The scan moves, not the shape.
     posed.pose = motion.inverse() * posed.pose;

@@ -95,12 +95,15 @@ GONIO_INLINE recovered_shape recover_algorithm_1(const shape_model& model, const
   vertex_observations known = closest_places(posed, shape, options.correspondence, threads);
   for (int round = 0; round < options.rounds + options.local_rounds; ++round) {
     // Procrustes alignment of the shape to the mean, and of the scan with it.
-    point_columns whole = shape.vertices;
-    for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i) whole.col(known.vertices[i]) = known.positions.col(i);
-    const similarity_transform step = align(whole, mean.vertices);
-    posed.pose = step * posed.pose;
-    known.positions = step(known.positions);
-    known.normals = similarity_transform{1.0, step.rotation}(known.normals);
+    if (options.aligns) {
+      point_columns whole = shape.vertices;
+      for (Eigen::Index i = 0; i < std::ssize(known.vertices); ++i)
+        whole.col(known.vertices[i]) = known.positions.col(i);
+      const similarity_transform step = align(whole, mean.vertices);
+      posed.pose = step * posed.pose;
+      known.positions = step(known.positions);
+      known.normals = similarity_transform{1.0, step.rotation}(known.normals);
+    }
     // Predict what is missing, and what is known.
     if (round < options.rounds) {
       const truncated_svd solver{detail::explained_variance_in(round, options)};

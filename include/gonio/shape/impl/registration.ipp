@@ -6,10 +6,12 @@
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/probability.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/shape/alignment.hpp>
 #include <gonio/shape/correspondence.hpp>
 #include <gonio/shape/fit_to_scan.hpp>
 #include <gonio/shape/registration.hpp>
 #include <gonio/shape/surface_noise.hpp>
+#include <gonio/shape/triangle_mesh.hpp>
 
 #include <Eigen/Core>
 
@@ -84,16 +86,21 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
                                         const similarity_transform& pose, const registration_options& options,
                                         thread_count threads) {
   const fit_to_scan_result fit = fit_to_scan(model, scan, pose, options.fit, threads);
+  const point_columns fitted = fit.shape();
   registration found;
-  found.vertices = fit.shape();
+  found.vertices = fitted;
   found.pose = fit.pose;
   found.squared_distance = fit.squared_distance();
   const double tolerance = options.tolerance * std::sqrt(static_cast<double>(model.vertices()));
   for (int round = 0; round < options.rounds; ++round) {
     const triangle_mesh smoothed = model.mesh(averaged_over_neighbours(model.topology(), found.vertices));
-    const vertex_observations places =
-        detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
+    vertex_observations places = detail::places_along_normals({scan, found.pose}, model, smoothed, options, threads);
     require_shown(places, model);
+    if (options.realigns) {
+      const similarity_transform step = align(places.positions, chosen_columns(fitted, places.vertices));
+      found.pose = step * found.pose;
+      places.positions = step(places.positions);
+    }
     point_columns next = smoothed.vertices;
     for (Eigen::Index i = 0; i < std::ssize(places.vertices); ++i)
       next.col(places.vertices[i]) = places.positions.col(i);
@@ -104,9 +111,9 @@ GONIO_INLINE registration register_scan(const shape_model& model, const surface_
   }
   const triangle_mesh registered = model.mesh(found.vertices);
   found.angle = smallest_angle_percentile(registered, 0.2);
-  const point_columns normals = vertex_normals(registered), fitted = vertex_normals(model.mesh(fit.shape()));
+  const point_columns normals = vertex_normals(registered), of_fit = vertex_normals(model.mesh(fitted));
   for (Eigen::Index v = 0; v < normals.cols(); ++v)
-    found.normal_agreement += normals.col(v).dot(fitted.col(v)) / static_cast<double>(normals.cols());
+    found.normal_agreement += normals.col(v).dot(of_fit.col(v)) / static_cast<double>(normals.cols());
   found.refusal = detail::refusal_of(found, fit, options);
   return found;
 }
