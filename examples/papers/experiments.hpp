@@ -31,6 +31,7 @@ void add_real_fits(command& app);
 void add_real_methods(command& app);
 void add_adaptive_design(command& app);
 void add_in_plane(command& app);
+void add_near_field_photographs(command& app);
 void add_sphere_photograph(command& app);
 void add_run(command& app);
 

@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   papers::add_real_methods(app);
   papers::add_adaptive_design(app);
   papers::add_in_plane(app);
+  papers::add_near_field_photographs(app);
   papers::add_sphere_photograph(app);
   papers::add_run(app);
   return app.run(argc, argv);

@@ -6,15 +6,11 @@
 #include "command_line/progress_bar.hpp"
 #include "lab/sphere_lab.hpp"
 #include "papers/experiments.hpp"
-#include "papers/our_own/left_out_families.hpp"
+#include "papers/our_own/photographed_materials.hpp"
 #include <gonio/capture/sphere_outline.hpp>
 #include <gonio/capture/surface_photograph.hpp>
-#include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/screened_samples.hpp>
 #include <gonio/io/samples.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -64,16 +60,6 @@ class sphere_laboratory {
   gonio::capture::placed_sphere sphere_{{0.02, -0.03, 0.0}, 1.0};
 };
 
-/// A judged material as a BRDF.
-struct measured_brdf {
-  const reflectance& measured;
-
-  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return gonio::rgb::Zero();
-    return measured({wi, wo});
-  }
-};
-
 /// What was made of a set of photographs.
 struct photographed {
   gonio::sample_set samples;
@@ -81,27 +67,22 @@ struct photographed {
   double off = 0.0;  ///< of the sphere's centre across the view, pixels
 };
 
-class sphere_photograph_experiment : left_out_experiment {
+class sphere_photograph_experiment : photograph_experiment {
  public:
   sphere_photograph_experiment(const sphere_photograph_options& given, progress_bar& bar)
-      : left_out_experiment(given, bar), given_(given), laboratory_(given.pixels) {}
+      : photograph_experiment(given, given.names, bar), given_(given), laboratory_(given.pixels) {}
 
-  /// For each material and each file of directions.
+  /// For each file of directions and each material.
   [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
     std::map<std::string, std::map<std::string, json>> found;
-    const auto all = measured_materials(given_.materials, library_);
     for (const std::string& name : given_.names) {
-      const auto material = std::ranges::find(all, name, &judged_material::name);
-      if (material == all.end()) gonio::refuse("--names: " + given_.materials.string() + " has no material " + name);
-      std::optional<gonio::discrepancy_decomposition<gonio::log_relative>> estimator;
+      std::optional<estimator_type> estimator;
       for (const std::filesystem::path& file : given_.directions) {
         const json key{"sphere-photograph", name,         file.filename().string(),
                        given_.components,   given_.noise, given_.pixels};
         found[file.stem().string()][name] = once(key, name + " " + file.stem().string(), [&] {
-          if (!estimator)
-            estimator.emplace(library_.prior_without(material->family, given_.components), gonio::discrepancy_model{},
-                              given_.threads);
-          return errors_of(*material, photograph(*material, file), *estimator);
+          if (!estimator) estimator.emplace(estimator_of(prior_of(material(name))));
+          return errors_of(material(name), photograph(material(name), file), *estimator);
         });
       }
     }
@@ -149,32 +130,17 @@ class sphere_photograph_experiment : left_out_experiment {
     return taken;
   }
 
-  using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
-
-  /// As `gonio reconstruct` does it.
-  [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
-                                         const judged_material& material) const {
-    const auto located = gonio::locate_samples(library_.cells(), samples);
-    const auto screened = gonio::screen(estimator, located, given_.threads);
-    return compare(estimator.fit_located(screened.kept).tabulate(library_.cells(), given_.threads), material);
-  }
-
   [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken,
                                const estimator_type& estimator) const {
     // The same directions without any error.
     gonio::sample_set perfect = taken.samples;
-    std::vector<double> relative;
-    for (gonio::sample& s : perfect) {
-      const gonio::rgb value = s.value;
-      s.value = material.measured(s.directions.pair());
-      relative.push_back(std::abs(value.y() / s.value.y() - 1.0));
-    }
+    for (gonio::sample& s : perfect) s.value = material.measured(s.directions.pair());
     const gonio::comparison photo = judged(estimator, taken.samples, material),
                             same = judged(estimator, perfect, material);
     return {{"samples", taken.samples.size()},
             {"pixels", taken.pixels},
             {"off", taken.off},
-            {"median_error", 100.0 * gonio::median(std::move(relative))},
+            {"median_error", 100.0 * median_error(taken.samples, material)},
             {"perfect_env", same.delta_e_env},
             {"photo_env", photo.delta_e_env},
             {"perfect_lights", same.delta_e_lights},
