@@ -20,6 +20,8 @@ set(edges
   "io         -> design capture model render"
   "io/image.hpp -> io" # apart, because it needs stb
   "io/exr.hpp -> io" # apart, because it needs OpenEXR
+  "io/tiff.hpp -> io" # libtiff
+  "io/exif.hpp -> io" # libexif
   "shape/io   -> io shape"
   "render.hpp -> render"
   "shape.hpp  -> shape/io"
@@ -91,8 +93,8 @@ foreach(header IN LISTS headers)
   endforeach()
 endforeach()
 
-# A header is in the one of its module; render.hpp is what a renderer needs, and io/image.hpp and io/exr.hpp need
-# libraries of their own. A body is in one of the sources of gonio::compiled.
+# A header is in the one of its module; render.hpp is what a renderer needs, and images of io/ need libraries of their
+# own. A body is in one of the sources of gonio::compiled.
 if(EXISTS "${ROOT}/gonio.hpp")
   file(GLOB sources "${ROOT}/../../src/*.cpp")
   set(compiled)
@@ -103,7 +105,7 @@ if(EXISTS "${ROOT}/gonio.hpp")
   foreach(header IN LISTS headers)
     if(header MATCHES "[.]ipp$")
       set(places "${compiled}")
-    elseif(header MATCHES "^(render/.*|io/(image|exr)[.]hpp|[a-z]+[.]hpp)$")
+    elseif(header MATCHES "^(render/.*|io/(image|exr|tiff|exif)[.]hpp|[a-z]+[.]hpp)$")
       continue()
     else()
       string(REGEX REPLACE "/.*" "" module "${header}")
