@@ -40,7 +40,7 @@ using vector_map = xt::xtensor<float, 3>;
 
 /// A surface from its normals, which have any length and are zero where nothing is seen, and from positions, which a
 /// lamp at a finite distance needs. Throws gonio::error, by the maps' names, for a map of another size than the
-/// camera's image, or for a pixel that is not finite. O(pixels).
+/// camera's image, for a pixel that is not finite, or if all normals are zero. O(pixels).
 [[nodiscard]] surface_image surface_of_maps(const vector_map& normals, const std::string& normals_name,
                                             const lens_camera& camera, const std::optional<vector_map>& positions = {},
                                             const std::string& positions_name = "positions");
