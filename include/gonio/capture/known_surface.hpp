@@ -1,8 +1,8 @@
 #pragma once
 /// Surfaces of known shape as a camera sees them: a sphere, a plane, or a map of normals. With them an image of a
 /// curved object is one measurement for each pixel: Marschner et al. 2000 (doi:10.1364/AO.39.002592) for spheres,
-/// Noell, Koehler and Stricker 2014 for objects of known shape. A mesh enters as maps of its
-/// normals and positions.
+/// Noell, Koehler and Stricker 2014 for objects of known shape. A mesh is seen
+/// by shape/mesh_surface.hpp.
 
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/table/surface_image.hpp>
