@@ -6,7 +6,7 @@
 set(gonio_library_packages
   g++ ninja-build libeigen3-dev libxtensor-dev zlib1g-dev libstb-dev libcli11-dev nlohmann-json3-dev)
 set(gonio_shape_packages libdlib-dev libblas-dev liblapack-dev libnanoflann-dev)
-set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev)
+set(gonio_test_packages doctest-dev librapidcheck-dev libopenexr-dev libtiff-dev libexif-dev)
 
 # package, kind and name of the file that stands for it
 set(gonio_packages
@@ -21,6 +21,8 @@ set(gonio_packages
   "zlib1g-dev          header  zlib.h"
   "libstb-dev          header  stb/stb_image_write.h"
   "libopenexr-dev      header  OpenEXR/ImfInputFile.h"
+  "libtiff-dev         header  tiffio.h"
+  "libexif-dev         header  libexif/exif-data.h"
   "libcli11-dev        header  CLI/CLI.hpp"
   "nlohmann-json3-dev  header  nlohmann/json.hpp"
   "libdlib-dev         header  dlib/optimization/max_cost_assignment.h"

@@ -14,5 +14,6 @@
 #include <gonio/capture/impl/relative_reflectance.ipp>
 #include <gonio/capture/impl/scan.ipp>
 #include <gonio/capture/impl/sphere_outline.ipp>
+#include <gonio/capture/impl/surface_light.ipp>
 #include <gonio/capture/impl/surface_photograph.ipp>
 #include <gonio/capture/impl/trajectory.ipp>

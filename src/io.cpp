@@ -23,6 +23,7 @@
 #include <gonio/io/impl/rules.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
+#include <gonio/io/impl/setup_text.ipp>
 #include <gonio/io/impl/soft_specular_prior.ipp>
 #include <gonio/io/impl/sphere_setup.ipp>
 #include <gonio/io/impl/table_npy.ipp>

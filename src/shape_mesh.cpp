@@ -6,6 +6,7 @@
 #include <gonio/shape/impl/hole_filling.ipp>
 #include <gonio/shape/impl/mesh_image.ipp>
 #include <gonio/shape/impl/mesh_part.ipp>
+#include <gonio/shape/impl/mesh_surface.ipp>
 #include <gonio/shape/impl/mesh_topology.ipp>
 #include <gonio/shape/impl/shape_context.ipp>
 #include <gonio/shape/impl/shape_context_alignment.ipp>

@@ -1,17 +1,33 @@
 #include "cli/frame_files.hpp"
 
+#include "cli/exif_files.hpp"
+#include "cli/tiff_files.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/named_files.hpp>
 #include <gonio/io/pnm.hpp>
 
-#include <array>
-#include <string_view>
+#include <optional>
+#include <string>
 
 namespace cli {
 
 namespace {
+
+bool is_tiff(const std::filesystem::path& file) { return file.extension() == ".tif" || file.extension() == ".tiff"; }
+
+/// What the camera wrote of the exposure: into the file itself, or into a JPEG file of the same name beside it.
+std::optional<double> seconds_of_camera(const std::filesystem::path& file) {
+  if (is_tiff(file))
+    if (const auto seconds = read_tiff_exposure_time(file)) return seconds;
+  for (const char* extension : {".jpg", ".jpeg", ".JPG"}) {
+    std::filesystem::path beside = file;
+    beside.replace_extension(extension);
+    if (std::filesystem::exists(beside)) return read_exif_exposure_time(beside);
+  }
+  return {};
+}
 
 double seconds_of(const gonio::io::named_file& file, const std::filesystem::path& table,
                   const gonio::io::exposure_times& times) {
@@ -26,13 +42,15 @@ double seconds_of(const gonio::io::named_file& file, const std::filesystem::path
   } catch (const gonio::error& refusal) {
     gonio::refuse({file.path.string(), ": ", refusal.what(), " (--times says which)"});
   }
+  if (const auto seconds = seconds_of_camera(file.path)) return *seconds;
   gonio::refuse(
       {file.path.string(),
-       ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, or --times must "
-       "name a table that has it (file,seconds)"});
+       ": has no exposure time: its name must end in one, as in frame_0.004s or frame_1_250s, EXIF data must say it "
+       "(of a TIFF file, or of a JPEG file beside it), or --times must name a table that has it (file,seconds)"});
 }
 
 gonio::stored_codes codes_of(const std::filesystem::path& file) {
+  if (is_tiff(file)) return read_tiff(file);
   return file.extension() == ".png" ? gonio::io::read_png_codes(file) : gonio::io::read_pnm(file);
 }
 
@@ -48,9 +66,8 @@ void require_like_first(const gonio::stored_codes& codes, const std::filesystem:
 
 std::vector<gonio::capture::exposed_frame> read_frames(const std::filesystem::path& folder,
                                                        const std::filesystem::path& times) {
-  constexpr std::array<std::string_view, 3> extensions{".png", ".ppm", ".pgm"};
-  const auto files = gonio::io::list_named_files(folder, extensions, "photograph");
-  if (files.empty()) gonio::refuse({folder.string(), ": has no photograph (.png, .ppm or .pgm)"});
+  const auto files = gonio::io::list_named_files(folder, frame_extensions, "photograph");
+  if (files.empty()) gonio::refuse({folder.string(), ": has no photograph (.png, .tif, .tiff, .ppm or .pgm)"});
   const auto table = times.empty() ? gonio::io::exposure_times{} : gonio::io::read_exposure_times(times);
   std::vector<gonio::capture::exposed_frame> frames;
   for (const gonio::io::named_file& file : files) {

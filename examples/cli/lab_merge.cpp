@@ -194,11 +194,13 @@ void add_lab_merge(command& lab) {
   const auto options = std::make_shared<merge_command>();
   // Declare what is read.
   command
-      .add_input_folder("frames", options->frames, {".png", ".ppm", ".pgm"},
-                        "Folder of photographs of one scene, whose names end in their exposure times")
+      .add_input_folder("frames", options->frames, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
+                        "Folder of photographs of one scene (.png, .tif, .ppm or .pgm); their names end in their "
+                        "exposure times, or EXIF data says them")
       .required();
-  command.add_input("--times", options->times, "Exposure times, if the names have none (.csv: file,seconds)");
-  auto dark = command.add_input_folder("--dark", options->dark, {".png", ".ppm", ".pgm"},
+  command.add_input("--times", options->times,
+                    "Exposure times, if neither names nor EXIF data have them (.csv: file,seconds)");
+  auto dark = command.add_input_folder("--dark", options->dark, {".png", ".tif", ".tiff", ".ppm", ".pgm"},
                                        "Folder of dark frames, whose names end in their exposure times");
   // Declare what is known of the camera.
   command.add_option("--dark-level", options->level, "Counts without light, if there are no dark frames")

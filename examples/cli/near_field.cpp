@@ -1,6 +1,7 @@
 /// gonio near-field: images of a flat sample, taken from close by, as measurements: of one material, or of each of
 /// several that clusters of colours tell apart.
 
+#include "cli/photograph_files.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/threads_option.hpp"
@@ -12,6 +13,7 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/samples.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <iostream>
@@ -25,8 +27,8 @@ namespace cli {
 namespace {
 
 struct near_field_command {
-  std::vector<std::pair<std::string, std::string>> images;  ///< each with its set-up
-  std::string clusters;                                     ///< a number, auto, or empty: one material
+  photograph_files files;
+  std::string clusters;  ///< a number, auto, or empty: one material
   std::filesystem::path labels, prior, output;
   double angular_error = 0.0;  ///< degrees; 0: light and cameras are in their places
   bool reference_in_place = false;
@@ -34,29 +36,22 @@ struct near_field_command {
   gonio::thread_count threads;
 };
 
-/// An image and how it was taken.
-struct taken_image {
-  std::string file, setup_file;
-  gonio::image pixels;
-  gonio::capture::near_field_setup setup;
-};
+using taken_image = taken_photograph<gonio::capture::near_field_setup>;
 
 std::vector<taken_image> read_images(const near_field_command& options) {
-  std::vector<taken_image> taken;
-  for (const auto& [image, setup] : options.images) {
-    if (setup.empty()) gonio::refuse("images: " + image + " needs its set-up as the next argument");
-    gonio::capture::near_field_setup read = gonio::io::read_near_field_setup(setup);
-    taken.push_back({image, setup, gonio::io::read_hdr(image), std::move(read)});
-  }
-  return taken;
+  return read_photographs(options.files, [](const std::string& file, const auto& calibration) {
+    return gonio::io::read_near_field_setup(file, calibration);
+  });
 }
 
 gonio::sample_set samples_of(const taken_image& image) {
-  try {
-    return gonio::capture::near_field_samples(image.pixels, image.setup);
-  } catch (const gonio::error& refusal) {
-    gonio::refuse(image.file + " (as " + image.setup_file + " says): " + refusal.what());
-  }
+  return image.naming_files([&] { return gonio::capture::near_field_samples(image.pixels, image.setup, image.white); });
+}
+
+/// Was the light measured where the sample lies? Then it is the same for both, wherever it stands.
+bool has_reference_in_place(const std::vector<taken_image>& images, const near_field_command& options) {
+  return options.reference_in_place ||
+         std::ranges::all_of(images, [](const taken_image& each) { return each.white && !each.white->surface; });
 }
 
 std::string angle_of(const Eigen::Vector3d& turn) { return fixed(gonio::degrees(turn.norm()), 2); }
@@ -71,8 +66,8 @@ std::vector<gonio::sample_set> refined(const std::vector<taken_image>& images, s
   gonio::pose_refinement refinement(
       gonio::io::read_prior(options.prior), std::move(samples),
       {.deviation = gonio::radians(options.angular_error),
-       .calibrated_by = options.reference_in_place ? gonio::light_calibration::reference_in_place
-                                                   : gonio::light_calibration::irradiance,
+       .calibrated_by = has_reference_in_place(images, options) ? gonio::light_calibration::reference_in_place
+                                                                : gonio::light_calibration::irradiance,
        .threads = options.threads});
   refinement.solve();
   for (Eigen::Index i = 0; i < std::ssize(images); ++i)
@@ -114,9 +109,9 @@ void write_samples_of_one(const std::vector<taken_image>& images, const near_fie
 
 /// Pixels are the same points of the sample only if the camera stood still.
 void require_fixed_camera(const std::vector<taken_image>& images) {
-  const gonio::pinhole_camera& first = images.front().setup.camera;
+  const gonio::pinhole_camera& first = images.front().setup.camera.pinhole();
   for (const taken_image& image : images) {
-    const gonio::pinhole_camera& camera = image.setup.camera;
+    const gonio::pinhole_camera& camera = image.setup.camera.pinhole();
     if (camera.intrinsics().rows != first.intrinsics().rows ||
         camera.intrinsics().columns != first.intrinsics().columns || camera.position() != first.position() ||
         camera.rotation() != first.rotation())
@@ -127,16 +122,11 @@ void require_fixed_camera(const std::vector<taken_image>& images) {
 }
 
 /// Clusters of the pixels of an image's region by their reflectance.
-gonio::capture::colour_clusters clusters_of(const taken_image& image, const std::vector<Eigen::Index>& region,
-                                            const near_field_command& options) {
+gonio::capture::colour_clusters clusters_of(const taken_image& image, const near_field_command& options) {
   static_cast<void>(samples_of(image));  // refuses what is no image of the sample
-  const Eigen::Index columns = image.setup.camera.intrinsics().columns;
-  gonio::capture::point_matrix colours(std::ssize(region), 3);
-  for (Eigen::Index i = 0; i < colours.rows(); ++i) {
-    const Eigen::Index number = region[i];
-    const gonio::rgb value = gonio::pixel(image.pixels, number / columns, number % columns);
-    colours.row(i) = (value / image.setup.light.irradiance).matrix().transpose();
-  }
+  const std::vector<gonio::rgb> values = gonio::capture::region_reflectance(image.pixels, image.setup, image.white);
+  gonio::capture::point_matrix colours(std::ssize(values), 3);
+  for (Eigen::Index i = 0; i < colours.rows(); ++i) colours.row(i) = values[i].matrix().transpose();
   if (options.clusters == "auto")
     return gonio::capture::cluster_colours(colours, gonio::capture::cluster_count_choice{}, options.seed,
                                            options.threads);
@@ -172,7 +162,7 @@ void write_samples_of_each(std::vector<taken_image> images, const command& given
   const taken_image& diffuse = images.back();
   const gonio::camera_intrinsics size = diffuse.setup.camera.intrinsics();
   const std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(diffuse.setup);
-  const gonio::capture::colour_clusters clusters = clusters_of(diffuse, region, options);
+  const gonio::capture::colour_clusters clusters = clusters_of(diffuse, options);
   for (Eigen::Index material = 0; material < clusters.count(); ++material)
     given.require_writable(path_of_material(options.output, material));
   if (!options.labels.empty()) gonio::io::write_png(options.labels, label_map(clusters, region, size));
@@ -212,13 +202,9 @@ void run(const command& given, const near_field_command& options) {
 void add_near_field(command& app) {
   auto command = app.add_subcommand("near-field", "Turn images of a flat sample into samples for gonio reconstruct");
   const auto options = std::make_shared<near_field_command>();
-  command
-      .add_input("images", options->images,
-                 "Images of linear radiance (.hdr), each followed by its set-up (docs/reference/formats.md): camera, "
-                 "distant "
-                 "light and region of interest")
-      .type_name("IMAGE SETUP")
-      .required();
+  add_photograph_options(command, options->files, "images",
+                         "Images of linear radiance (.hdr, .npy or .exr), each followed by its set-up "
+                         "(docs/reference/formats.md): camera, light and region of interest");
   command.add_option("--clusters", options->clusters,
                      "Several materials: how many, or auto; told apart by colour in the last image, which should "
                      "show no highlight. Each gets a file of its own, OUTPUT-1.csv and so on, the largest first");
@@ -230,7 +216,7 @@ void add_near_field(command& app) {
       .capture_default_str();
   command.add_flag("--reference-in-place", options->reference_in_place,
                    "The irradiance is had from a white reference in the sample's place: a light off its place then "
-                   "leaves the values as they are (with --misplaced)");
+                   "leaves the values as they are (with --misplaced; --white without 'white_plane' says it)");
   add_prior_option(command, options->prior);
   command.add_option("--seed", options->seed, "Seed of the clusters").capture_default_str();
   add_threads_option(command, options->threads);

@@ -1,6 +1,6 @@
 #pragma once
-/// A simulated laboratory for images from close by: a flat disc of a known material, a distant light and a pinhole
-/// camera, with noise, and with light and camera not quite where they are said to be.
+/// A simulated laboratory for images from close by: a flat disc of a known material, a light and a camera, with noise,
+/// and with light and camera not quite where they are said to be.
 
 #include "random_turn.hpp"
 #include <gonio/capture/near_field_image.hpp>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
+#include <variant>
 
 namespace lab {
 
@@ -21,6 +22,26 @@ struct near_field_defects {
   double misalignment = 0.0;
 };
 
+/// A light turned about the middle of the sample.
+[[nodiscard]] inline gonio::capture::surface_light turned(gonio::capture::surface_light light,
+                                                          const Eigen::Matrix3d& turn) {
+  if (auto* distant = std::get_if<gonio::directional_light>(&light)) distant->towards = turn * distant->towards;
+  if (auto* lamp = std::get_if<gonio::capture::point_lamp>(&light)) lamp->position = turn * lamp->position;
+  return light;
+}
+
+/// Where light and camera truly are if both are turned by an angle in radians, each about an axis of its own.
+[[nodiscard]] inline gonio::capture::near_field_setup misaligned(gonio::capture::near_field_setup setup, double angle,
+                                                                 std::mt19937_64& generator) {
+  const Eigen::Matrix3d turn_light = random_turn(angle, generator), turn_camera = random_turn(angle, generator);
+  setup.light = turned(setup.light, turn_light);
+  const gonio::pinhole_camera& stated = setup.camera.pinhole();
+  const gonio::pinhole_camera pinhole(stated.intrinsics(), stated.rotation() * turn_camera.transpose(),
+                                      turn_camera * stated.position());
+  setup.camera = gonio::lens_camera(pinhole, setup.camera.distortion());
+  return setup;
+}
+
 /// An image of a disc of the material: radiance under the set-up's light, black beside the disc and where the light is
 /// below the horizon. The defects come from the seed alone; the set-up is what the experimenter believes.
 template <gonio::brdf Brdf>
@@ -28,12 +49,8 @@ template <gonio::brdf Brdf>
                                       const gonio::capture::near_field_setup& setup,
                                       const near_field_defects& defects = {}, std::uint64_t seed = 0) {
   std::mt19937_64 generator(seed);
-  const Eigen::Matrix3d turn_light = random_turn(defects.misalignment, generator);
-  const Eigen::Matrix3d turn_camera = random_turn(defects.misalignment, generator);
-  const gonio::direction light = turn_light * setup.light.towards;
-  const gonio::pinhole_camera camera(setup.camera.intrinsics(), setup.camera.rotation() * turn_camera.transpose(),
-                                     turn_camera * setup.camera.position());
-
+  const gonio::capture::near_field_setup true_setup = misaligned(setup, defects.misalignment, generator);
+  const gonio::lens_camera& camera = true_setup.camera;
   const gonio::camera_intrinsics& size = camera.intrinsics();
   gonio::image image = gonio::uniform_image(size.rows, size.columns);
   std::normal_distribution<double> normal;
@@ -42,7 +59,8 @@ template <gonio::brdf Brdf>
       const gonio::ray line = camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
       const auto point = line.at_ground();
       if (!point || !disc.contains(*point)) continue;
-      gonio::rgb radiance = material(light, -line.towards) * setup.light.irradiance * std::max(light.z(), 0.0);
+      const gonio::capture::lit_point lit = gonio::capture::light_at(true_setup.light, *point);
+      gonio::rgb radiance = material(lit.towards, -line.towards) * lit.irradiance * std::max(lit.towards.z(), 0.0);
       if (defects.noise > 0.0)
         for (double& channel : radiance) channel *= 1.0 + defects.noise * normal(generator);
       gonio::set_pixel(image, row, column, radiance);

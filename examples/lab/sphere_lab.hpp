@@ -2,6 +2,7 @@
 /// A simulated laboratory for photographs of a sphere: a lens camera at a finite distance that darkens towards the
 /// corners, a lamp whose light falls off, and noise.
 
+#include "white_material.hpp"
 #include <gonio/capture/known_surface.hpp>
 #include <gonio/capture/surface_photograph.hpp>
 #include <gonio/core/brdf.hpp>
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <random>
 
@@ -81,15 +81,5 @@ template <gonio::brdf Brdf>
     }
   return image;
 }
-
-/// A surface that reflects evenly.
-struct white_material {
-  double reflectance = 1.0;
-
-  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return gonio::rgb::Zero();
-    return gonio::rgb::Constant(reflectance / std::numbers::pi);
-  }
-};
 
 }  // namespace lab

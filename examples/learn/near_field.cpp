@@ -23,7 +23,7 @@ int main() {
   gonio::sample_set samples;
   for (const auto& [light, view] : gonio::io::read_direction_pairs("near-field-45-2-expected-error.csv")) {
     const gonio::capture::near_field_setup setup{.camera = gonio::design::near_field_camera(view, field_of_view, 48),
-                                                 .light = {light},
+                                                 .light = gonio::directional_light{light},
                                                  .disc = disc,
                                                  .block = 2};
     const gonio::image image = lab::photograph(material, disc, setup, {0.01, gonio::radians(0.5)}, 7);

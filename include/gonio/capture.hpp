@@ -16,5 +16,6 @@
 #include <gonio/capture/relative_reflectance.hpp>
 #include <gonio/capture/scan.hpp>
 #include <gonio/capture/sphere_outline.hpp>
+#include <gonio/capture/surface_light.hpp>
 #include <gonio/capture/surface_photograph.hpp>
 #include <gonio/capture/trajectory.hpp>

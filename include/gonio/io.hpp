@@ -1,6 +1,6 @@
 #pragma once
-/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb), OpenEXR images (io/exr.hpp, which
-/// needs OpenEXR) and those of shapes (shape.hpp).
+/// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb), OpenEXR and TIFF images and EXIF
+/// data (io/exr.hpp, io/tiff.hpp, io/exif.hpp, which need OpenEXR, libtiff and libexif) and those of shapes (shape.hpp).
 
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>
@@ -27,6 +27,7 @@
 #include <gonio/io/rules.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
+#include <gonio/io/setup_text.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/table_npy.hpp>

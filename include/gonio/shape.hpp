@@ -19,6 +19,7 @@
 #include <gonio/shape/io/shape_model.hpp>
 #include <gonio/shape/mesh_image.hpp>
 #include <gonio/shape/mesh_part.hpp>
+#include <gonio/shape/mesh_surface.hpp>
 #include <gonio/shape/mesh_topology.hpp>
 #include <gonio/shape/recovery.hpp>
 #include <gonio/shape/registration.hpp>

@@ -1,4 +1,5 @@
 #include "lab/near_field_lab.hpp"
+#include "lab/white_material.hpp"
 #include <gonio/capture/near_field_image.hpp>
 #include <gonio/model/formula_materials.hpp>
 
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <variant>
 
 using gonio::image;
 using gonio::radians;
@@ -27,12 +30,16 @@ near_field_setup setup_at(double light, double camera, double azimuth) {
   const gonio::camera_intrinsics intrinsics{60, 80, 120.0, 125.0, 41.0, 29.0};
   const Eigen::Vector3d position = gonio::spherical_direction(radians(camera), 0.3);
   return {.camera = gonio::pinhole_camera::look_at(intrinsics, position, {0.0, 0.0, 0.0}, {-0.2, 0.1, 1.0}),
-          .light = {gonio::spherical_direction(radians(light), 0.3 + radians(azimuth)), {2.0, 1.0, 0.5}},
+          .light = gonio::directional_light{gonio::spherical_direction(radians(light), 0.3 + radians(azimuth)),
+                                            {2.0, 1.0, 0.5}},
           .disc = gonio::capture::sample_disc{radius}};
 }
 
 /// The same in the middle of the range, for what does not depend on the directions.
 near_field_setup ordinary_setup() { return setup_at(50.0, 40.0, 180.0); }
+
+/// The distant light of a set-up.
+auto& light_of(auto& setup) { return std::get<gonio::directional_light>(setup.light); }
 
 const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
 
@@ -79,7 +86,7 @@ TEST_CASE("samples are the disc's pixels in their order, with the light that was
       if (!point || point->norm() > setup.disc->radius) continue;
       REQUIRE(next < samples.size());
       const auto& angles = samples[next++].angles();
-      const auto expected = gonio::to_half_difference(setup.light.towards, -line.towards);
+      const auto expected = gonio::to_half_difference(light_of(setup).towards, -line.towards);
       REQUIRE(angles.theta_h == doctest::Approx(expected.theta_h));
       REQUIRE(angles.theta_d == doctest::Approx(expected.theta_d));
       REQUIRE(angles.phi_d == doctest::Approx(expected.phi_d));
@@ -91,7 +98,7 @@ TEST_CASE("samples are the disc's pixels in their order, with the light that was
 
 TEST_CASE("a grey Lambertian of albedo 0.5 under irradiance 2 has radiance 2 cos / (2 pi)") {
   auto setup = setup_at(60.0, 0.0, 0.0);
-  setup.light.irradiance = rgb::Constant(2.0);
+  light_of(setup).irradiance = rgb::Constant(2.0);
   const image picture = gonio::uniform_image(60, 80, rgb::Constant(0.5 / std::numbers::pi));
   for (const gonio::sample& s : near_field_samples(picture, setup))
     for (const double channel : s.value) REQUIRE(channel == doctest::Approx(0.5 / std::numbers::pi));
@@ -236,11 +243,11 @@ TEST_CASE("what cannot be measured is refused") {
   refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 0.0}, {0.0, 0.0, 0.0}); }, "camera is not above");
   refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {0.0, 0.0, 3.0}); }, "sees nothing of the sample");
   refused([&](auto& s) { s.camera = camera_from({0.0, 0.5, 1.0}, {9.0, 0.0, 0.0}); }, "sees nothing of the sample");
-  refused([](auto& s) { s.light.towards = {0.0, 1.0, 0.0}; }, "light is at or below the sample's horizon");
-  refused([](auto& s) { s.light.towards = {0.0, 0.0, 2.0}; }, "length 1");
-  refused([](auto& s) { s.light.towards.x() = infinity; }, "length 1");
-  refused([](auto& s) { s.light.irradiance = {1.0, 0.0, 1.0}; }, "irradiance");
-  refused([](auto& s) { s.light.irradiance = {1.0, infinity, 1.0}; }, "irradiance");
+  refused([](auto& s) { light_of(s).towards = {0.0, 1.0, 0.0}; }, "light is at or below the sample's horizon");
+  refused([](auto& s) { light_of(s).towards = {0.0, 0.0, 2.0}; }, "length 1");
+  refused([](auto& s) { light_of(s).towards.x() = infinity; }, "length 1");
+  refused([](auto& s) { light_of(s).irradiance = {1.0, 0.0, 1.0}; }, "irradiance");
+  refused([](auto& s) { light_of(s).irradiance = {1.0, infinity, 1.0}; }, "irradiance");
   refused([](auto& s) { s.disc->radius = 0.0; }, "positive radius");
   refused([](auto& s) { s.disc->centre.x() = infinity; }, "finite centre");
   refused([](auto& s) { s.window = gonio::capture::pixel_window{0, 0, 0, 5}; }, "window");
@@ -249,9 +256,92 @@ TEST_CASE("what cannot be measured is refused") {
   refused([](auto& s) { s.saturation = 0.0; }, "saturation must be positive");
   refused([](auto& s) { s.saturation = 1e-9; }, "is saturated");
   refused([](auto& s) { s.block = 0; }, "block");
+  refused([](auto& s) { s.light = gonio::capture::point_lamp{{0.0, 0.0, -1.0}}; }, "at or below the sample's horizon");
   const auto setup = ordinary_setup();
   CHECK_THROWS_WITH_AS(near_field_samples(gonio::uniform_image(80, 60), setup),
                        doctest::Contains("the image has 60 x 80 pixels, its camera 80 x 60"), gonio::error);
   CHECK_THROWS_WITH_AS(near_field_samples(image({60, 80, 4}, 0.0f), setup), doctest::Contains("4 channels"),
                        gonio::error);
+}
+
+// ---- lens, lamp and white image ---------------------------------------------------------------
+
+namespace {
+
+/// A lens that distorts, and a lamp at a finite distance.
+near_field_setup lamp_setup() {
+  near_field_setup setup = ordinary_setup();
+  const gonio::direction light = light_of(setup).towards;
+  setup.light = gonio::capture::point_lamp{4.0 * light, {32.0, 16.0, 8.0}};
+  setup.camera = gonio::lens_camera(setup.camera.pinhole(), {.k1 = -0.2, .k2 = 0.05, .p1 = 0.002, .p2 = -0.001});
+  return setup;
+}
+
+/// An image that darkens towards the right.
+image vignetted(image picture) {
+  for (std::size_t row = 0; row < picture.shape(0); ++row)
+    for (std::size_t column = 0; column < picture.shape(1); ++column)
+      gonio::set_pixel(picture, row, column,
+                       gonio::pixel(picture, row, column) * (1.0 - 0.005 * static_cast<double>(column)));
+  return picture;
+}
+
+}  // namespace
+
+TEST_CASE("the paint's values come back through a lens that distorts, under a lamp at a finite distance") {
+  const auto setup = lamp_setup();
+  const auto samples = near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), setup);
+  CHECK(largest_error(samples) < 1e-6);
+  // The light's direction is each pixel's own.
+  CHECK((samples.front().directions.pair().wi - samples.back().directions.pair().wi).norm() > 0.05);
+  // A pinhole at the same place would take them for other directions.
+  near_field_setup straight = setup;
+  straight.camera = setup.camera.pinhole();
+  CHECK(largest_error(near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), straight)) > 0.001);
+}
+
+TEST_CASE("a white image takes away vignetting, the lamp's intensity and its falloff") {
+  const auto setup = lamp_setup();
+  const image picture = vignetted(lab::photograph(paint, {.radius = 0.5}, setup));
+  gonio::capture::white_reference white{
+      vignetted(lab::photograph(lab::white_material{0.9}, {.radius = 0.5}, setup)), 0.9, {}};
+  CHECK(largest_error(near_field_samples(picture, setup)) > 0.1);
+  near_field_setup unknown = setup;
+  std::get<gonio::capture::point_lamp>(unknown.light).intensity = rgb::Ones();
+  CHECK(largest_error(near_field_samples(picture, unknown, white)) < 1e-5);
+  unknown.block = 3;
+  CHECK(near_field_samples(picture, unknown, white).size() < 300);
+  unknown.block = 1;
+
+  const std::size_t all = near_field_samples(picture, unknown, white).size();
+  gonio::set_pixel(white.photograph, 28, 40, {0.1, 0.0, 0.1});  // what is dark in the white image says nothing
+  CHECK(near_field_samples(picture, unknown, white).size() == all - 1);
+  const auto values = gonio::capture::region_reflectance(picture, unknown, white);
+  CHECK(values.size() == all);
+  CHECK(std::ranges::count_if(values, [](const rgb& value) { return (value == 0.0).all(); }) == 1);
+  gonio::set_pixel(white.photograph, 28, 40, {0.1, std::numeric_limits<double>::quiet_NaN(), 0.1});
+  CHECK_THROWS_WITH_AS(near_field_samples(picture, unknown, white),
+                       doctest::Contains("the white image: pixel (row 28, column 40) is not finite"), gonio::error);
+  unknown.saturation = 0.9;
+  gonio::set_pixel(white.photograph, 28, 40, {0.1, infinity, 0.1});
+  CHECK(near_field_samples(picture, unknown, white).size() < all);
+  white.photograph = gonio::uniform_image(3, 3);
+  CHECK_THROWS_WITH_AS(near_field_samples(picture, setup, white), doctest::Contains("the white image has 3 x 3"),
+                       gonio::error);
+}
+
+TEST_CASE("a white board above the sample is divided by its own cosine and distance") {
+  const auto setup = lamp_setup();
+  const gonio::capture::placed_plane board{{0.0, 0.0, 0.05}, {0.1, 0.0, 1.0}};
+  gonio::capture::white_reference white{gonio::uniform_image(60, 80), 0.9,
+                                        gonio::capture::surface_of(board, setup.camera)};
+  for (std::size_t row = 0; row < 60; ++row)
+    for (std::size_t column = 0; column < 80; ++column) {
+      const Eigen::Index number = white.surface->pixel(row, column);
+      if (!white.surface->sees(number)) continue;
+      const auto lit = gonio::capture::light_at(setup.light, white.surface->positions.col(number));
+      const double cosine = lit.towards.dot(white.surface->normals.col(number));
+      gonio::set_pixel(white.photograph, row, column, lit.irradiance * cosine * 0.9 / std::numbers::pi);
+    }
+  CHECK(largest_error(near_field_samples(lab::photograph(paint, {.radius = 0.5}, setup), setup, white)) < 1e-5);
 }

@@ -21,7 +21,7 @@ gonio::capture::near_field_setup shot_at(double theta_h, double theta_d, double 
       gonio::to_directions({gonio::radians(theta_h), gonio::radians(theta_d), gonio::radians(phi_d)});
   const auto intrinsics = gonio::camera_intrinsics::square(64, gonio::radians(26.0));
   return {.camera = gonio::pinhole_camera::look_at(intrinsics, camera, {0.0, 0.0, 0.0}, {0.1, 0.2, 1.0}),
-          .light = {light, gonio::rgb::Constant(3.0)},
+          .light = gonio::directional_light{light, gonio::rgb::Constant(3.0)},
           .disc = gonio::capture::sample_disc{std::tan(gonio::radians(12.5))},
           .block = 2};
 }

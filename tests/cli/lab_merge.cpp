@@ -1,6 +1,7 @@
 /// gonio lab photograph, gonio lab merge: photographs of several exposure times as radiance.
 
 #include "../io/scratch.hpp"
+#include "../io/tiff_bytes.hpp"
 #include "lab/photographs.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
@@ -88,6 +89,35 @@ TEST_CASE("lab merge: cameras that are not linear are estimated") {
     CHECK(contrast / known == doctest::Approx(1.0).epsilon(0.25));
   }
 }
+
+#if defined(GONIO_HAS_TIFF) && defined(GONIO_HAS_EXIF)
+TEST_CASE("lab merge: TIFF frames are merged by the exposure times of their EXIF data") {
+  const scratch::folder here;
+  const auto put = [&](const std::string& name, const std::vector<std::byte>& bytes) {
+    scratch::put(here / name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  };
+  tiff_bytes::image frame{.columns = 2, .rows = 2, .bits = 16, .channels = 3};
+  frame.samples.assign(12, 1000);
+  frame.exposure = {1, 100};
+  put("one.tif", tiff_bytes::of(frame));
+  frame.samples.assign(12, 4000);
+  frame.exposure = {};
+  put("two.tiff", tiff_bytes::of(frame));
+  const std::string merge = here.path().string() + " --gamma 1 -o " + (here / "out.npy").string();
+  merge_refuses(merge, "two.tiff: has no exposure time");
+  put("two.jpg", tiff_bytes::jpeg_of({{4, 100}}));  // what the camera wrote beside it
+  run_merge("merge " + merge);
+  const auto radiance = gonio::io::read_npy<float, 3>(here / "out.npy");
+  // 1 is the middle count in a second: 1000 of 65535 in a hundredth of one is 3.05.
+  CHECK(radiance(0, 0, 0) == doctest::Approx(100.0 * 1000.0 / 32767.5).epsilon(0.001));
+  put("two.jpg", tiff_bytes::jpeg_of({{0, 1}}));
+  merge_refuses(merge, "two.jpg: an exposure time of 0 s");
+  frame.bits = 1;
+  frame.exposure = {1, 25};
+  put("two.tiff", tiff_bytes::of(frame));
+  merge_refuses(merge, "has 1 bits a sample");
+}
+#endif
 
 TEST_CASE("lab merge: bad input is refused") {
   const scratch::folder here;

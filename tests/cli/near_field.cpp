@@ -2,9 +2,11 @@
 
 #include "../io/scratch.hpp"
 #include "lab/near_field_lab.hpp"
+#include "lab/white_material.hpp"
 #include "tool.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/near_field_setup.hpp>
+#include <gonio/io/npy.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
@@ -203,6 +205,38 @@ TEST_CASE("two materials in one image were under one light: one pose for both") 
   CHECK(occurrences(" samples\n") == 4);
 }
 
+TEST_CASE("a white image and a calibration make samples of images by an uneven lamp and a distorting lens") {
+  const two_shots shots;
+  const std::string pose = "position 0.7 0.1 0.6\ntarget 0 0 0\n", lens = "distortion -0.2 0.05 0.001 0.002\n";
+  const std::string scene = "lamp 1 1 3\nintensity 30 20 10\nregion 0.2\nwhite_reflectance 0.9\n";
+  const auto setup =
+      gonio::io::parse_near_field_setup("size 48 40\nfocal_length 95 100\n" + lens + pose + scene, "lamp");
+  scratch::put(shots.at("lamp.txt"), pose + "lamp 1 1 3\nregion 0.2\nwhite_reflectance 0.9\n");
+  scratch::put(shots.at("camera.yml"),
+               "%YAML:1.0\n---\nimage_width: 48\nimage_height: 40\ncamera_matrix: !!opencv-matrix\n   rows: 3\n"
+               "   cols: 3\n   dt: d\n   data: [ 95., 0., 23.5, 0., 100., 19.5, 0., 0., 1. ]\n"
+               "distortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 4\n   dt: d\n"
+               "   data: [ -0.2, 0.05, 0.001, 0.002 ]\n");
+  gonio::io::write_npy(shots.at("lamp.npy"), lab::photograph(shots.paint, {.radius = 0.5}, setup));
+  gonio::io::write_npy(shots.at("white.npy"), lab::photograph(lab::white_material{0.9}, {.radius = 0.5}, setup));
+  const std::string given = "near-field " + shots.at("lamp.npy") + " " + shots.at("lamp.txt") + " -o " +
+                            shots.at("lamp.csv") + " --calibration " + shots.at("camera.yml");
+  const auto run = gonio_tool(given + " --white " + shots.at("white.npy"));
+  REQUIRE_MESSAGE(run.exit_code == 0, run.output);
+  const auto samples = gonio::io::read_samples(shots.at("lamp.csv"));
+  CHECK(samples.size() > 300);
+  for (const gonio::sample& s : samples) {
+    const auto [wi, wo] = s.directions.pair();
+    REQUIRE((s.value / shots.paint(wi, wo) - 1.0).abs().maxCoeff() < 1e-4);
+  }
+  const auto bare = gonio_tool(given);
+  CHECK(bare.exit_code == 2);
+  CHECK(bare.output.find("'white_reflectance' needs a white image: give --white") != std::string::npos);
+  const auto twice = gonio_tool(given + " --white " + shots.at("white.npy") + " " + shots.at("white.npy"));
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.output.find("--white needs an image for each photograph, 1, not 2") != std::string::npos);
+}
+
 TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   const two_shots shots;
   const auto refused = [&](const std::string& arguments, std::initializer_list<std::string> words) {
@@ -220,11 +254,11 @@ TEST_CASE("bad images and set-ups get exit code 2, one line, and no file") {
   };
   refused("", {"images"});
   refused(shots.at("first.hdr"), {"images"});
-  refused(shots.shot("first") + shots.at("second.hdr"), {"images", "second.hdr needs its set-up"});
+  refused(shots.shot("first") + shots.at("second.hdr"), {"second.hdr needs its set-up"});
   refused(shots.at("first.hdr") + " /no/such.txt", {"/no/such.txt"});
   refused("/no/such.hdr " + shots.at("first.txt"), {"/no/such.hdr"});
   refused(shots.at("first.txt") + " " + shots.at("first.txt"), {"first.txt", "Radiance HDR"});
-  refused(with_setup(first + "lamp 3\n"), {"bad.txt, line 9", "lamp"});
+  refused(with_setup(first + "lamps 3\n"), {"bad.txt, line 9", "lamps"});
   refused(with_setup(camera + "light 0 0 1\n"), {"bad.txt", "'region' or 'window' is missing"});
   refused(with_setup("size 40 48" + first.substr(10)), {"first.hdr", "bad.txt", "48 x 40", "40 x 48"});
   refused(with_setup(first + "saturation 1e-6\n"), {"first.hdr", "saturated"});

@@ -3,7 +3,9 @@
 #include "../io/scratch.hpp"
 #include "lab/sphere_lab.hpp"
 #include "tool.hpp"
+#include <gonio/capture/known_surface.hpp>
 #include <gonio/io/image.hpp>
+#include <gonio/io/npy.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/model/formula_materials.hpp>
@@ -12,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -61,6 +64,52 @@ TEST_CASE("a photograph of a sphere becomes samples of the paint") {
   REQUIRE(off.size() > 500);
   std::ranges::nth_element(off, off.begin() + std::ssize(off) / 2);
   CHECK(off[off.size() / 2] < 0.02);
+}
+
+TEST_CASE("a map of normals and one of positions stand for the sphere's outline") {
+  const sphere_shots shots;
+  const auto setup = gonio::io::read_sphere_setup(shots.at("setup.txt"));
+  const gonio::surface_image surface =
+      gonio::capture::surface_of(gonio::capture::placed_sphere{{0.02, -0.03, 0.0}, 1.0}, setup.camera);
+  const auto put_map = [&](const std::string& name, const Eigen::Matrix3Xd& vectors, std::size_t rows) {
+    gonio::capture::vector_map map({rows, vectors.cols() / rows, 3});
+    for (Eigen::Index i = 0; i < vectors.size(); ++i) map.data()[i] = static_cast<float>(vectors.data()[i]);
+    gonio::io::write_npy(shots.at(name), map);
+  };
+  put_map("normals.npy", 3.0 * surface.normals, 128);
+  put_map("positions.npy", surface.positions, 128);
+  scratch::put(shots.at("map.txt"), sphere_scene + "white_reflectance 0.98\n");
+  const auto run = [&](const std::string& normals, const std::string& more) {
+    return gonio_tool("sphere " + shots.at("paint.hdr") + " " + shots.at("map.txt") + " --white " +
+                      shots.at("white.hdr") + " --normals " + shots.at(normals) + more + " -o " + shots.at("map.csv"));
+  };
+  const std::string positions = " --positions " + shots.at("positions.npy");
+  const auto mapped = run("normals.npy", positions);
+  REQUIRE_MESSAGE(mapped.exit_code == 0, mapped.output);
+  std::vector<double> off;
+  for (const gonio::sample& s : gonio::io::read_samples(shots.at("map.csv"))) {
+    const auto [wi, wo] = s.directions.pair();
+    off.push_back(std::abs(s.value.x() / shots.paint(wi, wo).x() - 1.0));
+  }
+  REQUIRE(off.size() > 500);
+  std::ranges::nth_element(off, off.begin() + std::ssize(off) / 2);
+  CHECK(off[off.size() / 2] < 0.02);
+
+  const auto refused = [&](const std::string& normals, const std::string& more, const std::string& why) {
+    const auto result = run(normals, more);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find(why) != std::string::npos);
+  };
+  refused("normals.npy", "", "needs the positions of the surface");
+  put_map("small.npy", surface.normals.leftCols(64), 8);
+  refused("small.npy", positions, "small.npy: has 8 x 8 pixels, its camera 128 x 128");
+  put_map("none.npy", 0.0 * surface.normals, 128);
+  refused("none.npy", positions, "none.npy: all normals are zero");
+  Eigen::Matrix3Xd broken = surface.normals;
+  broken(1, 130) = std::numeric_limits<double>::quiet_NaN();
+  put_map("broken.npy", broken, 128);
+  refused("broken.npy", positions, "pixel (row 1, column 2) is not finite");
 }
 
 TEST_CASE("sphere refuses what is missing") {

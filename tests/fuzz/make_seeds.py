@@ -102,6 +102,44 @@ def png(columns, rows, depth, kind, channels, interlaced=0, extra=b"", filter=1)
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + extra + chunk(b"IDAT", zlib.compress(raw)) + chunk(b"IEND", b"")
 
 
+def exr(columns, rows):
+    def attribute(name, kind, value):
+        return name.encode() + b"\0" + kind.encode() + b"\0" + struct.pack("<I", len(value)) + value
+
+    window = struct.pack("<4i", 0, 0, columns - 1, rows - 1)
+    channels = b"".join(c + b"\0" + struct.pack("<iB3xii", 2, 0, 1, 1) for c in (b"B", b"G", b"R")) + b"\0"
+    head = struct.pack("<II", 20000630, 2) + attribute("channels", "chlist", channels)
+    head += attribute("compression", "compression", b"\0") + attribute("dataWindow", "box2i", window)
+    head += attribute("displayWindow", "box2i", window) + attribute("lineOrder", "lineOrder", b"\0")
+    head += attribute("pixelAspectRatio", "float", struct.pack("<f", 1)) + attribute("screenWindowCenter", "v2f", bytes(8))
+    head += attribute("screenWindowWidth", "float", struct.pack("<f", 1)) + b"\0"
+    line = struct.pack(f"<{3 * columns}f", *(0.1 * i for i in range(3 * columns)))
+    begin = len(head) + 8 * rows
+    offsets = b"".join(struct.pack("<Q", begin + (8 + len(line)) * row) for row in range(rows))
+    return head + offsets + b"".join(struct.pack("<iI", row, len(line)) + line for row in range(rows))
+
+
+def directory(tags):
+    return struct.pack("<H", len(tags)) + b"".join(struct.pack("<HHII", *tag) for tag in tags) + bytes(4)
+
+
+def tiff(columns, rows, bits, channels, meaning):
+    pixels = bytes(i % 251 for i in range(columns * rows * channels * bits // 8))
+    depths, exif = 8 + len(pixels), 8 + len(pixels) + 8
+    time = directory([(33434, 5, 1, exif + 18)]) + struct.pack("<II", 1, 250)
+    tags = [(256, 4, 1, columns), (257, 4, 1, rows), (258, 3, channels, depths if channels > 2 else bits)]
+    tags += [(259, 3, 1, 1), (262, 3, 1, meaning), (273, 4, 1, 8), (277, 3, 1, channels), (278, 4, 1, rows)]
+    tags += [(279, 4, 1, len(pixels)), (34665, 4, 1, exif)]
+    head = b"II*\0" + struct.pack("<I", exif + len(time))
+    return head + pixels + struct.pack("<4H", *[bits] * 4) + time + directory(tags)
+
+
+def jpeg(seconds):
+    exif = b"II*\0" + struct.pack("<I", 8) + directory([(34665, 4, 1, 26)])
+    exif += directory([(33434, 5, 1, 44)]) + struct.pack("<II", *seconds)
+    return b"\xFF\xD8\xFF\xE1" + struct.pack(">H", len(exif) + 8) + b"Exif\0\0" + exif + b"\xFF\xD9"
+
+
 put("merl", "small", merl(3, 2, 4))
 put("merl", "small.gz", gzip.compress(merl(3, 2, 4), mtime=0))
 put("merl", "marked", struct.pack("<3i", 2, 2, 2) + struct.pack("<24d", *([1.0] * 7 + [-1.0]) * 3))
@@ -135,6 +173,21 @@ put("capture_constraint", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparati
 put("capture_constraint", "step.txt", "light_step 7.5\n")
 put("near_field_setup", "target.txt", "size 640 480\nfocal_length 1210.5\nposition 0.5 0 0.3\ntarget 0 0 0\nlight_angles 50 180\nregion 0.1\nblock 4\nsaturation 2\n")
 put("near_field_setup", "rotation.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nwindow 1 2 30 20\nregion 0.2 0.1 0\n")
+put("near_field_setup", "lamp.txt", "size 64 48\nfield_of_view 30\ndistortion -0.2 0.05 0 0\nposition 0 0.1 1\ntarget 0 0 0\nlamp 1 0 2\nintensity 3\nwhite_reflectance 0.98\nwhite_plane 0 0 0.1 0 0 1\nregion 0.2\n")
+put("sphere_setup", "lamp.txt", "size 64 48\nfield_of_view 20\ndistortion -0.2 0.05 0.001 0.002 0.01\nposition 0 0 12\ntarget 0 0 0\nup 0 1 0\nlamp 3 4 5\nintensity 2\nsphere 0.5\nwhite_reflectance 0.98\nwhite_plane 0 0 -1 0 0 1\nsaturation 9\n")
+put("sphere_setup", "light.txt", "size 64 48\nfocal_length 90 91\nprincipal_point 30 20\nposition 0 0 1\nrotation 1 0 0 0 -1 0 0 0 -1\nlight 0 0.6 0.8\nirradiance 1 2 3\nsphere 1\noutline 30 20 10\nsmallest_cosine 0.1\n")
+put("camera_calibration", "camera.yml", "%YAML:1.0\n---\nimage_width: 64\nimage_height: 48\ncamera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 95., 0., 31.5, 0., 1.0e+02, 23.5, 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: d\n   data: [ -0.2, 0.05,\n      0.001, 0.002, 0. ]\n")
+put("camera_calibration", "camera.xml", '<?xml version="1.0"?>\n<opencv_storage>\n<image_width>64</image_width>\n<image_height>48</image_height>\n<camera_matrix type_id="opencv-matrix">\n  <rows>3</rows>\n  <cols>3</cols>\n  <dt>d</dt>\n  <data>95. 0. 31.5 0. 100. 23.5 0. 0. 1.</data></camera_matrix>\n</opencv_storage>\n')
+put("exposure_times", "times.csv", "# two\nfile,seconds\na.png,0.004\nb.png, 1/250\n")
+put("exposure_times", "one.csv", "file,seconds\r\na b.ppm,4e-3\r\n")
+put("pnm", "rgb.ppm", b"P6\n# made up\n2 2\n255\n" + bytes(range(12)))
+put("pnm", "grey16.pgm", b"P5 3 1 4095\n" + struct.pack(">3H", 0, 7, 4095))
+put("exr", "small.exr", exr(3, 2))
+put("exr", "one.exr", exr(1, 1))
+put("tiff", "rgb16.tif", tiff(3, 2, 16, 3, 2))
+put("tiff", "grey8.tif", tiff(4, 1, 8, 1, 1))
+put("exif", "time.jpg", jpeg((1, 250)))
+put("exif", "long.jpg", jpeg((30, 1)))
 put("scan_journal", "small.scan", "# gonio scan\nlargest_count 255\npose 0 0 1 0.6 0 0.8\npose 0 0 1 0 0.6 0.8\nreading 0 2 0.1 1 1 9 8 7 99 88 77 ?\nreading 1 1 0.5 2 1 2 3 4 5 6 ?\n")
 put("scan_journal", "whole.scan", "# gonio scan\nsample 7 red paint\nsetup ? gantry, ideal\nseed 1\nlargest_count 255\nplan 1 ?\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 ?\n")
 put("scan_journal", "cut.scan", "largest_count 65535\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 99")
@@ -171,7 +224,14 @@ words = {
     "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF'],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
     "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
-    "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
+    "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'field_of_view', 'distortion', 'white_reflectance', 'white_plane', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
+    "sphere_setup": ['size', 'focal_length', 'field_of_view', 'principal_point', 'distortion', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'sphere', 'outline', 'white_reflectance', 'white_plane', 'saturation', 'smallest_cosine', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
+    "camera_calibration": ['%YAML:1.0', '<opencv_storage>', '</opencv_storage>', 'image_width', 'image_height', 'camera_matrix', 'distortion_coefficients', '!!opencv-matrix', 'rows', 'cols', 'data', '<rows>', '</rows>', '<data>', '</data>', '[', ']', ':', '\\x0A', '1e308', '1000000', '.'],
+    "exposure_times": ['file,seconds', ',', '/', '\\x0A', '#', '1e308', '1e-308', 'nan', 'inf', '0'],
+    "pnm": ['P6', 'P5', '#', '\\x0A', '255', '65535', '65536', '16384', '16385', '99999'],
+    "exr": ['channels', 'chlist', 'compression', 'dataWindow', 'displayWindow', 'box2i', 'lineOrder', 'tiles', 'tiledesc', 'type', 'scanlineimage', 'tiledimage', 'deepscanline', '\\x76\\x2F\\x31\\x01', '\\xFF\\xFF\\xFF\\x7F', '\\x00\\x40\\x00\\x00'],
+    "tiff": ['II*\\x00', 'MM\\x00*', 'II+\\x00', '\\x00\\x01', '\\x01\\x01', '\\x02\\x01', '\\x03\\x01', '\\x06\\x01', '\\x11\\x01', '\\x15\\x01', '\\x16\\x01', '\\x17\\x01', '\\x42\\x01', '\\x69\\x87', '\\x9A\\x82', '\\x05\\x00', '\\x08\\x00', '\\xFF\\xFF\\xFF\\xFF'],
+    "exif": ['\\xFF\\xD8', '\\xFF\\xE1', '\\xFF\\xE0', '\\xFF\\xDA', 'Exif\\x00\\x00', 'II*\\x00', 'MM\\x00*', '\\x69\\x87', '\\x9A\\x82', '\\x05\\x00', '\\xFF\\xFF\\xFF\\xFF'],
     "scan_journal": ['sample ', 'setup ? ', 'seed ', 'plan 1 ?', 'largest_count', 'pose', 'reading', '?', '#', '\\x0A', '65535', '0 0 1', '0.6 0 0.8', '1000', '1000000', '1e9', 'nan'],
     "png": ['\\x89PNG\\x0D\\x0A\\x1A\\x0A', 'IHDR', 'IDAT', 'IEND', 'PLTE', 'tRNS', 'gAMA', 'CgBI', '\\x00\\x00\\x40\\x00', '\\x00\\x00\\x00\\x0D', '\\x78\\x9C'],
     "hdr": ['#?RADIANCE', '#?RGBE', 'FORMAT=32-bit_rle_rgbe', 'EXPOSURE=', '-Y ', '+X ', '+Y ', '\\x0A\\x0A', '16384', '\\x02\\x02\\x00\\x08', '\\x88', '\\xFF'],

@@ -47,7 +47,7 @@ Written by `cmake -D LOGS=build/fuzz/tests/fuzz -D OUTPUT=docs/results/fuzzing.m
 the target `fuzz` (`cmake -S . -B build/fuzz -G Ninja -D CMAKE_CXX_COMPILER=clang++-19 -D GONIO_BUILD_FUZZ=ON -D GONIO_FUZZ_SECONDS=200`,
 `ninja -C build/fuzz fuzz`): libFuzzer with the address and undefined-behaviour sanitizers, files of up to 16 KiB, no allocation above 64 MiB,
 512 MB in all, two seconds a file. A finding is a crash, what a sanitizer says, an exception that is no `gonio::error`, and a refusal that does
-not name the file or holds control characters. There is none; what was found by other means is mended, and `tests/crafted` keeps the files.
+not name the file or holds control characters. There is none left; what was found is mended, and `tests/crafted` keeps the files.
 On a machine that other work fills, a process may wait two seconds for its turn: such runs had `-timeout=20`, and the slowest file is in the table.
 
 <!-- cmake -P tests/fuzz/report.cmake -->

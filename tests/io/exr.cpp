@@ -50,6 +50,14 @@ TEST_CASE("OpenEXR: bad files and images are refused") {
   REQUIRE(red != std::string::npos);
   renamed[red + 1] = std::byte{'S'};
   check_refused([&] { return parse(renamed); }, {"a.exr", "neither channels R, G and B nor Y"});
+  // An attribute that claims more than the file has, for which OpenEXR would reserve a gigabyte.
+  std::vector<std::byte> attribute = whole;
+  const auto order = text.find(std::string("lineOrder\0lineOrder\0", 20));
+  REQUIRE(order != std::string::npos);
+  attribute[order] = std::byte{'L'};  // one that OpenEXR does not know
+  attribute[order + 10] = std::byte{'L'};
+  attribute[order + 23] = std::byte{0x40};
+  check_refused([&] { return parse(attribute); }, {"a.exr", "cannot be decoded as OpenEXR"});
   // A size that is claimed.
   std::vector<std::byte> huge = whole;
   huge.resize(4096);

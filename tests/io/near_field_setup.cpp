@@ -1,7 +1,11 @@
 #include "scratch.hpp"
 #include <gonio/io/near_field_setup.hpp>
+#include <gonio/io/text.hpp>
 
 #include <doctest/doctest.h>
+
+#include <string>
+#include <variant>
 
 using gonio::io::parse_near_field_setup;
 
@@ -12,6 +16,11 @@ const std::string complete =
     "target 0.01 0 0\nup 0 1 0\n\nlight_angles 50 180\r\nirradiance 3 2 1.5\nregion 0.1 0.02 -0.03\n"
     "window 100 80 400 300\nsaturation 0.98\nblock 4\n";
 const std::string smallest = "size 8 6\nfocal_length 10\nposition 0 1 1\ntarget 0 0 0\nlight 0 0 2\nregion 1\n";
+
+/// The distant light of a set-up.
+const gonio::directional_light& light_of(const gonio::capture::near_field_setup& setup) {
+  return std::get<gonio::directional_light>(setup.light);
+}
 
 /// The smallest file with a line changed to another.
 std::string with(const std::string& line, const std::string& other) {
@@ -37,8 +46,8 @@ TEST_CASE("every entry is read") {
   const auto target = setup.camera.project({0.01, 0.0, 0.0}), above = setup.camera.project({0.01, 0.1, 0.0});
   CHECK((*target - Eigen::Vector2d(310.0, 245.0)).norm() < 1e-9);
   CHECK(above->y() < 245.0);
-  CHECK((setup.light.towards - gonio::spherical_direction(gonio::radians(50), gonio::radians(180))).norm() < 1e-12);
-  CHECK((setup.light.irradiance == gonio::rgb(3.0, 2.0, 1.5)).all());
+  CHECK((light_of(setup).towards - gonio::spherical_direction(gonio::radians(50), gonio::radians(180))).norm() < 1e-12);
+  CHECK((light_of(setup).irradiance == gonio::rgb(3.0, 2.0, 1.5)).all());
   REQUIRE(setup.disc);
   CHECK(setup.disc->radius == 0.1);
   CHECK(setup.disc->centre == Eigen::Vector2d(0.02, -0.03));
@@ -56,21 +65,21 @@ TEST_CASE("what is left out is what the documentation says") {
   CHECK(setup.camera.intrinsics().focal_length_y == 10.0);
   CHECK(setup.camera.intrinsics().principal_x == 4.0);
   CHECK(setup.camera.intrinsics().principal_y == 3.0);
-  CHECK(setup.light.towards == gonio::direction(0.0, 0.0, 1.0));
-  CHECK((setup.light.irradiance == 1.0).all());
+  CHECK(light_of(setup).towards == gonio::direction(0.0, 0.0, 1.0));
+  CHECK((light_of(setup).irradiance == 1.0).all());
   CHECK(setup.disc->centre == Eigen::Vector2d(0.0, 0.0));
   CHECK_FALSE(setup.window);
   CHECK_FALSE(setup.saturation);
   CHECK(setup.block == 1);
   const auto windowed = parse_near_field_setup(with("region 1", "window 0 0 8 6\nirradiance 2"), "first.txt");
   CHECK_FALSE(windowed.disc);
-  CHECK((windowed.light.irradiance == 2.0).all());
+  CHECK((light_of(windowed).irradiance == 2.0).all());
 }
 
 TEST_CASE("a rotation is the camera's axes, row by row") {
   const auto setup = parse_near_field_setup(with("target 0 0 0", "rotation 0 1 0  1 0 0  0 0 -1"), "first.txt");
-  CHECK(setup.camera.rotation().row(0) == Eigen::RowVector3d(0.0, 1.0, 0.0));
-  CHECK(setup.camera.rotation().row(1) == Eigen::RowVector3d(1.0, 0.0, 0.0));
+  CHECK(setup.camera.pinhole().rotation().row(0) == Eigen::RowVector3d(0.0, 1.0, 0.0));
+  CHECK(setup.camera.pinhole().rotation().row(1) == Eigen::RowVector3d(1.0, 0.0, 0.0));
   CHECK(setup.camera.ray_through(4.0, 3.0).towards == gonio::direction(0.0, 0.0, -1.0));
 }
 
@@ -79,7 +88,7 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
     scratch::check_refused([&] { return parse_near_field_setup(text, "first.txt"); }, words);
     scratch::check_refused([&] { return parse_near_field_setup(text, "first.txt"); }, {"first.txt"});
   };
-  refused(smallest + "lamp 3\n", {"line 7", "'lamp' is unknown", "light_angles"});
+  refused(smallest + "lamps 3\n", {"line 7", "'lamps' is unknown", "light_angles"});
   refused(smallest + "size 8 6\n", {"line 7", "'size' is already in line 1"});
   refused(with("size 8 6", "size 8"), {"line 1", "'size' takes 2 numbers, not 1"});
   refused(with("focal_length 10", "focal_length 1 2 3"), {"line 2", "takes 1 or 2 numbers, not 3"});
@@ -101,12 +110,44 @@ TEST_CASE("a bad set-up is refused with its file, and its line if it has one") {
   refused(with("light 0 0 2", "light_angles 90 0"), {"line 5", "90 degrees", "less than 90"});
   refused(with("light 0 0 2", "light_angles 9 400"), {"line 5", "400 degrees"});
   refused(smallest + "irradiance 1 2\n", {"line 7", "1 or 3 numbers"});
-  refused(smallest + "irradiance 1 0 1\n", {"irradiance must be finite and positive"});
+  refused(smallest + "irradiance 1 0 1\n", {"line 7", "'irradiance': must be positive in each channel"});
   refused(with("region 1", "region 0"), {"positive radius"});
   refused(with("region 1", "window 0 0 9 6"), {"window", "8 x 6"});
   refused(with("region 1", "window -1 0 8 6"), {"line 6", "-1 is not a whole number from 0"});
+  refused(with("light 0 0 2", "lamp 1 0 0"), {"the light is at or below"});
+  refused(smallest + "lamp 1 0 1\n", {"line 5", "'lamp' says already where the light is"});
+  refused(smallest + "intensity 2\n", {"line 7", "of a distant light give irradiance"});
+  refused(smallest + "distortion -2000 0 0 0\n", {"folds within the image"});
+  refused(smallest + "white_plane 0 0 0 0 0 1\n", {"needs 'white_reflectance'"});
+  refused(smallest + "white_reflectance 0\n", {"line 7", "above 0 and up to 1"});
   refused(smallest + "saturation 0\n", {"saturation must be positive"});
   refused(smallest + "block 0\n", {"line 7", "0 is not a whole number from 1"});
+}
+
+TEST_CASE("a lens, a lamp and a white reference are read as those of a sphere") {
+  const auto setup =
+      parse_near_field_setup(with("light 0 0 2",
+                                  "lamp 3 4 5\nintensity 2\ndistortion -0.2 0.05 0.001 0.002\nwhite_reflectance 0.98\n"
+                                  "white_plane 0 0 -1 0 0 1"),
+                             "first.txt");
+  const auto& lamp = std::get<gonio::capture::point_lamp>(setup.light);
+  CHECK(lamp.position == Eigen::Vector3d(3.0, 4.0, 5.0));
+  CHECK((lamp.intensity == 2.0).all());
+  CHECK(setup.camera.distortion().k2 == 0.05);
+  CHECK(setup.white_reflectance == 0.98);
+  CHECK(setup.white_plane->point.z() == -1.0);
+  const auto wide = parse_near_field_setup(with("focal_length 10", "field_of_view 90"), "first.txt");
+  CHECK(wide.camera.intrinsics().focal_length_x == doctest::Approx(4.0));
+}
+
+TEST_CASE("with a calibration a set-up says neither size nor lens") {
+  const gonio::io::camera_calibration calibration{gonio::camera_intrinsics::square(40, 0.5), {.k1 = -0.1}};
+  const std::string bare = "position 0 1 1\ntarget 0 0 0\nlight 0 0 2\nregion 1\n";
+  const auto setup = parse_near_field_setup(bare, "first.txt", calibration);
+  CHECK(setup.camera.intrinsics().columns == 40);
+  CHECK(setup.camera.distortion().k1 == -0.1);
+  scratch::check_refused([&] { return parse_near_field_setup(smallest, "first.txt", calibration); },
+                         {"line 1", "'size'", "the calibration says it already"});
 }
 
 TEST_CASE("what is missing is named") {
@@ -115,10 +156,10 @@ TEST_CASE("what is missing is named") {
                            {"first.txt: " + name + " is missing"});
   };
   missing("size 8 6", "'size'");
-  missing("focal_length 10", "'focal_length'");
+  missing("focal_length 10", "'focal_length' or 'field_of_view'");
   missing("position 0 1 1", "'position'");
   missing("target 0 0 0", "'target' or 'rotation'");
-  missing("light 0 0 2", "'light' or 'light_angles'");
+  missing("light 0 0 2", "'light' or 'light_angles' or 'lamp'");
   missing("region 1", "'region' or 'window'");
 }
 

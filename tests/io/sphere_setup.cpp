@@ -47,7 +47,7 @@ TEST_CASE("a set-up of a sphere is read") {
 TEST_CASE("bad set-ups of a sphere are refused") {
   const std::string good = sphere_lens + sphere_pose + "lamp 3 4 5\n";
   CHECK_NOTHROW(parse_sphere_setup(good, "setup.txt"));
-  refuses_setup(sphere_lens + sphere_pose, "'light' or 'lamp' is missing");
+  refuses_setup(sphere_lens + sphere_pose, "'light' or 'light_angles' or 'lamp' is missing");
   refuses_setup("size 64 48\n" + sphere_pose + "lamp 1 2 3\n", "'focal_length' or 'field_of_view' is missing");
   refuses_setup(good + "light 0 0 1\n", "where the light is");
   refuses_setup(good + "irradiance 2\n", "of a lamp give intensity");

@@ -22,6 +22,8 @@ set(edges
   "io         -> design capture model render"
   "io/image.hpp -> io" # apart, because it needs stb
   "io/exr.hpp -> io" # apart, because it needs OpenEXR
+  "io/tiff.hpp -> io" # libtiff
+  "io/exif.hpp -> io" # libexif
   "shape/io   -> io shape"
   "render.hpp -> render"
   "shape.hpp  -> shape/io"
@@ -105,7 +107,7 @@ if(EXISTS "${ROOT}/gonio.hpp")
   foreach(header IN LISTS headers)
     if(header MATCHES "[.]ipp$")
       set(places "${compiled}")
-    elseif(header MATCHES "^(render/.*|io/(image|exr)[.]hpp|core/k_d_tree[.]hpp|estimate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
+    elseif(header MATCHES "^(render/.*|io/(image|exr|tiff|exif)[.]hpp|core/k_d_tree[.]hpp|estimate/scattered_brdf[.]hpp|[a-z]+[.]hpp)$")
       continue()
     else()
       string(REGEX REPLACE "/.*" "" module "${header}")

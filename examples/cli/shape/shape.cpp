@@ -43,6 +43,7 @@ void add_shape(command& app) {
   add_shape_recover(shape);
   add_shape_demo(shape);
   add_shape_grow(shape);
+  add_shape_see(shape);
 }
 
 }  // namespace cli

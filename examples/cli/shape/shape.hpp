@@ -14,6 +14,7 @@ void add_shape_learn(command& shape);
 void add_shape_recover(command& shape);
 void add_shape_demo(command& shape);
 void add_shape_grow(command& shape);
+void add_shape_see(command& shape);
 
 /// A surface from two sides, in the colours of signed distances: blue inside, green on, red outside of what it is
 /// compared with; without distances in grey. `largest` mm are pure blue and red.

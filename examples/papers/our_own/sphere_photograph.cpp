@@ -6,15 +6,12 @@
 #include "command_line/progress_bar.hpp"
 #include "lab/sphere_lab.hpp"
 #include "papers/experiments.hpp"
-#include "papers/our_own/left_out_families.hpp"
+#include "papers/our_own/photographed_materials.hpp"
 #include <gonio/capture/sphere_outline.hpp>
 #include <gonio/capture/surface_photograph.hpp>
-#include <gonio/core/statistics.hpp>
-#include <gonio/estimate/discrepancy_decomposition.hpp>
-#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/design/published_directions.hpp>
 #include <gonio/io/samples.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -29,10 +26,31 @@ namespace {
 
 struct sphere_photograph_options : left_out_options {
   std::vector<std::filesystem::path> directions;
+  std::vector<Eigen::Index> published;  ///< sets of Nielsen et al. 2015, Table 2
   std::vector<std::string> names{"vch_golden_yellow", "paper_white", "chm_light_blue"};
   double noise = 0.02;
   int pixels = 320;
+  int coarser = 1;  ///< of the cells whose pixels are averaged, than those of MERL's grid
 };
+
+/// Where to photograph: a photograph for each pair.
+struct photograph_set {
+  std::string name;
+  std::vector<gonio::direction_pair> pairs;
+};
+
+std::vector<photograph_set> sets_of(const sphere_photograph_options& options) {
+  std::vector<photograph_set> sets;
+  for (const std::filesystem::path& file : options.directions)
+    sets.push_back({file.stem().string(), gonio::io::read_direction_pairs(file)});
+  for (const Eigen::Index count : options.published) {
+    sets.push_back({"published-" + std::to_string(count), {}});
+    for (const gonio::half_difference& angles : gonio::design::nielsen_sphere_directions(count))
+      sets.back().pairs.push_back(gonio::to_directions(angles));
+  }
+  if (sets.empty()) gonio::refuse("sphere-photograph needs --directions or --published");
+  return sets;
+}
 
 /// The laboratory: a sphere of radius 1 not quite in the middle, a camera 12 radii away with a lens that distorts and
 /// darkens, a lamp 15 radii away.
@@ -64,44 +82,30 @@ class sphere_laboratory {
   gonio::capture::placed_sphere sphere_{{0.02, -0.03, 0.0}, 1.0};
 };
 
-/// A judged material as a BRDF.
-struct measured_brdf {
-  const reflectance& measured;
-
-  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
-    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return gonio::rgb::Zero();
-    return measured({wi, wo});
-  }
-};
-
 /// What was made of a set of photographs.
 struct photographed {
   gonio::sample_set samples;
   Eigen::Index pixels = 0;
-  double off = 0.0;  ///< of the sphere's centre across the view, pixels
+  Eigen::Index views = 0;  ///< that show something that is lit
+  double off = 0.0;        ///< of the sphere's centre across the view, pixels
 };
 
-class sphere_photograph_experiment : left_out_experiment {
+class sphere_photograph_experiment : photograph_experiment {
  public:
   sphere_photograph_experiment(const sphere_photograph_options& given, progress_bar& bar)
-      : left_out_experiment(given, bar), given_(given), laboratory_(given.pixels) {}
+      : photograph_experiment(given, given.names, bar), given_(given), laboratory_(given.pixels) {}
 
-  /// For each material and each file of directions.
+  /// For each set and each material.
   [[nodiscard]] std::map<std::string, std::map<std::string, json>> run() {
     std::map<std::string, std::map<std::string, json>> found;
-    const auto all = measured_materials(given_.materials, library_);
     for (const std::string& name : given_.names) {
-      const auto material = std::ranges::find(all, name, &judged_material::name);
-      if (material == all.end()) gonio::refuse("--names: " + given_.materials.string() + " has no material " + name);
-      std::optional<gonio::discrepancy_decomposition<gonio::log_relative>> estimator;
-      for (const std::filesystem::path& file : given_.directions) {
-        const json key{"sphere-photograph", name,         file.filename().string(),
-                       given_.components,   given_.noise, given_.pixels};
-        found[file.stem().string()][name] = once(key, name + " " + file.stem().string(), [&] {
-          if (!estimator)
-            estimator.emplace(library_.prior_without(material->family, given_.components), gonio::discrepancy_model{},
-                              given_.threads);
-          return errors_of(*material, photograph(*material, file), *estimator);
+      std::optional<estimator_type> estimator;
+      for (const photograph_set& set : sets_of(given_)) {
+        const json key{"sphere-photograph", name,          set.name,      given_.components,
+                       given_.noise,        given_.pixels, given_.coarser};
+        found[set.name][name] = once(key, name + " " + set.name, [&] {
+          if (!estimator) estimator.emplace(estimator_of(prior_of(material(name))));
+          return errors_of(material(name), photograph(material(name), set), set.pairs.size(), *estimator);
         });
       }
     }
@@ -111,7 +115,7 @@ class sphere_photograph_experiment : left_out_experiment {
  private:
   /// One photograph of material and white sphere for each direction; the sphere is found in the white image that shows
   /// the most of its outline.
-  [[nodiscard]] photographed photograph(const judged_material& material, const std::filesystem::path& file) const {
+  [[nodiscard]] photographed photograph(const judged_material& material, const photograph_set& set) const {
     struct shot {
       gonio::capture::point_lamp lamp;
       gonio::image picture;
@@ -121,7 +125,7 @@ class sphere_photograph_experiment : left_out_experiment {
     std::optional<gonio::capture::fitted_outline> best;
     std::string why;
     constexpr double reflectance = 0.98;
-    for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(file)) {
+    for (const gonio::direction_pair& pair : set.pairs) {
       const auto lamp = sphere_laboratory::lamp(gonio::to_half_difference(pair.wi, pair.wo).theta_d);
       const std::uint64_t seed = 100 * material.number + 2 * shots.size();
       shots.push_back(
@@ -136,47 +140,43 @@ class sphere_photograph_experiment : left_out_experiment {
         why = refusal.what();  // a thin crescent may show too little
       }
     }
-    if (!best) gonio::refuse(file.string() + ": " + why);
+    if (!best) gonio::refuse(set.name + ": " + why);
     photographed taken;
     const gonio::surface_image surface = gonio::capture::surface_of(best->sphere, laboratory_.camera());
-    for (const shot& each : shots) {
-      const auto found = gonio::capture::samples_of(each.picture, surface, laboratory_.camera(), each.lamp, each.white);
-      taken.samples.insert(taken.samples.end(), found.samples.begin(), found.samples.end());
-      taken.pixels += found.pixels;
-    }
+    const gonio::capture::photograph_options options{
+        .cells = gonio::grid({90 / given_.coarser, 90 / given_.coarser, 180 / given_.coarser})};
+    for (const shot& each : shots) try {
+        const auto found =
+            gonio::capture::samples_of(each.picture, surface, laboratory_.camera(), each.lamp, each.white, options);
+        taken.samples.insert(taken.samples.end(), found.samples.begin(), found.samples.end());
+        taken.pixels += found.pixels;
+        ++taken.views;
+      } catch (const gonio::error& refusal) {
+        why = refusal.what();  // with light and camera nearly opposite, nothing is lit and seen
+      }
+    if (taken.views == 0) gonio::refuse(set.name + ": " + why);
     const Eigen::Vector3d off = best->sphere.centre - laboratory_.sphere().centre;
     taken.off = off.head<2>().norm() / (12.0 * laboratory_.camera().pixel_angle());
     return taken;
   }
 
-  using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
-
-  /// As `gonio reconstruct` does it.
-  [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
-                                         const judged_material& material) const {
-    const auto located = gonio::locate_samples(library_.cells(), samples);
-    const auto screened = gonio::screen(estimator, located, given_.threads);
-    return compare(estimator.fit_located(screened.kept).tabulate(library_.cells(), given_.threads), material);
-  }
-
-  [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken,
+  [[nodiscard]] json errors_of(const judged_material& material, const photographed& taken, std::size_t views,
                                const estimator_type& estimator) const {
     // The same directions without any error.
     gonio::sample_set perfect = taken.samples;
-    std::vector<double> relative;
-    for (gonio::sample& s : perfect) {
-      const gonio::rgb value = s.value;
-      s.value = material.measured(s.directions.pair());
-      relative.push_back(std::abs(value.y() / s.value.y() - 1.0));
-    }
+    for (gonio::sample& s : perfect) s.value = material.measured(s.directions.pair());
     const gonio::comparison photo = judged(estimator, taken.samples, material),
                             same = judged(estimator, perfect, material);
+    const gonio::comparison alike =
+        compare(estimator.fit(taken.samples).tabulate(library_.cells(), given_.threads), material);
     return {{"samples", taken.samples.size()},
             {"pixels", taken.pixels},
+            {"views", std::to_string(taken.views) + " of " + std::to_string(views)},
             {"off", taken.off},
-            {"median_error", 100.0 * gonio::median(std::move(relative))},
+            {"median_error", 100.0 * median_error(taken.samples, material)},
             {"perfect_env", same.delta_e_env},
             {"photo_env", photo.delta_e_env},
+            {"alike_env", alike.delta_e_env},
             {"perfect_lights", same.delta_e_lights},
             {"photo_lights", photo.delta_e_lights}};
   }
@@ -186,17 +186,18 @@ class sphere_photograph_experiment : left_out_experiment {
 };
 
 void print(const std::map<std::string, std::map<std::string, json>>& found) {
-  std::cout
-      << "| directions | material | pixels | samples | centre off, pixels | median error of a sample | Delta E env: "
-         "perfect | photographs | ratio | Delta E lights: perfect | photographs "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  std::cout << "| set | material | photographs with light | pixels | samples | centre off, pixels | median error of a "
+               "sample | Delta E env: "
+               "perfect | photographs | ratio | all samples alike | Delta E lights: perfect | photographs "
+               "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const auto& [file, materials] : found)
     for (const auto& [name, errors] : materials) {
       const auto number = [&, &of = errors](const char* key) { return of[key].number(); };
-      std::cout << "| " << file << " | " << name << " | " << fixed(number("pixels"), 0) << " | "
-                << fixed(number("samples"), 0) << " | " << fixed(number("off"), 2) << " | "
-                << fixed(number("median_error"), 1) << " % | " << fixed(number("perfect_env"), 2) << " | "
-                << fixed(number("photo_env"), 2) << " | " << fixed(number("photo_env") / number("perfect_env"), 2)
+      std::cout << "| " << file << " | " << name << " | " << errors["views"].text() << " | "
+                << fixed(number("pixels"), 0) << " | " << fixed(number("samples"), 0) << " | "
+                << fixed(number("off"), 2) << " | " << fixed(number("median_error"), 1) << " % | "
+                << fixed(number("perfect_env"), 2) << " | " << fixed(number("photo_env"), 2) << " | "
+                << fixed(number("photo_env") / number("perfect_env"), 2) << " | " << fixed(number("alike_env"), 2)
                 << " | " << fixed(number("perfect_lights"), 2) << " | " << fixed(number("photo_lights"), 2) << " |\n";
     }
 }
@@ -208,9 +209,12 @@ void add_sphere_photograph(command& app) {
       app.add_subcommand("sphere-photograph", "Reconstruct measured materials from simulated photographs of a sphere");
   const auto options = std::make_shared<sphere_photograph_options>();
   add_left_out_options(command, *options);
-  command
-      .add_input("--directions", options->directions, "Sphere designs (.csv): a photograph for each of their theta_d")
-      .required();
+  command.add_input("--directions", options->directions,
+                    "Sphere designs (.csv): a photograph for each of their theta_d");
+  command.add_option("--published", options->published, "Sets of Nielsen et al. 2015, Table 2: 1, 2 or 5 photographs");
+  command.add_option("--coarser", options->coarser, "Pixels are averaged over cells so many times those of MERL's grid")
+      .check(check::range(1, 10))
+      .capture_default_str();
   command.add_option("--names", options->names, "Materials to photograph").capture_default_str();
   command.add_option("--noise", options->noise, "Relative noise of a pixel").capture_default_str();
   command.add_option("--pixels", options->pixels, "Pixels a side").check(check::range(64, 2048)).capture_default_str();

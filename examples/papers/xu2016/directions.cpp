@@ -153,7 +153,7 @@ std::vector<gonio::sample_set> photographed(const gonio::brdf_table& material, c
   for (const auto& [wi, wo] : found.poses) {
     const gonio::capture::near_field_setup setup{
         .camera = gonio::design::near_field_camera(wo, apparatus.field_of_view, apparatus.pixels),
-        .light = {wi},
+        .light = gonio::directional_light{wi},
         .disc = disc};
     const gonio::image image = lab::photograph(
         material, disc, setup, {.noise = options.noise, .misalignment = gonio::radians(options.angular_error)}, ++seed);

@@ -1,8 +1,8 @@
 #pragma once
 /// Surfaces of known shape as a camera sees them: a sphere, a plane, or a map of normals. With them an image of a
 /// curved object is one measurement for each pixel: Marschner et al. 2000 (doi:10.1364/AO.39.002592) for spheres,
-/// Noell, Koehler and Stricker 2014 for objects of known shape. A mesh enters as maps of its
-/// normals and positions.
+/// Noell, Koehler and Stricker 2014 for objects of known shape. A mesh is seen
+/// by shape/mesh_surface.hpp.
 
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/table/surface_image.hpp>
@@ -40,7 +40,7 @@ using vector_map = xt::xtensor<float, 3>;
 
 /// A surface from its normals, which have any length and are zero where nothing is seen, and from positions, which a
 /// lamp at a finite distance needs. Throws gonio::error, by the maps' names, for a map of another size than the
-/// camera's image, or for a pixel that is not finite. O(pixels).
+/// camera's image, for a pixel that is not finite, or if all normals are zero. O(pixels).
 [[nodiscard]] surface_image surface_of_maps(const vector_map& normals, const std::string& normals_name,
                                             const lens_camera& camera, const std::optional<vector_map>& positions = {},
                                             const std::string& positions_name = "positions");

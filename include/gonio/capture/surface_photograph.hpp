@@ -3,11 +3,10 @@
 /// al. 2000, doi:10.1364/AO.39.002592; Nielsen et al. 2015, doi:10.1145/2816795.2818085, Sec. 6) or any other.
 ///
 /// A pixel's value is the radiance L = f E cos(theta_i), where a lamp of intensity I at a distance d has E = I / d^2.
-/// With a photograph of a white reference by the same camera and lamp, f follows from both for each pixel (Nielsen's
-/// thesis 2016, note on relative BRDF measurement, Eq. 20 to 22, `reference_light`). Vignetting, the lamp's falloff and
-/// its beam then cancel, and so do cosine and distance where the reference has the shape of the surface.
+/// With a photograph of a white reference by the same camera and lamp, f follows from both for each pixel
+/// (capture/surface_light.hpp).
 
-#include <gonio/core/directional_light.hpp>
+#include <gonio/capture/surface_light.hpp>
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/table/grid.hpp>
 #include <gonio/table/image.hpp>
@@ -17,38 +16,8 @@
 #include <Eigen/Core>
 
 #include <optional>
-#include <variant>
 
 namespace gonio::capture {
-
-/// A small lamp at a place of the camera's world.
-struct point_lamp {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  rgb intensity = rgb::Ones();  ///< irradiance at distance 1 of a surface that faces the lamp
-};
-
-/// A lamp at a finite distance, or one so far away that its direction is the same everywhere.
-using surface_light = std::variant<directional_light, point_lamp>;
-
-namespace detail {
-
-/// How a point of a surface is lit.
-struct lit_point {
-  direction towards;             ///< the light
-  rgb irradiance = rgb::Ones();  ///< of a surface that faces it
-  double distance = 1.0;         ///< 1 of a distant light
-};
-
-[[nodiscard]] lit_point light_at(const surface_light& light, const Eigen::Vector3d& position);
-
-}  // namespace detail
-
-/// What a white surface looked like under the same lamp, by the same camera.
-struct white_reference {
-  image photograph;
-  double reflectance = 1.0;              ///< of a surface that reflects evenly
-  std::optional<surface_image> surface;  ///< none: the reference has the shape and the place of the surface itself
-};
 
 /// What of a photograph counts, and how it is averaged.
 struct photograph_options {

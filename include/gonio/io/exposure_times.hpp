@@ -14,6 +14,9 @@ namespace gonio::io {
 /// two whole numbers stand there of which the first is not 1, as in `frame_2_250s`: that may be frame 2, or 2/250 s.
 [[nodiscard]] std::optional<double> exposure_time_of_name(std::string_view name);
 
+/// Throws gonio::error starting with `name` unless an exposure that a file claims lasts from 1e-7 s to a day.
+void require_believable_exposure(double seconds, const std::string& name);
+
 /// Seconds of exposure by the names of files, with their extensions.
 using exposure_times = std::map<std::string, double, std::less<>>;
 

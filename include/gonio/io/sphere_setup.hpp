@@ -1,6 +1,6 @@
 #pragma once
 /// Text files that say how a sphere, or another known surface, was photographed, in the words of
-/// io/near_field_setup.hpp: a line for each entry, lengths in any one unit. docs/reference/formats.md has all the
+/// io/setup_text.hpp: a line for each entry, lengths in any one unit. docs/reference/formats.md has all the
 /// entries.
 ///
 /// ```

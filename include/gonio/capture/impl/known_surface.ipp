@@ -90,8 +90,13 @@ GONIO_INLINE surface_image surface_of_maps(const vector_map& normals, const std:
   surface_image seen = surface_image::nothing(size.rows, size.columns);
   detail::copy_map(normals, normals_name, seen.normals, size.rows, size.columns);
   if (positions) detail::copy_map(*positions, positions_name, seen.positions, size.rows, size.columns);
-  for (Eigen::Index pixel = 0; pixel < seen.normals.cols(); ++pixel)
-    if (seen.sees(pixel)) seen.normals.col(pixel).normalize();
+  bool sees_any = false;
+  for (Eigen::Index pixel = 0; pixel < seen.normals.cols(); ++pixel) {
+    if (!seen.sees(pixel)) continue;
+    seen.normals.col(pixel).normalize();
+    sees_any = true;
+  }
+  if (!sees_any) refuse({normals_name, ": all normals are zero, nothing is seen of the surface"});
   return seen;
 }
 

@@ -2,6 +2,7 @@
 /// Bodies of capture/near_field_image.hpp.
 
 #include <gonio/capture/near_field_image.hpp>
+#include <gonio/capture/surface_light.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/pinhole_camera.hpp>
 #include <gonio/table/image.hpp>
@@ -12,6 +13,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace gonio::capture {
@@ -27,14 +29,10 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
   // Check that the camera and the light see the sample.
   const double height = setup.camera.position().z();
   refuse_unless(height > 0.0, "the camera is not above the sample's plane, its z is " + std::to_string(height));
-  const direction& light = setup.light.towards;
-  constexpr double tolerance = 1e-6;
-  refuse_unless(std::abs(light.norm() - 1.0) < tolerance, "the light's direction must have length 1");
-  refuse_unless(light.z() > 0.0,
-                "the light is at or below the sample's horizon, its z is " + std::to_string(light.z()));
-  const rgb& irradiance = setup.light.irradiance;
-  refuse_unless(irradiance.isFinite().all() && (irradiance > 0.0).all(),
-                "the light's irradiance must be finite and positive in each channel");
+  require_usable(setup.light);
+  const auto* lamp = std::get_if<point_lamp>(&setup.light);
+  const double light = lamp ? lamp->position.z() : std::get<directional_light>(setup.light).towards.z();
+  refuse_unless(light > 0.0, "the light is at or below the sample's horizon, its z is " + std::to_string(light));
   // Check that the region and the window contain pixels.
   if (setup.disc)
     refuse_unless(std::isfinite(setup.disc->radius) && setup.disc->radius > 0.0 && setup.disc->centre.allFinite(),
@@ -61,39 +59,59 @@ GONIO_INLINE void require_usable(const near_field_setup& setup) {
 
 namespace gonio::capture::detail {
 
-GONIO_INLINE std::optional<direction> view_of_pixel(const near_field_setup& setup, std::size_t row,
-                                                    std::size_t column) {
+GONIO_INLINE std::optional<seen_place> place_of_pixel(const near_field_setup& setup, std::size_t row,
+                                                      std::size_t column) {
   if (!setup.mask.empty() && !setup.mask[row * setup.camera.intrinsics().columns + column]) return {};
   const ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const auto point = line.at_ground();
   if (!point || (setup.disc && !setup.disc->contains(*point))) return {};
-  return -line.towards;
+  return seen_place{*point, -line.towards};
 }
 
-GONIO_INLINE void add_pixel(const image& picture, const near_field_setup& setup, std::size_t row, std::size_t column,
-                            pixel_block& block) {
-  const std::optional<direction> view = view_of_pixel(setup, row, column);
-  if (!view) return;
-  const rgb value = pixel(picture, row, column);
+/// Is a value saturated? One that is not finite is refused, by the name of its image, unless it is.
+GONIO_INLINE bool is_saturated(const rgb& value, const near_field_setup& setup, const char* what, std::size_t row,
+                               std::size_t column) {
   // In float, as the image is. Several exposures in one may hold infinity where all of them were saturated.
   const bool saturated = setup.saturation && (value >= double{static_cast<float>(*setup.saturation)}).any();
   if (value.isNaN().any() || !(saturated || value.isFinite().all()))
-    gonio::refuse("pixel (row " + std::to_string(row) + ", column " + std::to_string(column) +
-                  ") is not finite, and it sees the sample");
-  block.saturated = block.saturated || saturated;
-  block.radiance += value;
-  block.views += *view;
-  ++block.pixels;
+    gonio::refuse({what, "pixel (row ", row, ", column ", column, ") is not finite, and it sees the sample"});
+  return saturated;
 }
 
-GONIO_INLINE void require_size(const image& picture, const camera_intrinsics& intrinsics) {
-  const auto size = [](std::size_t columns, std::size_t rows) {
-    return std::to_string(columns) + " x " + std::to_string(rows);
-  };
-  if (picture.shape(2) != 3) gonio::refuse("an image of " + std::to_string(picture.shape(2)) + " channels, expected 3");
-  if (picture.shape(0) != intrinsics.rows || picture.shape(1) != intrinsics.columns)
-    gonio::refuse("the image has " + size(picture.shape(1), picture.shape(0)) + " pixels, its camera " +
-                  size(intrinsics.columns, intrinsics.rows));
+GONIO_INLINE std::optional<near_field_reading> read_pixel(const image& picture, const near_field_setup& setup,
+                                                          const std::optional<white_reference>& white, std::size_t row,
+                                                          std::size_t column) {
+  const auto place = place_of_pixel(setup, row, column);
+  if (!place) return {};
+  const lit_point lit = light_at(setup.light, place->position);
+  const rgb radiance = pixel(picture, row, column);
+  near_field_reading reading{lit.towards, place->view, radiance / (lit.irradiance * lit.towards.z()),
+                             is_saturated(radiance, setup, "", row, column)};
+  if (!white) return reading;
+  const illumination here{lit.towards.z(), lit.distance};
+  const auto of_white = white_illumination(*white, setup.light, row, column, here, 0.0);
+  if (!of_white) return {};
+  const rgb reference = pixel(white->photograph, row, column);
+  reading.saturated = is_saturated(reference, setup, "the white image: ", row, column) || reading.saturated;
+  if (!(reference > 0.0).all()) return {};
+  if (reference.isFinite().all())
+    reading.value = relative_to_white(radiance, here, reference, white->reflectance, *of_white);
+  return reading;
+}
+
+GONIO_INLINE void pixel_block::add(const near_field_reading& reading) {
+  saturated = saturated || reading.saturated;
+  values += reading.value;
+  lights += reading.light;
+  views += reading.view;
+  ++pixels;
+}
+
+GONIO_INLINE void require_usable(const image& picture, const near_field_setup& setup,
+                                 const std::optional<white_reference>& white) {
+  capture::require_usable(setup);
+  require_size(picture, setup.camera.intrinsics(), "the image");
+  if (white) capture::require_usable(*white, setup.camera.intrinsics());
 }
 
 }  // namespace gonio::capture::detail
@@ -107,18 +125,29 @@ GONIO_INLINE std::vector<Eigen::Index> pixels_of_region(const near_field_setup& 
   std::vector<Eigen::Index> seen;
   for (std::size_t row = window.row; row < window.row + window.rows; ++row)
     for (std::size_t column = window.column; column < window.column + window.columns; ++column)
-      if (detail::view_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
+      if (detail::place_of_pixel(setup, row, column)) seen.push_back(row * whole.columns + column);
   return seen;
 }
 
-GONIO_INLINE sample_set near_field_samples(const image& picture, const near_field_setup& setup) {
-  require_usable(setup);
+GONIO_INLINE std::vector<rgb> region_reflectance(const image& picture, const near_field_setup& setup,
+                                                 const std::optional<white_reference>& white) {
+  detail::require_usable(picture, setup, white);
+  const auto columns = static_cast<Eigen::Index>(setup.camera.intrinsics().columns);
+  std::vector<rgb> values;
+  for (const Eigen::Index number : pixels_of_region(setup)) {
+    const auto reading = detail::read_pixel(picture, setup, white, number / columns, number % columns);
+    values.push_back(reading ? reading->value : rgb::Zero());
+  }
+  return values;
+}
+
+GONIO_INLINE sample_set near_field_samples(const image& picture, const near_field_setup& setup,
+                                           const std::optional<white_reference>& white) {
+  detail::require_usable(picture, setup, white);
   const camera_intrinsics& whole = setup.camera.intrinsics();
-  detail::require_size(picture, whole);
   const pixel_window window = setup.window.value_or(pixel_window{0, 0, whole.columns, whole.rows});
   const std::size_t last_row = window.row + window.rows, last_column = window.column + window.columns;
   const auto end = [&](std::size_t first, std::size_t last) { return first + std::min(setup.block, last - first); };
-  const rgb reflected = setup.light.irradiance * setup.light.towards.z();
   const double pixels_of_block = static_cast<double>(setup.block) * static_cast<double>(setup.block);
 
   sample_set samples;
@@ -127,15 +156,16 @@ GONIO_INLINE sample_set near_field_samples(const image& picture, const near_fiel
     for (std::size_t column = window.column; column < last_column; column = end(column, last_column)) {
       detail::pixel_block block;
       for (std::size_t r = row; r < end(row, last_row); ++r)
-        for (std::size_t c = column; c < end(column, last_column); ++c) detail::add_pixel(picture, setup, r, c, block);
+        for (std::size_t c = column; c < end(column, last_column); ++c)
+          if (const auto reading = detail::read_pixel(picture, setup, white, r, c)) block.add(*reading);
       any_saturated = any_saturated || block.saturated;
       if (block.pixels == 0 || block.saturated) continue;
-      const direction_pair seen{setup.light.towards, block.views.normalized()};
+      const direction_pair seen{block.lights.normalized(), block.views.normalized()};
       // A view that grazes the sample may round to one at the horizon.
       const cosine_pair cosine = cosines(to_half_difference(seen.wi, seen.wo));
       if (!(cosine.i > 0.0 && cosine.o > 0.0)) continue;
       const auto pixels = static_cast<double>(block.pixels);
-      samples.push_back({seen, block.radiance / (pixels * reflected), pixels / pixels_of_block});
+      samples.push_back({seen, block.values / pixels, pixels / pixels_of_block});
     }
   if (samples.empty())
     gonio::refuse(any_saturated ? "all that the image sees of the sample is saturated"

@@ -1,7 +1,7 @@
 #pragma once
 /// Bodies of capture/surface_photograph.hpp.
 
-#include <gonio/capture/relative_reflectance.hpp>
+#include <gonio/capture/surface_light.hpp>
 #include <gonio/capture/surface_photograph.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
@@ -25,35 +25,6 @@
 #include <vector>
 
 namespace gonio::capture::detail {
-
-GONIO_INLINE lit_point light_at(const surface_light& light, const Eigen::Vector3d& position) {
-  if (const auto* distant = std::get_if<directional_light>(&light)) return {distant->towards, distant->irradiance};
-  const point_lamp& lamp = std::get<point_lamp>(light);
-  const Eigen::Vector3d away = lamp.position - position;
-  const double distance = away.norm();
-  return {away / distance, lamp.intensity / (distance * distance), distance};
-}
-
-GONIO_INLINE void require_usable(const surface_light& light) {
-  const auto require = [](bool usable, const char* what) {
-    if (!usable) gonio::refuse(what);
-  };
-  const auto positive = [](const rgb& all) { return all.isFinite().all() && (all > 0.0).all(); };
-  if (const auto* distant = std::get_if<directional_light>(&light)) {
-    require(std::abs(distant->towards.norm() - 1.0) < 1e-6, "the light's direction must have length 1");
-    require(positive(distant->irradiance), "the light's irradiance must be finite and positive in each channel");
-    return;
-  }
-  const point_lamp& lamp = std::get<point_lamp>(light);
-  require(lamp.position.allFinite(), "the lamp's position must be finite");
-  require(positive(lamp.intensity), "the lamp's intensity must be finite and positive in each channel");
-}
-
-GONIO_INLINE void require_size(std::size_t columns, std::size_t rows, const camera_intrinsics& camera,
-                               const char* what) {
-  if (columns == camera.columns && rows == camera.rows) return;
-  gonio::refuse({what, " has ", columns, " x ", rows, " pixels, its camera ", camera.columns, " x ", camera.rows});
-}
 
 /// A lamp needs to know where the surface is.
 GONIO_INLINE void require_positions(const surface_image& surface, const surface_light& light) {
@@ -140,24 +111,12 @@ class pixel_reader {
   /// Eq. 20 to 22, where the reference is lit and seen.
   [[nodiscard]] std::optional<rgb> relative_value(const rgb& radiance, double cosine, double distance, std::size_t row,
                                                   std::size_t column) {
-    illumination of_white{cosine, distance};
-    if (white_->surface) {
-      const Eigen::Index number = white_->surface->pixel(row, column);
-      if (!white_->surface->sees(number)) return {};
-      const Eigen::Vector3d normal = white_->surface->normals.col(number);
-      const lit_point lit = light_at(light_, white_->surface->positions.col(number));
-      of_white = {normal.dot(lit.towards), lit.distance};
-      if (!(of_white.cosine >= options_.smallest_cosine)) return {};
-    }
+    const illumination here{cosine, distance};
+    const auto of_white = white_illumination(*white_, light_, row, column, here, options_.smallest_cosine);
+    if (!of_white) return {};
     const std::optional<rgb> reference = value_of(white_->photograph, "the white image", row, column);
     if (!reference || !(*reference > 0.0).all()) return {};
-    rgb value;
-    for (Eigen::Index c = 0; c < 3; ++c)
-      value[c] =
-          reference_light({(*reference)[c]}, white_->reflectance, {std::min(of_white.cosine, 1.0), of_white.distance})
-              .brdf({radiance[c]}, {std::min(cosine, 1.0), distance})
-              .value;
-    return value;
+    return relative_to_white(radiance, here, *reference, white_->reflectance, *of_white);
   }
 
   const image& photograph_;
@@ -238,17 +197,11 @@ GONIO_INLINE photograph_samples samples_of(const image& photograph, const surfac
                                            const photograph_options& options) {
   // Check sizes and light.
   const camera_intrinsics& size = camera.intrinsics();
-  detail::require_usable(light);
-  detail::require_size(photograph.shape(1), photograph.shape(0), size, "the photograph");
+  require_usable(light);
+  detail::require_size(photograph, size, "the photograph");
   detail::require_size(surface.columns, surface.rows, size, "the surface");
   detail::require_positions(surface, light);
-  if (white) {
-    detail::require_size(white->photograph.shape(1), white->photograph.shape(0), size, "the white image");
-    if (white->surface)
-      detail::require_size(white->surface->columns, white->surface->rows, size, "the white reference's surface");
-    if (!(white->reflectance > 0.0 && white->reflectance <= 1.0))
-      refuse({"a white reference's reflectance lies above 0 and up to 1, not ", white->reflectance});
-  }
+  if (white) require_usable(*white, size);
   if (!detail::lights_any(surface, light)) refuse("the light is behind all that is seen of the surface, or inside it");
 
   // Read all pixels into their cells.

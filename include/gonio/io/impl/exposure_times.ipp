@@ -61,6 +61,12 @@ GONIO_INLINE std::optional<double> exposure_time_of_name(std::string_view name) 
                  detail::quoted(number), ": of fractions the first must be 1"});
 }
 
+GONIO_INLINE void require_believable_exposure(double seconds, const std::string& name) {
+  constexpr double least = 1e-7, most = 86400.0;
+  if (!(seconds >= least && seconds <= most))
+    gonio::refuse({name, ": an exposure time of ", detail::shortest(seconds), " s, expected from 1e-07 s to a day"});
+}
+
 GONIO_INLINE exposure_times read_exposure_times(const std::filesystem::path& path) {
   const auto bytes = read_bytes(path);
   detail::text_place place{path.string()};

@@ -13,12 +13,14 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/openexr.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <span>
@@ -77,12 +79,9 @@ class exr_sink : public Imf::OStream {
 inline constexpr int exr_limit = 16384;
 inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
 
-/// The file's size, once it is believed. Decoding takes up to 28 bytes a pixel, and 32 lines at a time.
-[[nodiscard]] GONIO_INLINE std::array<std::size_t, 2> exr_extents(const Imf::Header& header, std::size_t bytes,
-                                                                  const std::string& name) {
-  const Imath::Box2i window = header.dataWindow();
-  const auto columns = std::int64_t{window.max.x} - window.min.x + 1,
-             rows = std::int64_t{window.max.y} - window.min.y + 1;
+/// An image's size, once it is believed. Decoding takes up to 28 bytes a pixel, and 32 lines at a time.
+[[nodiscard]] GONIO_INLINE std::array<std::size_t, 2> exr_extents(std::int64_t columns, std::int64_t rows,
+                                                                  std::size_t bytes, const std::string& name) {
   if (rows < 1 || columns < 1 || rows > exr_limit || columns > exr_limit)
     gonio::refuse(
         {name, ": an image of ", columns, " x ", rows, " pixels, expected from 1 to ", exr_limit, " each way"});
@@ -92,18 +91,62 @@ inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
   return {static_cast<std::size_t>(rows), static_cast<std::size_t>(columns)};
 }
 
+/// How OpenEXR's C interface reads bytes in memory.
+GONIO_INLINE std::int64_t read_exr_bytes(exr_const_context_t, void* source, void* to, std::uint64_t count,
+                                         std::uint64_t offset, exr_stream_error_func_ptr_t) {
+  const auto& bytes = *static_cast<const std::span<const std::byte>*>(source);
+  if (offset > bytes.size()) return -1;
+  const std::size_t some = std::min<std::size_t>(count, bytes.size() - offset);
+  if (some > 0) std::memcpy(to, bytes.data() + offset, some);
+  return static_cast<std::int64_t>(some);
+}
+GONIO_INLINE std::int64_t size_of_exr_bytes(exr_const_context_t, void* source) {
+  return std::ssize(*static_cast<const std::span<const std::byte>*>(source));
+}
+GONIO_INLINE void ignore_exr_message(exr_const_context_t, exr_result_t, const char*) {}
+
+/// Refuses a header that claims more than the file has, or lines and tiles that are not believable. OpenEXR's C++
+/// interface reserves whatever is claimed; the C interface checks it against the file's size.
+GONIO_INLINE void require_sound_exr_header(std::span<const std::byte> bytes, const std::string& name) {
+  exr_context_initializer_t given = EXR_DEFAULT_CONTEXT_INITIALIZER;
+  given.user_data = &bytes;
+  given.read_fn = &read_exr_bytes;
+  given.size_fn = &size_of_exr_bytes;
+  given.error_handler_fn = &ignore_exr_message;
+  given.flags = EXR_CONTEXT_FLAG_STRICT_HEADER;  // otherwise it passes over what it cannot read
+  exr_context_t context = nullptr;
+  const exr_result_t result = exr_start_read(&context, name.c_str(), &given);
+  exr_attr_box2i_t window{};
+  std::uint32_t tile_columns = 1, tile_rows = 1;
+  if (result == EXR_ERR_SUCCESS) {
+    exr_get_data_window(context, 0, &window);
+    exr_tile_level_mode_t levels{};
+    exr_tile_round_mode_t rounding{};
+    exr_get_tile_descriptor(context, 0, &tile_columns, &tile_rows, &levels, &rounding);
+  }
+  exr_finish(&context);
+  if (result != EXR_ERR_SUCCESS)
+    gonio::refuse({name, ": cannot be decoded as OpenEXR (", exr_get_default_error_message(result), ")"});
+  static_cast<void>(exr_extents(std::int64_t{window.max.x} - window.min.x + 1,
+                                std::int64_t{window.max.y} - window.min.y + 1, bytes.size(), name));
+  static_cast<void>(exr_extents(std::max(1u, tile_columns), std::max(1u, tile_rows), bytes.size(), name));
+}
+
 [[nodiscard]] GONIO_INLINE image decode_exr(std::span<const std::byte> bytes, const std::string& name) {
-  // Look at the size before anything is decoded.
+  // Look at the sizes before anything is decoded.
+  require_sound_exr_header(bytes, name);
   exr_source source(bytes, name);
   Imf::InputFile file(source, 0);
-  const auto [rows, columns] = exr_extents(file.header(), bytes.size(), name);
+  const Imath::Box2i window = file.header().dataWindow();
+  const auto [rows, columns] = exr_extents(std::int64_t{window.max.x} - window.min.x + 1,
+                                           std::int64_t{window.max.y} - window.min.y + 1, bytes.size(), name);
   const Imf::ChannelList& channels = file.header().channels();
   const bool is_colour =
       std::ranges::all_of(exr_channels, [&](const char* each) { return channels.findChannel(each); });
   if (!is_colour && channels.findChannel("Y") == nullptr)
     gonio::refuse({name, ": has neither channels R, G and B nor Y"});
   // Read each channel to its place.
-  const Imath::V2i corner = file.header().dataWindow().min;
+  const Imath::V2i corner = window.min;
   const std::ptrdiff_t across = 3 * sizeof(float), down = across * static_cast<std::ptrdiff_t>(columns);
   image picture = uniform_image(rows, columns);
   Imf::FrameBuffer buffer;
@@ -117,7 +160,7 @@ inline constexpr std::array<const char*, 3> exr_channels{"R", "G", "B"};
                                    static_cast<std::size_t>(across), static_cast<std::size_t>(down)));
   }
   file.setFrameBuffer(buffer);
-  file.readPixels(file.header().dataWindow().min.y, file.header().dataWindow().max.y);
+  file.readPixels(window.min.y, window.max.y);
   if (!is_colour)
     for (std::size_t i = 0; i < picture.size(); i += 3)
       picture.data()[i + 1] = picture.data()[i + 2] = picture.data()[i];

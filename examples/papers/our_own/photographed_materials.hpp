@@ -1,0 +1,73 @@
+#pragma once
+/// Measured materials reconstructed from simulated photographs: what the experiments with photographs share.
+
+#include "papers/our_own/left_out_families.hpp"
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/screened_samples.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace papers {
+
+/// A judged material as a BRDF.
+struct measured_brdf {
+  const reflectance& measured;
+
+  [[nodiscard]] gonio::rgb operator()(const gonio::direction& wi, const gonio::direction& wo) const noexcept {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return gonio::rgb::Zero();
+    return measured({wi, wo});
+  }
+};
+
+class photograph_experiment : protected left_out_experiment {
+ protected:
+  using estimator_type = gonio::discrepancy_decomposition<gonio::log_relative>;
+
+  /// Throws gonio::error naming the one of `names` that is not in the folder of materials.
+  photograph_experiment(const left_out_options& given, const std::vector<std::string>& names, cli::progress_bar& bar)
+      : left_out_experiment(given, bar), given_(given), all_(measured_materials(given.materials, library_)) {
+    for (const std::string& name : names) static_cast<void>(material(name));
+  }
+
+  [[nodiscard]] const judged_material& material(const std::string& name) const {
+    const auto found = std::ranges::find(all_, name, &judged_material::name);
+    if (found == all_.end()) gonio::refuse("--names: " + given_.materials.string() + " has no material " + name);
+    return *found;
+  }
+
+  /// The prior of all but a material's family.
+  [[nodiscard]] gonio::log_relative_pca prior_of(const judged_material& of) const {
+    return library_.prior_without(of.family, given_.components);
+  }
+  [[nodiscard]] estimator_type estimator_of(gonio::log_relative_pca prior) const {
+    return estimator_type(std::move(prior), gonio::discrepancy_model{}, given_.threads);
+  }
+
+  /// As `gonio reconstruct` does it.
+  [[nodiscard]] gonio::comparison judged(const estimator_type& estimator, const gonio::sample_set& samples,
+                                         const judged_material& of) const {
+    const auto located = gonio::locate_samples(library_.cells(), samples);
+    const auto screened = gonio::screen(estimator, located, given_.threads);
+    return compare(estimator.fit_located(screened.kept).tabulate(library_.cells(), given_.threads), of);
+  }
+
+  /// The median of the samples' relative errors in green, where they are said to be.
+  [[nodiscard]] static double median_error(const gonio::sample_set& samples, const judged_material& of) {
+    std::vector<double> relative;
+    for (const gonio::sample& s : samples)
+      relative.push_back(std::abs(s.value.y() / of.measured(s.directions.pair()).y() - 1.0));
+    return gonio::median(std::move(relative));
+  }
+
+ private:
+  const left_out_options& given_;
+  std::vector<judged_material> all_;
+};
+
+}  // namespace papers

@@ -1,0 +1,3 @@
+// The bodies of io/exif.hpp, which need libexif.
+
+#include <gonio/io/impl/exif.ipp>

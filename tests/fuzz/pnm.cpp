@@ -1,0 +1,14 @@
+/// Netpbm images of counts.
+
+#include "harness.hpp"
+#include <gonio/io/pnm.hpp>
+
+namespace {
+
+void read(fuzz::input bytes) {
+  static_cast<void>(gonio::io::parse_pnm(bytes, fuzz::bytes_name));
+}
+
+const fuzz::registered harness("pnm", &read);
+
+}  // namespace
