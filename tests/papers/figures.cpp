@@ -28,8 +28,8 @@ class figures_database {
     write_synthetic_networks(folder_, names);
   }
 
-  [[nodiscard]] tool_result evaluate(const std::string& arguments) const {
-    return gonio_papers("" + arguments + " --thin 3 5 --networks " + (folder_ / "n.npy").string());
+  [[nodiscard]] tool_result evaluate(const std::string& arguments, const std::string& thinning = "3 5") const {
+    return gonio_papers(arguments + " --thin " + thinning + " --networks " + (folder_ / "n.npy").string());
   }
 
   [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
@@ -48,8 +48,8 @@ class figures_database {
   }
 
   /// The tables of a figure.
-  [[nodiscard]] json draw(const std::string& arguments) const {
-    const auto result = evaluate("figures --json --figure " + arguments);
+  [[nodiscard]] json draw(const std::string& arguments, const std::string& thinning = "3 5") const {
+    const auto result = evaluate("figures --json --figure " + arguments, thinning);
     REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
     return parse_json(result.output)["tables"];
   }
@@ -119,14 +119,15 @@ TEST_CASE("figure 2015-penalties: the best penalties are no worse than the other
 
 TEST_CASE("figures 2015-2, 2015-12, 2016-2 and 2016-15: material by material") {
   const figures_database database;
-  const json two = database.draw("2015-2 --most 2 --spheres " + database.at("spheres.png"));
+  const std::string coarse = "9 15";  // spheres are drawn of many tables
+  const json two = database.draw("2015-2 --most 2 --spheres " + database.at("spheres.png"), coarse);
   REQUIRE(two.size() == 3);
   REQUIRE(two[0]["rows"].size() == 11);
   for (const json& row : two[0]["rows"]) CHECK(row["all"].get<double>() <= row["expected-error 2"].get<double>());
   for (const json& row : two[1]["rows"]) CHECK(row["all"].get<double>() <= row["published 1"].get<double>() + 1.0);
   CHECK(std::filesystem::file_size(database.at("spheres.png")) > 1000);
   // The same reconstruction as without expanding tables, but for negative values, which are clamped there.
-  const json seven = database.draw("2015-7 --most 2");
+  const json seven = database.draw("2015-7 --most 2", coarse);
   REQUIRE(seven[0]["rows"].size() == 4);
   for (std::size_t set = 0; set < 4; ++set) {
     const json& row = seven[0]["rows"][set];
@@ -136,16 +137,16 @@ TEST_CASE("figures 2015-2, 2015-12, 2016-2 and 2016-15: material by material") {
   }
   CHECK(seven[1]["rows"].size() == 6);
 
-  const json spheres = database.draw("2015-11 --most 2");
+  const json spheres = database.draw("2015-11 --most 2", coarse);
   CHECK(spheres[0]["rows"].size() == 6);
-  const json twelve = database.draw("2015-12 --most 2 --samples " + database.measured("paint.csv"));
+  const json twelve = database.draw("2015-12 --most 2 --samples " + database.measured("paint.csv"), coarse);
   REQUIRE(twelve.size() == 4);
   // Here negative values are clamped, which brings them closer.
   CHECK(twelve[0]["rows"][10]["published 1"].get<double>() <= spheres[0]["rows"][0]["mapped error"].get<double>());
   CHECK(twelve[3]["rows"].size() == 6);
   for (const json& row : twelve[3]["rows"]) CHECK(row["samples used"].get<int>() + row["others"].get<int>() == 400);
 
-  const json near = database.draw("2016-2"), fixed = database.draw("2016-15");
+  const json near = database.draw("2016-2", coarse), fixed = database.draw("2016-15", coarse);
   CHECK(near[0]["rows"][0]["one image"] == fixed[0]["rows"][0]["one image"]);
   CHECK(near[0]["rows"][0]["two images"] == fixed[0]["rows"][0]["two images, free"]);
 }
@@ -168,15 +169,16 @@ TEST_CASE("figure 2016-3: errors of deviation and of reconstruction make up the 
 TEST_CASE("figure 2016-17: several materials in one sample") {
   const figures_database database;
   const json tables = database.draw("2016-17 --most 3");
-  REQUIRE(tables.size() == 2);
-  REQUIRE(tables[0]["rows"].size() == 2);
-  for (const json& row : tables[0]["rows"]) {
+  REQUIRE(tables.size() == 3);
+  CHECK(tables[0]["rows"][0]["pairs"] == 3);
+  REQUIRE(tables[1]["rows"].size() == 2);
+  for (const json& row : tables[1]["rows"]) {
+    // Two of three networks may look alike; but pixels where two materials meet are never all told apart.
     CHECK(row["purity of as many clusters as materials"].get<double>() > 1.0 / 3.0);
-    CHECK(row["purity of as many clusters as materials"].get<double>() <= 1.0);
+    CHECK(row["purity of as many clusters as materials"].get<double>() < 1.0);
   }
-  REQUIRE(tables[1]["rows"].size() == 6);
-  for (const json& row : tables[1]["rows"]) CHECK(row["Delta E env: cluster"].get<double>() > 0.0);
-  CHECK(database.draw("2016-17 --most 3 --threads 1") == tables);
+  REQUIRE(tables[2]["rows"].size() == 6);
+  for (const json& row : tables[2]["rows"]) CHECK(row["Delta E env: cluster"].get<double>() > 0.0);
 }
 
 TEST_CASE("figures 2015-8, 2015-9 and 2016-19: points and spheres") {

@@ -17,7 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numeric>
 
 namespace papers::figures {
 
@@ -25,6 +25,8 @@ namespace {
 
 constexpr Eigen::Index pixels_across = 96;
 constexpr double noise_of_pixels = 0.02;
+/// Rays along each side of a pixel: where two materials meet, a pixel sees both.
+constexpr Eigen::Index rays_across = 3;
 
 /// A material in the sample.
 struct ingredient {
@@ -33,34 +35,41 @@ struct ingredient {
 };
 
 /// The two images of a camera that stays; the second one is the diffuse one.
-std::vector<gonio::capture::near_field_setup> two_setups() {
+std::vector<gonio::capture::near_field_setup> two_setups(Eigen::Index pixels) {
   const double field_of_view = gonio::radians(figures_field_of_view);
   std::vector<gonio::capture::near_field_setup> setups;
   for (const auto& [wi, wo] : shipped_poses("fixed-camera-25-2-expected-error"))
-    setups.push_back({.camera = gonio::design::near_field_camera(wo, field_of_view, pixels_across),
+    setups.push_back({.camera = gonio::design::near_field_camera(wo, field_of_view, pixels),
                       .light = {wi},
                       .disc = gonio::capture::sample_disc{std::tan(field_of_view / 2.0)}});
   return setups;
 }
 
-/// Which of k materials each pixel of the region shows: square patches in diagonal rows, eight along the diameter.
-Eigen::VectorXi patches(const gonio::capture::near_field_setup& setup, const std::vector<Eigen::Index>& region, int k) {
+/// Which of k materials a pixel shows in its middle: square patches in diagonal rows, eight along the diameter.
+int patch_of(const gonio::capture::near_field_setup& setup, Eigen::Index row, Eigen::Index column, int k) {
+  const gonio::ray line = setup.camera.ray_through(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
+  const auto point = line.at_ground();
   const double side = setup.disc->radius / 4.0;
-  const Eigen::Index columns = setup.camera.intrinsics().columns;
-  Eigen::VectorXi labels(std::ssize(region));
-  for (Eigen::Index i = 0; i < labels.size(); ++i) {
-    const gonio::ray line = setup.camera.ray_through(static_cast<double>(region[i] % columns) + 0.5,
-                                                     static_cast<double>(region[i] / columns) + 0.5);
-    const auto point = line.at_ground();
-    const auto patch = [&](double along) { return static_cast<int>(std::floor(along / side)) + 1000 * k; };
-    labels[i] = (patch(point->x()) + patch(point->y())) % k;
-  }
-  return labels;
+  const auto number = [&](double along) { return static_cast<int>(std::floor(along / side)) + 1000 * k; };
+  return point ? (number(point->x()) + number(point->y())) % k : 0;
+}
+
+/// The means of blocks of an image's pixels.
+gonio::image averaged(const gonio::image& fine) {
+  gonio::image coarse = gonio::uniform_image(pixels_across, pixels_across);
+  for (Eigen::Index row = 0; row < pixels_across; ++row)
+    for (Eigen::Index column = 0; column < pixels_across; ++column) {
+      gonio::rgb sum = gonio::rgb::Zero();
+      for (Eigen::Index ray = 0; ray < rays_across * rays_across; ++ray)
+        sum += gonio::pixel(fine, row * rays_across + ray / rays_across, column * rays_across + ray % rays_across);
+      gonio::set_pixel(coarse, row, column, sum / static_cast<double>(rays_across * rays_across));
+    }
+  return coarse;
 }
 
 /// A sample of several materials: what was photographed, and which pixel shows which.
 struct photographed_sample {
-  std::vector<gonio::capture::near_field_setup> setups = two_setups();
+  std::vector<gonio::capture::near_field_setup> setups = two_setups(pixels_across);
   std::vector<Eigen::Index> region = gonio::capture::pixels_of_region(setups.back());
   Eigen::VectorXi labels = {};                        ///< of the region
   std::vector<std::vector<gonio::image>> alone = {};  ///< each material all over the sample: by image
@@ -81,18 +90,28 @@ struct photographed_sample {
   }
 };
 
-photographed_sample photograph(const std::vector<ingredient>& materials, std::uint64_t seed) {
+photographed_sample photograph(const std::vector<const ingredient*>& materials, std::uint64_t seed) {
+  const int k = static_cast<int>(materials.size());
   photographed_sample sample;
-  sample.labels = patches(sample.setups.back(), sample.region, static_cast<int>(materials.size()));
-  for (const gonio::capture::near_field_setup& setup : sample.setups) {
-    auto& pictures = sample.alone.emplace_back();
-    for (const ingredient& material : materials)
-      pictures.push_back(lab::photograph(material.truth, *setup.disc, setup, {.noise = noise_of_pixels}, ++seed));
-    gonio::image& mixed = sample.images.emplace_back(pictures.front());
-    for (Eigen::Index i = 0; i < sample.labels.size(); ++i) {
-      const Eigen::Index row = sample.region[i] / pixels_across, column = sample.region[i] % pixels_across;
-      gonio::set_pixel(mixed, row, column, gonio::pixel(pictures[sample.labels[i]], row, column));
+  sample.labels.resize(std::ssize(sample.region));
+  for (Eigen::Index i = 0; i < sample.labels.size(); ++i)
+    sample.labels[i] =
+        patch_of(sample.setups.back(), sample.region[i] / pixels_across, sample.region[i] % pixels_across, k);
+  for (const gonio::capture::near_field_setup& setup : two_setups(rays_across * pixels_across)) {
+    // The sample goes on beyond the region, whose pixels see nothing else.
+    const gonio::capture::sample_disc disc{1.5 * setup.disc->radius};
+    const double noise = noise_of_pixels * static_cast<double>(rays_across);
+    std::vector<gonio::image> pictures;
+    auto& alone = sample.alone.emplace_back();
+    for (const ingredient* material : materials) {
+      pictures.push_back(lab::photograph(material->truth, disc, setup, {.noise = noise}, ++seed));
+      alone.push_back(averaged(pictures.back()));
     }
+    gonio::image mixed = pictures.front();
+    for (Eigen::Index row = 0; row < rays_across * pixels_across; ++row)
+      for (Eigen::Index column = 0; column < rays_across * pixels_across; ++column)
+        gonio::set_pixel(mixed, row, column, gonio::pixel(pictures[patch_of(setup, row, column, k)], row, column));
+    sample.images.push_back(averaged(mixed));
   }
   return sample;
 }
@@ -161,8 +180,8 @@ struct judge {
   }
 };
 
-void add_sample(report& shown, const std::string& name, const std::vector<ingredient>& materials, const judge& judged,
-                std::uint64_t seed) {
+void add_sample(report& shown, const std::string& name, const std::vector<const ingredient*>& materials,
+                const judge& judged, std::uint64_t seed) {
   const int k = static_cast<int>(materials.size());
   const photographed_sample sample = photograph(materials, seed);
   const gonio::capture::point_matrix colours = colours_of(sample);
@@ -173,7 +192,7 @@ void add_sample(report& shown, const std::string& name, const std::vector<ingred
   shown.clusters.rows.push_back(
       {name, sample.region.size(), purity(overlap), chosen.count(), purity(overlap_of(sample.labels, chosen, k))});
   for (int m = 0; m < k; ++m) {
-    const gonio::brdf_table& truth = materials[m].truth;
+    const gonio::brdf_table& truth = materials[m]->truth;
     Eigen::Index cluster = 0;
     overlap.row(m).maxCoeff(&cluster);
     const std::vector<Eigen::Index> own = pixels_with(sample.labels, m);
@@ -184,7 +203,7 @@ void add_sample(report& shown, const std::string& name, const std::vector<ingred
     const auto by_cluster = judged(sample.measured(sample.images, known.pixels(cluster)), truth);
     const auto by_own = judged(sample.measured(sample.images, own), truth);
     const auto by_itself = judged(sample.measured(alone, everywhere), truth);
-    shown.errors.rows.push_back({name, materials[m].name, by_cluster.mapped_rms.mean(), by_cluster.delta_e_env,
+    shown.errors.rows.push_back({name, materials[m]->name, by_cluster.mapped_rms.mean(), by_cluster.delta_e_env,
                                  by_own.delta_e_env, by_itself.delta_e_env, by_cluster.delta_e_lights,
                                  by_own.delta_e_lights, by_itself.delta_e_lights});
   }
@@ -201,48 +220,62 @@ void add_mean(table& errors) {
   errors.rows.push_back(std::move(mean));
 }
 
-/// Samples of two and of three of some materials, each material in one of either.
-template <class Read>
-tables samples_of_each(const std::string& database, const options& given, const gonio::log_relative_pca& prior,
-                       std::size_t count, Read&& read, const gonio::progress& listener) {
-  report shown;
-  std::optional<gonio::appearance_metric> appearance;
-  for (const std::size_t k : {2, 3})
-    for (std::size_t first = 0; first + k <= count; first += k) {
-      std::vector<ingredient> materials;
-      for (std::size_t m = first; m < first + k; ++m) materials.push_back(read(m));
-      const std::string name = std::to_string(k) + " materials, " + std::to_string(first / k + 1);
-      gonio::report(listener, database + ", " + name, static_cast<double>(first) / static_cast<double>(count));
-      if (!appearance) appearance.emplace(materials.front().truth.cells(), 36, given.threads);
-      add_sample(shown, name, materials, {prior, *appearance, given.eta, given.threads}, given.seed);
+/// How well the clusters of each two materials tell them apart.
+table all_pairs(const std::vector<ingredient>& materials, const options& given) {
+  struct pair_purity {
+    double purity = 0.0;
+    std::string names;
+  };
+  std::vector<pair_purity> pairs;
+  for (std::size_t a = 0; a < materials.size(); ++a)
+    for (std::size_t b = a + 1; b < materials.size(); ++b) {
+      const photographed_sample sample = photograph({&materials[a], &materials[b]}, given.seed);
+      const auto clusters = gonio::capture::cluster_colours(colours_of(sample), 2, given.seed, given.threads);
+      pairs.push_back({purity(overlap_of(sample.labels, clusters, 2)), materials[a].name + ", " + materials[b].name});
     }
-  if (shown.errors.rows.empty()) gonio::refuse("figure 2016-17 needs at least two materials: " + database);
+  std::ranges::sort(pairs, {}, &pair_purity::purity);
+  const auto pure = std::ranges::count_if(pairs, [](const pair_purity& pair) { return pair.purity >= 0.95; });
+  return {"Purity of two clusters, of each two materials",
+          {{"pairs", 0}, {"95 % and more", 0}, {"median"}, {"lowest"}, {"of"}},
+          {{pairs.size(), pure, pairs[pairs.size() / 2].purity, pairs.front().purity, pairs.front().names}}};
+}
+
+/// Samples of two and of three of some materials, each material in at most one of either.
+tables samples_of_each(const std::string& database, const options& given, const gonio::log_relative_pca& prior,
+                       const std::vector<ingredient>& materials, const gonio::progress& listener) {
+  if (materials.size() < 2) gonio::refuse("figure 2016-17 needs at least two materials: " + database);
+  report shown;
+  const gonio::appearance_metric appearance(materials.front().truth.cells(), 36, given.threads);
+  for (const std::size_t k : {2, 3})
+    for (std::size_t first = 0; first + k <= materials.size(); first += k) {
+      std::vector<const ingredient*> chosen;
+      for (std::size_t m = first; m < first + k; ++m) chosen.push_back(&materials[m]);
+      const std::string name = std::to_string(k) + " materials, " + std::to_string(first / k + 1);
+      gonio::report(listener, database + ", " + name,
+                    static_cast<double>(first) / static_cast<double>(materials.size()));
+      add_sample(shown, name, chosen, {prior, appearance, given.eta, given.threads}, given.seed);
+    }
   add_mean(shown.errors);
-  shown.clusters.title = database + ": " + shown.clusters.title;
-  shown.errors.title = database + ": " + shown.errors.title;
-  return {std::move(shown.clusters), std::move(shown.errors)};
+  tables all{all_pairs(materials, given), std::move(shown.clusters), std::move(shown.errors)};
+  for (table& one : all) one.title = database + ": " + one.title;
+  return all;
 }
 
 }  // namespace
 
 tables xu_17(const options& given, const gonio::progress& listener) {
   const auto split = nielsen_split::learn(given.networks, given.threads, listener);
-  const std::size_t most = given.up_to(10);
-  tables shown = samples_of_each(
-      "Surrogates", given, split.prior, std::min(most, split.truths.names.size()),
-      [&](std::size_t m) {
-        return ingredient{split.truths.names[m], split.truths.table(m)};
-      },
-      listener);
+  const auto chosen = [&](std::size_t all) { return std::min(all, given.up_to(10)); };
+  std::vector<ingredient> surrogates, measured;
+  for (std::size_t m = 0; m < chosen(split.truths.names.size()); ++m)
+    surrogates.push_back({split.truths.names[m], split.truths.table(m)});
+  tables shown = samples_of_each("Surrogates", given, split.prior, surrogates, listener);
   if (given.measured_tables.empty()) return shown;
   const auto files = gonio::io::list_merl_directory(given.measured_tables);
-  tables measured = samples_of_each(
-      "Measured tables", given, split.prior, std::min(most, files.size()),
-      [&](std::size_t m) {
-        return ingredient{files[m].name, gonio::io::read_merl_any(files[m].path)};
-      },
-      listener);
-  shown.insert(shown.end(), std::make_move_iterator(measured.begin()), std::make_move_iterator(measured.end()));
+  for (std::size_t m = 0; m < chosen(files.size()); ++m)
+    measured.push_back({files[m].name, gonio::io::read_merl_any(files[m].path)});
+  tables more = samples_of_each("Measured tables", given, split.prior, measured, listener);
+  shown.insert(shown.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   return shown;
 }
 
