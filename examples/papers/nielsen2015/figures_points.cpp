@@ -33,15 +33,6 @@ angles by_condition(const laboratory& lab, const options& given, std::size_t n) 
   return samples_of(points, best.candidates);
 }
 
-gonio::design::expected_error criterion_of(const laboratory& lab, const options& given) {
-  return gonio::design::expected_error(lab.prior(), {.eta = given.eta});
-}
-
-/// E of a set, root mean square over the cells.
-double expected_of(const laboratory& lab, const options& given, const angles& directions) {
-  return lab.expected(criterion_of(lab, given)(gonio::design::rows_at(lab.prior(), directions).components));
-}
-
 /// The best points by E of 1 to `most`.
 std::vector<angles> points_by_expected_error(const laboratory& lab, const options& given, std::size_t most,
                                              const gonio::progress& listener) {
@@ -78,21 +69,6 @@ double error_of_random(const laboratory& lab, const options& given, Draw&& draw)
   return sum / static_cast<double>(given.random_sets);
 }
 
-/// The slices of theta_d of Nielsen et al. 2015, Table 2; none for a number that they do not print.
-std::vector<double> published_slices(std::size_t n) {
-  if (n == 1) return {5.0};
-  if (n == 2) return {4.0, 70.0};
-  if (n == 5) return {4.0, 10.0, 31.0, 68.0, 75.0};
-  return {};
-}
-
-std::vector<Eigen::Index> numbers_of(const gonio::design::sphere_geometry& spheres, const std::vector<double>& slices) {
-  std::vector<Eigen::Index> numbers;
-  for (const double theta_d : slices)
-    numbers.push_back(spheres.nearest(gonio::to_directions({0.0, gonio::radians(theta_d), 0.0})));
-  return numbers;
-}
-
 /// The published points of a number, if there are any.
 json error_of_published(const laboratory& lab, std::size_t n) {
   if (!gonio::design::has_nielsen_directions(n)) return {};
@@ -127,7 +103,7 @@ table against_spheres(const laboratory& lab, const options& given, const gonio::
   for (const gonio::design::capture_plan& plan : plans) {
     const std::size_t n = plan.candidates.size();
     gonio::report(listener, "spheres", static_cast<double>(n) / static_cast<double>(plans.size()));
-    const auto theirs = numbers_of(spheres, published_slices(n));
+    const auto theirs = sphere_slices(spheres, "published", n);
     const double ours = lab.error(samples_of(spheres, plan.candidates));
     const double random = error_of_random(lab, given, [&](std::uint64_t seed) {
       return samples_of(spheres, gonio::random_choice(spheres.size(), n, seed));

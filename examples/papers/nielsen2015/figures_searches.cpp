@@ -118,8 +118,7 @@ table race_by_expected_error(const laboratory& lab, const options& given, const 
                {"E, mean", 4},
                {"E, best", 4},
                {"mapped error of the best"}}};
-  const gonio::design::cell_candidates candidates(
-      lab.prior(), gonio::design::expected_error(lab.prior(), {.eta = given.eta}), {}, given.threads);
+  const gonio::design::cell_candidates candidates(lab.prior(), criterion_of(lab, given), {}, given.threads);
   const double scale = std::sqrt(static_cast<double>(lab.prior().cells().size()));
   for (const Eigen::Index n : race_counts(given)) {
     gonio::report(listener, "searches of " + std::to_string(n), 0.5);

@@ -11,6 +11,7 @@
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/nielsen2015/nielsen_split.hpp"
+#include <gonio/design/compressed_rows.hpp>
 #include <gonio/evaluate/test_materials.hpp>
 #include <gonio/io/networks.hpp>
 
@@ -34,6 +35,14 @@ laboratory open_laboratory(const options& given, const gonio::progress& listener
   return open_laboratory(given, networks_except(all, gonio::nielsen_test_materials()), listener);
 }
 
+gonio::design::expected_error criterion_of(const laboratory& lab, const options& given) {
+  return gonio::design::expected_error(lab.prior(), {.eta = given.eta});
+}
+
+double expected_of(const laboratory& lab, const options& given, const std::vector<gonio::half_difference>& directions) {
+  return lab.expected(criterion_of(lab, given)(gonio::design::rows_at(lab.prior(), directions).components));
+}
+
 namespace {
 
 struct figure {
@@ -41,9 +50,16 @@ struct figure {
   tables (*draw)(const options&, const gonio::progress&);
 };
 
-constexpr std::array all_figures{figure{"2015-5", nielsen_5}, figure{"2015-8", nielsen_8}, figure{"2015-9", nielsen_9},
-                                 figure{"2016-5", xu_5},      figure{"2016-6", xu_6},      figure{"2016-7", xu_7},
-                                 figure{"2016-13", xu_13},    figure{"2016-19", xu_19}};
+constexpr std::array all_figures{figure{"2015-2", nielsen_2},   figure{"2015-5", nielsen_5},
+                                 figure{"2015-6", nielsen_6},   figure{"2015-penalties", nielsen_penalties},
+                                 figure{"2015-7", nielsen_7},   figure{"2015-8", nielsen_8},
+                                 figure{"2015-9", nielsen_9},   figure{"2015-11", nielsen_11},
+                                 figure{"2015-12", nielsen_12}, figure{"2016-2", xu_2},
+                                 figure{"2016-3", xu_3},        figure{"2016-5", xu_5},
+                                 figure{"2016-6", xu_6},        figure{"2016-7", xu_7},
+                                 figure{"2016-8", xu_8},        figure{"2016-13", xu_13},
+                                 figure{"2016-15", xu_15},      figure{"2016-17", xu_17},
+                                 figure{"2016-19", xu_19}};
 
 std::vector<std::string> names_of_figures() {
   std::vector<std::string> names;
@@ -127,9 +143,14 @@ void add_figures(command& app) {
       .capture_default_str();
   command.add_option("--fov", given.fields_of_view, "Near field: angles in degrees that the sample spans from above")
       .capture_default_str();
-  command.add_option("--step", given.step, "Near field: degrees between candidates")
+  command.add_option("--step", given.step, "Near field, pairs of 2015-6: degrees between candidates")
       .check(check::positive_number())
       .capture_default_str();
+  command.add_input_folder("--tables", given.measured_tables, {".binary", ".gz"},
+                           "2016-17: folder of measured tables to make samples of, too");
+  command.add_input("--samples", given.measured_samples, "2015-12: measured samples to judge, too (.csv, .brdf)");
+  command.add_output("--spheres", given.spheres, {".png"},
+                     "2015-2, 2015-12, 2016-2, 2016-15: image to write, a row a material, the truth at the right");
   command.add_option("--eta", given.eta, "Tikhonov's penalty").check(check::positive_number()).capture_default_str();
   command.add_option("--seed", given.seed, "Seed of what is random").capture_default_str();
   command.add_flag("--json", chosen->print_json, "Print as JSON");

@@ -7,10 +7,13 @@
 #include "papers/xu2016/mapped_errors.hpp"
 #include <gonio/basis/pca.hpp>
 #include <gonio/design/exhaustive_search.hpp>
+#include <gonio/design/expected_error.hpp>
+#include <gonio/design/sphere_geometry.hpp>
 #include <gonio/io/networks.hpp>
 
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,7 +21,9 @@ namespace papers::figures {
 
 struct options {
   studied_networks networks;
-  Eigen::Index most = 0;  ///< measurements; 0: as many as the figure has
+  std::filesystem::path measured_tables, spheres;       ///< measured tables; an image to write
+  std::vector<std::filesystem::path> measured_samples;  ///< measured samples
+  Eigen::Index most = 0;                                ///< measurements; 0: as many as the figure has
   Eigen::Index repetitions = 5, random_sets = 20;
   double eta = 40.0, step = 10.0;
   std::vector<double> fields_of_view{15.0, 25.0, 35.0, 45.0};
@@ -64,6 +69,30 @@ struct laboratory {
 [[nodiscard]] laboratory open_laboratory(const options& given, const gonio::model::named_networks& learned,
                                          const gonio::progress& listener);
 
+/// E of Xu et al. 2016, with the prior of all and the penalty that is given.
+[[nodiscard]] gonio::design::expected_error criterion_of(const laboratory& lab, const options& given);
+
+/// E of a set of points, root mean square over the cells.
+[[nodiscard]] double expected_of(const laboratory& lab, const options& given,
+                                 const std::vector<gonio::half_difference>& directions);
+
+/// The field of view that most of the near-field figures have, in degrees.
+inline constexpr double figures_field_of_view = 25.0;
+
+/// Light and camera of the images of a set that ships with the tool, of that name.
+[[nodiscard]] std::vector<gonio::direction_pair> shipped_poses(const std::string& name);
+
+/// All samples of images of 25 degrees, given light and camera as seen from the middle of each.
+[[nodiscard]] std::vector<gonio::half_difference> samples_of_images(const std::vector<gonio::direction_pair>& poses);
+
+/// Two images by a camera that stays as Xu et al. 2016 print them (Fig. 14 a).
+[[nodiscard]] std::vector<gonio::direction_pair> printed_fixed_camera();
+
+/// The slices of a set of spheres: `published` in Nielsen et al. 2015, Table 2, or one that ships with the tool. None
+/// for a number that there is no set of.
+[[nodiscard]] std::vector<Eigen::Index> sphere_slices(const gonio::design::sphere_geometry& spheres,
+                                                      const std::string& set, Eigen::Index n);
+
 /// All samples of a plan.
 template <gonio::design::capture_geometry Geometry>
 [[nodiscard]] std::vector<gonio::half_difference> samples_of(const Geometry& geometry,
@@ -93,13 +122,27 @@ template <gonio::design::sweeping_objective Objective>
   return plans;
 }
 
+/// Measured samples of paints, judged where they were not used: of images of a sphere only what was measured there.
+[[nodiscard]] table paints_from_spheres(const options& given, const gonio::log_relative_pca& prior);
+
+[[nodiscard]] tables nielsen_2(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_5(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_6(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_7(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_11(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_12(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables nielsen_penalties(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_8(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables nielsen_9(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_2(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_3(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_5(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_6(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_7(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_8(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_13(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_15(const options& given, const gonio::progress& listener);
+[[nodiscard]] tables xu_17(const options& given, const gonio::progress& listener);
 [[nodiscard]] tables xu_19(const options& given, const gonio::progress& listener);
 
 }  // namespace papers::figures

@@ -35,7 +35,7 @@ mapped_errors::mapped_errors(gonio::log_relative_pca prior, const gonio::materia
         std::max(centred_.col(column).cast<double>().squaredNorm() - known.col(column).squaredNorm(), 0.0);
 }
 
-Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> directions) const {
+gonio::least_squares_problem mapped_errors::problem_of(std::span<const gonio::half_difference> directions) const {
   const gonio::valid_cells& cells = prior_.cells();
   gonio::row_matrix rows(std::ssize(directions), prior_.size());
   Eigen::MatrixXd values(std::ssize(directions), centred_.cols());
@@ -45,9 +45,15 @@ Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> dire
     rows.row(i) = prior_.components().row(cell).cast<double>();
     values.row(i) = centred_.row(cell).cast<double>();
   }
-  const gonio::solution found =
-      gonio::tikhonov(eta_).solve(gonio::least_squares_problem(std::move(rows), std::move(values)));
-  const Eigen::MatrixXd off = prior_.singular_values().asDiagonal() * (found.weights - projected_);
+  return {std::move(rows), std::move(values)};
+}
+
+Eigen::ArrayX3d mapped_errors::from(std::span<const gonio::half_difference> directions) const {
+  return of_weights(gonio::tikhonov(eta_).solve(problem_of(directions)).weights);
+}
+
+Eigen::ArrayX3d mapped_errors::of_weights(const Eigen::MatrixXd& weights) const {
+  const Eigen::MatrixXd off = prior_.singular_values().asDiagonal() * (weights - projected_);
   return root_mean_square(missed_ + off.colwise().squaredNorm().transpose().array());
 }
 

@@ -3,6 +3,7 @@
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/model/analytic_brdf.hpp>
+#include <gonio/solve/least_squares_problem.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
 
@@ -30,6 +31,12 @@ class mapped_errors {
 
   /// From the cells next to directions, where a cell that is met twice counts twice.
   [[nodiscard]] Eigen::ArrayX3d from(std::span<const gonio::half_difference> directions) const;
+
+  /// What these measurements leave to solve: n x k, one right-hand side a channel of each material.
+  [[nodiscard]] gonio::least_squares_problem problem_of(std::span<const gonio::half_difference> directions) const;
+
+  /// Of the components' weights, k x 3m, whoever found them.
+  [[nodiscard]] Eigen::ArrayX3d of_weights(const Eigen::MatrixXd& weights) const;
 
   /// What a material shows at the cells next to directions, which are the samples' own.
   [[nodiscard]] gonio::sample_set measured(std::size_t material,
