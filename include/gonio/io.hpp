@@ -1,6 +1,7 @@
 #pragma once
 /// All of `io/`: files, but for PNG and HDR images (io/image.hpp, which needs stb), OpenEXR and TIFF images and EXIF
-/// data (io/exr.hpp, io/tiff.hpp, io/exif.hpp, which need OpenEXR, libtiff and libexif) and those of shapes (shape.hpp).
+/// data (io/exr.hpp, io/tiff.hpp, io/exif.hpp, which need OpenEXR, libtiff and libexif) and those of shapes
+/// (shape.hpp).
 
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>

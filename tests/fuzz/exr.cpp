@@ -5,9 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) {
-  static_cast<void>(gonio::io::parse_exr(bytes, fuzz::bytes_name));
-}
+void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_exr(bytes, fuzz::bytes_name)); }
 
 const fuzz::registered harness("exr", &read);
 

@@ -40,7 +40,7 @@ std::vector<gonio::capture::near_field_setup> two_setups(Eigen::Index pixels) {
   std::vector<gonio::capture::near_field_setup> setups;
   for (const auto& [wi, wo] : shipped_poses("fixed-camera-25-2-expected-error"))
     setups.push_back({.camera = gonio::design::near_field_camera(wo, field_of_view, pixels),
-                      .light = {wi},
+                      .light = gonio::directional_light{wi},
                       .disc = gonio::capture::sample_disc{std::tan(field_of_view / 2.0)}});
   return setups;
 }

@@ -5,8 +5,8 @@
 #include <gonio/core/error.hpp>
 #include <gonio/core/rotation.hpp>
 #include <gonio/io/file.hpp>
-#include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/rules.hpp>
+#include <gonio/io/setup_text.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/shape/alignment.hpp>
 #include <gonio/shape/io/pose.hpp>
