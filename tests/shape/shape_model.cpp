@@ -1,6 +1,7 @@
 #include "synthetic_shapes.hpp"
 #include "synthetic_surfaces.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/shape/alignment.hpp>
 #include <gonio/shape/shape_model.hpp>
 
 #include <Eigen/Geometry>
