@@ -48,7 +48,8 @@ function(gonio_find_missing result)
       find_library(found NAMES ${name} NO_CACHE PATHS /usr/lib/x86_64-linux-gnu /usr/lib/aarch64-linux-gnu)
     else()
       find_path(found NAMES ${name} NO_CACHE
-                PATHS /usr/include /usr/local/include /usr/lib/llvm-19/lib/clang/19/include)
+                PATHS /usr/include /usr/include/x86_64-linux-gnu /usr/include/aarch64-linux-gnu /usr/local/include
+                      /usr/lib/llvm-19/lib/clang/19/include)
     endif()
     if(NOT found)
       list(APPEND missing ${package})
