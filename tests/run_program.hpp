@@ -1,10 +1,13 @@
 #pragma once
 /// Runs one of our programs as a user would.
 
+#include <doctest/doctest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <initializer_list>
 #include <string>
 
 struct tool_result {
@@ -23,4 +26,12 @@ inline tool_result run_program(const std::string& program, const std::string& ar
   const int status = ::pclose(pipe);
   result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return result;
+}
+
+/// Exit code 2, one line, and the words that help.
+inline void check_refusal(const tool_result& result, std::initializer_list<const char*> words) {
+  CAPTURE(result.output);
+  CHECK(result.exit_code == 2);
+  CHECK(std::ranges::count(result.output, '\n') == 1);
+  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
 }

@@ -72,16 +72,8 @@ std::vector<gonio::capture::fitted_outline> spheres_of(const std::vector<sphere_
     return all;
   }
   require_fixed(taken);
-  std::optional<gonio::capture::fitted_outline> best;
-  std::string why;
-  for (const sphere_photograph& each : taken) try {
-      const gonio::capture::fitted_outline found = sphere_of(each);
-      if (!best || found.inliers > best->inliers) best = found;
-    } catch (const gonio::error& refusal) {
-      why = refusal.what();
-    }
-  if (!best) gonio::refuse(why);
-  return std::vector(taken.size(), *best);
+  return std::vector(taken.size(), gonio::capture::fullest_outline(
+                                       std::ssize(taken), [&](Eigen::Index i) { return sphere_of(taken[i]); }));
 }
 
 /// The surface of each photograph, and what is to be said of it.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 using gonio::capture::find_sphere;
 using gonio::capture::placed_sphere;
@@ -105,4 +106,18 @@ TEST_CASE("what shows no sphere is refused") {
   CHECK_THROWS_WITH_AS(gonio::capture::fit_sphere({}, outline_camera(), 1.0),
                        "no sphere is found: 0 places of an edge are too few for an outline", gonio::error);
   CHECK_THROWS_AS(gonio::capture::fit_sphere({}, outline_camera(), -1.0), gonio::error);
+}
+
+TEST_CASE("of the photographs of one sphere the outline that most of its edge agrees with counts") {
+  const auto find = [](const std::vector<Eigen::Index>& inliers) {
+    return [inliers](Eigen::Index i) -> gonio::capture::fitted_outline {
+      if (inliers[i] < 0) gonio::refuse("photograph " + std::to_string(i) + " shows too little");
+      return {{Eigen::Vector3d::Constant(static_cast<double>(i)), 1.0}, 100, inliers[i]};
+    };
+  };
+  CHECK(gonio::capture::fullest_outline(4, find({30, -1, 80, 50})).sphere.centre.x() == 2.0);
+  CHECK(gonio::capture::fullest_outline(2, find({40, 40})).sphere.centre.x() == 0.0);
+  CHECK_THROWS_WITH_AS(static_cast<void>(gonio::capture::fullest_outline(2, find({-1, -1}))),
+                       "photograph 1 shows too little", gonio::error);
+  CHECK_THROWS_AS(static_cast<void>(gonio::capture::fullest_outline(0, find({}))), gonio::error);
 }

@@ -7,20 +7,6 @@
 
 #include <algorithm>
 
-namespace {
-
-/// Exit code 2, one line, and the words that help.
-void refuses(const std::string& arguments, std::initializer_list<const char*> words) {
-  CAPTURE(arguments);
-  const auto result = gonio_tool(arguments);
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 2);
-  CHECK(std::ranges::count(result.output, '\n') == 1);
-  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
-}
-
-}  // namespace
-
 TEST_CASE("help is no error") {
   for (const char* command : {"", "learn ", "expand ", "design ", "plan ", "sample ", "near-field ", "reconstruct ",
                               "fit ", "compare ", "render ", "properties ", "info "}) {

@@ -17,21 +17,6 @@ namespace {
 
 const std::string shipped = std::string(GONIO_SOURCE_DIR) + "/examples/data/materials.prior";
 
-void run(const std::string& arguments) {
-  const auto result = gonio_tool(arguments);
-  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-}
-
-/// Exit code 2, one line, and the words that help.
-void refuses(const std::string& arguments, std::initializer_list<const char*> words) {
-  CAPTURE(arguments);
-  const auto result = gonio_tool(arguments);
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 2);
-  CHECK(std::ranges::count(result.output, '\n') == 1);
-  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
-}
-
 /// Three times --weights, of what `gonio info --weights-of` prints.
 std::string weight_options(const nlohmann::json& weights) {
   std::string options;

@@ -23,12 +23,6 @@ namespace {
 
 const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
 
-std::string run(const std::string& arguments) {
-  const auto result = gonio_tool(arguments);
-  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-  return result.output;
-}
-
 void refuses(const std::string& arguments, const std::string& words, int code = 2) {
   const auto result = gonio_tool(arguments);
   CAPTURE(arguments);

@@ -21,11 +21,6 @@ namespace {
 
 const std::string directions = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
 
-void run(const std::string& arguments) {
-  const auto result = gonio_tool(arguments);
-  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-}
-
 }  // namespace
 
 TEST_CASE("expand, sample, reconstruct, compare, render") {

@@ -18,20 +18,6 @@ namespace {
 
 const std::string nielsen_20 = std::string(GONIO_SOURCE_DIR) + "/examples/data/nielsen-20.csv";
 
-void run(const std::string& arguments) {
-  const auto result = gonio_tool(arguments);
-  REQUIRE_MESSAGE(result.exit_code == 0, arguments, ": ", result.output);
-}
-
-void refuses(const std::string& arguments, std::initializer_list<const char*> words) {
-  CAPTURE(arguments);
-  const auto result = gonio_tool(arguments);
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 2);
-  CHECK(std::ranges::count(result.output, '\n') == 1);
-  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
-}
-
 }  // namespace
 
 TEST_CASE("two priors are learned, and the samples choose one") {

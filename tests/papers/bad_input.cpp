@@ -12,14 +12,9 @@
 
 namespace {
 
-/// Exit code 2, one line, and the words that help.
 void refuses(const std::string& arguments, std::initializer_list<const char*> words) {
   CAPTURE(arguments);
-  const auto result = gonio_papers(arguments);
-  CAPTURE(result.output);
-  CHECK(result.exit_code == 2);
-  CHECK(std::ranges::count(result.output, '\n') == 1);
-  for (const char* word : words) CHECK(result.output.find(word) != std::string::npos);
+  check_refusal(gonio_papers(arguments), words);
 }
 
 }  // namespace

@@ -237,6 +237,10 @@ void print_table(const noell_options& options, const noell_sweep& sweep, std::sp
 
 /// The share of outliers that each estimate reports, beside the true one: a row for each amount of data.
 void print_outliers(const noell_options& options, const noell_sweep& sweep) {
+  const auto reports = [&](const noell_setting& setting) {
+    return sweep.results(setting).front().contains("outliers");
+  };
+  if (std::ranges::none_of(sweep.settings(), reports)) return;
   std::cout
       << "\nReported share of outliers, %: mean over materials and seeds (least - most); in brackets how many of the "
          "samples are more than 5 % off.\n\n| method | data |";
@@ -245,13 +249,12 @@ void print_outliers(const noell_options& options, const noell_sweep& sweep) {
   for (std::size_t i = 0; i < options.outlier_ratios.size(); ++i) std::cout << "---|";
   std::optional<std::pair<std::string, double>> row;
   for (const noell_setting& setting : sweep.settings()) {
+    if (!reports(setting)) continue;
     std::vector<double> reported, off;
-    for (const json& result : sweep.results(setting))
-      if (result.contains("outliers")) {
-        reported.push_back(100.0 * result["outliers"].number());
-        off.push_back(100.0 * result["off"].number());
-      }
-    if (reported.empty()) continue;
+    for (const json& result : sweep.results(setting)) {
+      reported.push_back(100.0 * result["outliers"].number());
+      off.push_back(100.0 * result["off"].number());
+    }
     if (const std::pair own{setting.name(), setting.data_ratio}; row != own) {
       row = own;
       std::cout << "\n| " << own.first << " | " << fixed(own.second, own.second > 1.0 ? 0 : 2) << " |";

@@ -98,8 +98,8 @@ class noell_figures {
               << "| method | Delta E |\n|---|---|\n";
     for (const std::string& method : all_methods) {
       gonio::report(listener_, method, 0.0);
-      const gonio::brdf_table estimate = experiment_.estimate(
-          method, {.material = left_out, .data_ratio = options_.data_ratio, .outlier_ratio = 0.4}, samples);
+      const gonio::brdf_table estimate =
+          experiment_.estimate(method, {.material = left_out, .data_ratio = options_.data_ratio}, samples);
       auto [image, mean] = spheres.difference(estimate);
       columns.push_back({slice_tile(estimate, options_.threads), spheres.sphere(estimate), std::move(image)});
       std::cout << "| " << method << " | " << fixed(mean, 2) << " |\n";

@@ -157,8 +157,8 @@ class gap_experiment {
  public:
   gap_experiment(const gap_options& options, const gonio::progress& listener)
       : options_(options),
-        methods_(std::make_shared<noell_experiment>(options.networks, options.environment, options.threads, listener)),
-        truths_(methods_->materials()),
+        methods_(options.networks, options.environment, options.threads, listener),
+        truths_(methods_.materials()),
         delta_e_(truths_.cells,
                  gonio::render::environment_lighting(
                      90, 72, gonio::render::environment_map(gonio::io::read_hdr(options.environment))),
@@ -193,9 +193,9 @@ class gap_experiment {
   }
 
   /// A method of Table 1.
-  [[nodiscard]] estimate_function method(const std::string& name) const {
+  [[nodiscard]] estimate_function method(const std::string& name) {
     return [this, name](const gonio::sample_set& samples, const noell_case& which) {
-      return methods_->estimate(name, which, samples);
+      return methods_.estimate(name, which, samples);
     };
   }
 
@@ -234,8 +234,8 @@ class gap_experiment {
   }
 
   gap_options options_;
-  std::shared_ptr<noell_experiment> methods_;
-  gonio::material_set truths_;
+  noell_experiment methods_;
+  const gonio::material_set& truths_;  ///< of the methods
   gonio::sphere_delta_e delta_e_;
 };
 
@@ -285,7 +285,7 @@ void print_rows(const gap_options& options, std::size_t judged, std::span<const 
 void run_gap(const gap_options& options) {
   progress_bar bar;
   const gonio::progress listener = bar.listener();
-  const gap_experiment experiment(options, listener);
+  gap_experiment experiment(options, listener);
   const std::array judgements{judgement{"the truth's sphere has mean luminance 0.18"},
                               judgement{"a white sphere has mean luminance 0.18", 0.18, true}};
   std::vector<gap_row> rows;

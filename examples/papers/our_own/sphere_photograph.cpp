@@ -122,8 +122,6 @@ class sphere_photograph_experiment : photograph_experiment {
       gonio::capture::white_reference white;
     };
     std::vector<shot> shots;
-    std::optional<gonio::capture::fitted_outline> best;
-    std::string why;
     constexpr double reflectance = 0.98;
     for (const gonio::direction_pair& pair : set.pairs) {
       const auto lamp = sphere_laboratory::lamp(gonio::to_half_difference(pair.wi, pair.wo).theta_d);
@@ -132,17 +130,14 @@ class sphere_photograph_experiment : photograph_experiment {
           {lamp,
            laboratory_.take(measured_brdf{material.measured}, lamp, given_.noise, seed),
            {laboratory_.take(lab::white_material{reflectance}, lamp, given_.noise, seed + 1), reflectance, {}}});
-      try {
-        const auto outline =
-            gonio::capture::find_sphere(shots.back().white.photograph, laboratory_.camera(), 1.0, {.light = lamp});
-        if (!best || outline.inliers > best->inliers) best = outline;
-      } catch (const gonio::error& refusal) {
-        why = refusal.what();  // a thin crescent may show too little
-      }
     }
-    if (!best) gonio::refuse(set.name + ": " + why);
+    const auto outline = gonio::capture::fullest_outline(std::ssize(shots), [&](Eigen::Index i) {
+      return gonio::capture::find_sphere(shots[i].white.photograph, laboratory_.camera(), 1.0,
+                                         {.light = shots[i].lamp});
+    });
     photographed taken;
-    const gonio::surface_image surface = gonio::capture::surface_of(best->sphere, laboratory_.camera());
+    std::string why;
+    const gonio::surface_image surface = gonio::capture::surface_of(outline.sphere, laboratory_.camera());
     const gonio::capture::photograph_options options{
         .cells = gonio::grid({90 / given_.coarser, 90 / given_.coarser, 180 / given_.coarser})};
     for (const shot& each : shots) try {
@@ -155,7 +150,7 @@ class sphere_photograph_experiment : photograph_experiment {
         why = refusal.what();  // with light and camera nearly opposite, nothing is lit and seen
       }
     if (taken.views == 0) gonio::refuse(set.name + ": " + why);
-    const Eigen::Vector3d off = best->sphere.centre - laboratory_.sphere().centre;
+    const Eigen::Vector3d off = outline.sphere.centre - laboratory_.sphere().centre;
     taken.off = off.head<2>().norm() / (12.0 * laboratory_.camera().pixel_angle());
     return taken;
   }

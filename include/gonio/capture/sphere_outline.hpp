@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -54,7 +55,13 @@ struct fitted_outline {
 [[nodiscard]] fitted_outline find_sphere(const image& photograph, const lens_camera& camera, double radius,
                                          const outline_options& options = {});
 
-/// The same of a circle, as near as a circle comes to the ellipse.
+/// Of the outlines of one sphere that stands still in `photographs` many, the one that most of its edge agrees with:
+/// `find(i)` finds that of photograph i. It is no error if it refuses some, which a grazing lamp leaves a thin crescent
+/// in. Throws gonio::error with its last refusal if it refuses all.
+[[nodiscard]] fitted_outline fullest_outline(Eigen::Index photographs,
+                                             const std::function<fitted_outline(Eigen::Index)>& find);
+
+/// What `find_sphere` finds, of a circle, as near as a circle comes to the ellipse.
 [[nodiscard]] fitted_outline sphere_within(const outline_circle& circle, const lens_camera& camera, double radius);
 
 }  // namespace gonio::capture

@@ -15,9 +15,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -257,6 +259,20 @@ GONIO_INLINE fitted_outline fit_sphere(const std::vector<Eigen::Vector2d>& outli
 GONIO_INLINE fitted_outline find_sphere(const image& photograph, const lens_camera& camera, double radius,
                                         const outline_options& options) {
   return fit_sphere(edge_points(photograph), camera, radius, options);
+}
+
+GONIO_INLINE fitted_outline fullest_outline(Eigen::Index photographs,
+                                            const std::function<fitted_outline(Eigen::Index)>& find) {
+  std::optional<fitted_outline> best;
+  std::string why = "there is no photograph of the sphere";
+  for (Eigen::Index i = 0; i < photographs; ++i) try {
+      const fitted_outline found = find(i);
+      if (!best || found.inliers > best->inliers) best = found;
+    } catch (const error& refusal) {
+      why = refusal.what();
+    }
+  if (!best) refuse(why);
+  return *best;
 }
 
 GONIO_INLINE fitted_outline sphere_within(const outline_circle& circle, const lens_camera& camera, double radius) {
