@@ -72,6 +72,29 @@ TEST_CASE("noell-table1: a row for each setting, and what is done is not done ag
   CHECK(rows[4]["results"][0]["delta_e_env"] != rows[4]["results"][1]["delta_e_env"]);
 }
 
+TEST_CASE("noell-table1: fewer materials to combine, and the time of an iteration") {
+  const synthetic_database database;
+  const std::string arguments = "noell-table1 --materials b --methods our rbf --data 40 --outliers 0 --iterations 0 2 ";
+  const std::string table = database.evaluate(arguments + "--basis 2 4");
+  CHECK(lines_with(table, "| our, 2 materials, 0 iterations | 40 |").size() == 1);
+  CHECK(lines_with(table, "| our, 4 materials, 2 iterations | 40 |").size() == 1);
+  CHECK(lines_with(table, "| our, 4 materials | 40 | 0.0 | ").size() == 1);  // seconds
+  CHECK(lines_with(table, "| rbf | 40 |").size() == 1);
+
+  // All four others are what is combined anyway.
+  const auto error = [&](const std::string& basis, std::size_t row) {
+    const auto rows = parse_json(database.evaluate(arguments + "--json " + basis));
+    return rows[row]["results"][0]["delta_e_env"].get<double>();
+  };
+  CHECK(error("--basis 4", 1) == error("", 1));
+  CHECK(error("--basis 2", 1) != error("", 1));
+
+  const auto refused =
+      gonio_papers("noell-table1 --materials b --data 40 --basis 5 --networks " + database.at("n.npy"));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.find("--basis 5 needs as many other materials, there are 4") != std::string::npos);
+}
+
 TEST_CASE("noell-measured: a spectral measurement is judged where it was not used") {
   const synthetic_database database;
   std::string text = "3\n450 550 650\n";
@@ -116,11 +139,20 @@ TEST_CASE("noell-gap: a row for each method and source of outliers, at two expos
   const synthetic_database database;
   const std::string light = database.at("light.hdr");
   gonio::io::write_hdr(light, gonio::uniform_image(8, 16, gonio::rgb::Constant(0.5)));
-  const std::string table = database.evaluate(
-      "noell-gap --materials b --methods lc pull-push --data 0.001 --outliers 0.2 --environment " + light);
+  const std::string state = database.at("state"), arguments =
+                                                      "noell-gap --materials b --methods lc pull-push "
+                                                      "--data 0.001 --outliers 0.2 --environment " +
+                                                      light + " --state " + state;
+  const std::string table = database.evaluate(arguments);
   CHECK(lines_with(table, "| lc | outliers from random directions |").size() == 2);
   CHECK(lines_with(table, "| pull-push | samples and outliers of random angles |").size() == 2);
   CHECK(lines_with(table, "| lc | weights of any sign, outliers from valid cells |").size() == 2);
+
+  // Six sources of outliers by two metrics, weights of any sign, and six sources of the other method.
+  const std::string kept = scratch::get(state);
+  CHECK(lines_with(kept, "result").size() == 19);
+  CHECK(database.evaluate(arguments) == table);
+  CHECK(lines_with(scratch::get(state), "result").size() == 19);
 }
 
 TEST_CASE("noell-figures: each is drawn") {

@@ -29,6 +29,7 @@ struct noell_options {
   std::vector<double> data_ratios, outlier_ratios;
   std::vector<std::uint64_t> seeds{1};
   std::vector<int> iterations;  // if any, otherwise as many as a method takes
+  std::vector<int> basis;       // if any, otherwise all other materials
   bool print_json = false;
   gonio::thread_count threads;
 };
@@ -45,12 +46,19 @@ struct noell_options {
 /// Which results a row of the table sums up.
 struct noell_setting {
   std::string method;
-  std::optional<int> iterations;
+  std::optional<int> iterations, basis;
   double data_ratio = 1.0, outlier_ratio = 0.0;
 
   [[nodiscard]] std::string name() const {
-    if (!iterations) return method;
-    return method + ", " + std::to_string(*iterations) + (*iterations == 1 ? " iteration" : " iterations");
+    std::string full = method;
+    if (basis) full += ", " + counted(*basis, "material");
+    if (iterations) full += ", " + counted(*iterations, "iteration");
+    return full;
+  }
+
+ private:
+  [[nodiscard]] static std::string counted(int count, const std::string& noun) {
+    return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
   }
 };
 
@@ -107,13 +115,11 @@ class noell_sweep {
   [[nodiscard]] std::vector<noell_setting> settings() const {
     std::vector<noell_setting> all;
     for (const std::string& method : options_.methods)
-      for (const double data_ratio : options_.data_ratios)
-        for (const double outlier_ratio : options_.outlier_ratios)
-          if (options_.iterations.empty() || !noell_experiment::iterates(method))
-            all.push_back({method, std::nullopt, data_ratio, outlier_ratio});
-          else
-            for (const int iterations : options_.iterations)
-              all.push_back({method, iterations, data_ratio, outlier_ratio});
+      for (const auto& basis : choices(options_.basis, noell_experiment::combines(method)))
+        for (const double data_ratio : options_.data_ratios)
+          for (const double outlier_ratio : options_.outlier_ratios)
+            for (const auto& iterations : choices(options_.iterations, noell_experiment::iterates(method)))
+              all.push_back({method, iterations, basis, data_ratio, outlier_ratio});
     return all;
   }
 
@@ -131,6 +137,12 @@ class noell_sweep {
   [[nodiscard]] const std::vector<std::string>& materials() const noexcept { return materials_; }
 
  private:
+  /// Those that an option gives, if a method has a use for them.
+  [[nodiscard]] static std::vector<std::optional<int>> choices(const std::vector<int>& given, bool of_use) {
+    if (given.empty() || !of_use) return {std::nullopt};
+    return {given.begin(), given.end()};
+  }
+
   /// What the missing cases of a method, a share of data and a seed have in common.
   void prepare() {
     for (const std::string& method : options_.methods)
@@ -139,7 +151,7 @@ class noell_sweep {
           std::vector<noell_case> missing;
           for (const double outlier_ratio : options_.outlier_ratios)
             for (const std::string& material : materials_) {
-              const noell_case which{material, data_ratio, outlier_ratio, seed, {}};
+              const noell_case which{material, data_ratio, outlier_ratio, seed, {}, {}};
               if (!results_.find(key_of(method, which))) missing.push_back(which);
             }
           gonio::report(listener_, method + ", data " + fixed(data_ratio, 2), 0.0);
@@ -149,7 +161,7 @@ class noell_sweep {
 
   [[nodiscard]] static noell_case case_of(const noell_setting& setting, const std::string& material,
                                           std::uint64_t seed) {
-    return {material, setting.data_ratio, setting.outlier_ratio, seed, setting.iterations};
+    return {material, setting.data_ratio, setting.outlier_ratio, seed, setting.iterations, setting.basis};
   }
 
   [[nodiscard]] json key_of(const std::string& method, const noell_case& which) const {
@@ -157,6 +169,7 @@ class noell_sweep {
              which.data_ratio, which.outlier_ratio,
              which.seed,       options_.environment.filename().string()};
     if (which.iterations) key.push_back(*which.iterations);
+    if (which.basis) key.push_back(json{{"basis", *which.basis}});
     return key;
   }
 
@@ -172,6 +185,7 @@ void print_json(const noell_options& options, const noell_sweep& sweep) {
   for (const noell_setting& setting : sweep.settings()) {
     json row{{"method", setting.method}};
     if (setting.iterations) row["iterations"] = *setting.iterations;
+    if (setting.basis) row["basis"] = *setting.basis;
     row["data_ratio"] = setting.data_ratio;
     row["outlier_ratio"] = setting.outlier_ratio;
     json results = json::array();
@@ -206,6 +220,27 @@ void print_harm(const noell_options& options, const noell_sweep& sweep) {
   }
 }
 
+/// How long a round takes: the time by which the most rounds take longer than the fewest. Methods need not take all.
+void print_seconds(const noell_options& options, const noell_sweep& sweep) {
+  const auto [fewest, most] = std::ranges::minmax(options.iterations);
+  std::cout << "\nSeconds per iteration: mean (least - most). The paper: \"a few seconds\".\n\n"
+               "| method | data | outliers | seconds |\n|---|---|---|---|\n";
+  for (noell_setting setting : sweep.settings()) {
+    if (setting.iterations != most) continue;
+    const std::vector<json> long_runs = sweep.results(setting);
+    setting.iterations = fewest;
+    const std::vector<json> short_runs = sweep.results(setting);
+    std::vector<double> seconds;
+    for (std::size_t i = 0; i < long_runs.size(); ++i)
+      seconds.push_back((long_runs[i]["seconds"].number() - short_runs[i]["seconds"].number()) / (most - fewest));
+    const auto [least, longest] = std::ranges::minmax(seconds);
+    setting.iterations.reset();
+    std::cout << "| " << setting.name() << " | " << fixed(setting.data_ratio, setting.data_ratio > 1.0 ? 0 : 2) << " | "
+              << fixed(setting.outlier_ratio, 1) << " | " << fixed(distribution(seconds).mean, 2) << " ("
+              << fixed(least, 2) << " - " << fixed(longest, 2) << ") |\n";
+  }
+}
+
 /// Those of the materials that no default was chosen on.
 [[nodiscard]] std::vector<std::string> unseen(std::vector<std::string> materials) {
   const auto seen = gonio::nielsen_test_materials();
@@ -224,7 +259,7 @@ void print_table(const noell_options& options, const noell_sweep& sweep, std::sp
             << (natural ? " natural light: mean | median | worst | peak ratio |\n" : "\n")
             << "|---|---|---|---|---|---|---|---|" << (natural ? "---|---|---|---|\n" : "\n");
   for (const noell_setting& setting : sweep.settings()) {
-    const auto& [method, iterations, data_ratio, outlier_ratio] = setting;
+    const auto& [method, iterations, basis, data_ratio, outlier_ratio] = setting;
     const auto results = sweep.results(setting, materials);
     std::cout << "| " << setting.name() << " | " << fixed(data_ratio, data_ratio > 1.0 ? 0 : 2) << " | "
               << fixed(outlier_ratio, 1) << " | "
@@ -280,6 +315,7 @@ void run_noell(const noell_options& options) {
   if (options.iterations.size() > 1) {
     std::cout << '\n';
     print_harm(options, sweep);
+    print_seconds(options, sweep);
   }
   if (options.iterations.empty()) print_outliers(options, sweep);
 }
@@ -316,6 +352,10 @@ void add_noell(command& app, const std::string& name, const std::string& descrip
                   "Numbers of rounds to compare, 0 being the initial estimate; otherwise a method stops by itself, "
                   "after at most 10")
       .check(check::non_negative_number());
+  command
+      .add_option("--basis", options->basis,
+                  "Numbers of other materials, drawn at random, that a method combines; otherwise all")
+      .check(check::positive_number());
   command.add_output("--state", options->state, {}, "File in which results are kept, so that a run can be resumed");
   command.add_flag("--json", options->print_json, "Print everything, with each material, as JSON");
   add_threads_option(command, options->threads);

@@ -16,9 +16,11 @@
 #include <gonio/metric/root.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <map>
+#include <random>
 #include <tuple>
 
 namespace papers {
@@ -51,6 +53,21 @@ struct method_name {
 /// The names to leave out for a material's sake: none if it has no name.
 [[nodiscard]] std::vector<std::string> names_of(const std::string& material) {
   return material.empty() ? std::vector<std::string>() : std::vector{material};
+}
+
+/// The names that a case leaves out: its material's, and those of the others that are not drawn. Smaller bases are
+/// parts of the larger ones of the same seed.
+[[nodiscard]] std::vector<std::string> left_out(const noell_case& which, const std::vector<std::string>& names) {
+  std::vector<std::string> out = names_of(which.material);
+  if (!which.basis) return out;
+  std::vector<std::string> others = names;
+  std::erase(others, which.material);
+  if (*which.basis > std::ssize(others))
+    gonio::refuse({"--basis ", *which.basis, " needs as many other materials, there are ", others.size()});
+  std::mt19937_64 generator(which.seed);
+  std::ranges::shuffle(others, generator);
+  out.insert(out.end(), others.begin() + *which.basis, others.end());
+  return out;
 }
 
 /// What a case measures.
@@ -94,10 +111,10 @@ struct noell_experiment::parts {
   noell_measures measures;
   std::tuple<combinations_under<gonio::lin>, combinations_under<gonio::root>, combinations_under<gonio::log>>
       combinations;
-  /// Of all materials; and without the one that was asked for last, which many runs in a row have in common.
+  /// Of all materials; and without those that were left out last, which many runs in a row have in common.
   struct correction_cache {
     made_on_demand<gonio::correction> all, fewer;
-    std::string left_out;
+    std::vector<std::string> left_out;
   };
   correction_cache corrections, printed_corrections;
 
@@ -139,25 +156,25 @@ struct noell_experiment::parts {
     return gonio::random_cells(truths.cells, samples_of(which.data_ratio, truths.cells.size()), which.seed);
   }
 
-  /// The non-negative combination of all other materials.
+  /// The non-negative combination of other materials.
   template <class Metric>
   [[nodiscard]] auto combination(const Metric& metric, const noell_case& which, const gonio::sample_set& samples) {
     const auto located = gonio::locate_samples(truths.cells, samples, threads);
     auto& plans = std::get<combinations_under<Metric>>(combinations).plans;
     const auto plan =
         plans.try_emplace({which.data_ratio, which.seed}, materials(metric), located.locations, gonio::nnls{}, threads);
-    return plan.first->second.without(names_of(which.material)).reconstruct(located.channels());
+    return plan.first->second.without(left_out(which, truths.names)).reconstruct(located.channels());
   }
 
-  const gonio::correction& corrections_without(const std::string& material, bool printed) {
+  const gonio::correction& corrections_without(const std::vector<std::string>& names, bool printed) {
     correction_cache& cache = printed ? printed_corrections : corrections;
-    if (material != cache.left_out) cache.fewer = {};
-    cache.left_out = material;
+    if (names != cache.left_out) cache.fewer = {};
+    cache.left_out = names;
     const auto rule = printed ? gonio::correction_rule::as_printed() : gonio::correction_rule{};
     const auto& all = cache.all.get([&] {
       return gonio::correction{materials(gonio::log{}), rule, gonio::nnls{}, threads};
     });
-    return cache.fewer.get([&] { return all.without(names_of(material)); });
+    return cache.fewer.get([&] { return all.without(names); });
   }
 
   /// An estimate, and which share of the samples it takes for outliers if it has an opinion.
@@ -166,7 +183,7 @@ struct noell_experiment::parts {
     std::optional<double> outliers = {};
   };
 
-  /// The estimate of a material by a method, from all other materials.
+  /// The estimate of a material by a method, from other materials.
   template <class Metric>
   [[nodiscard]] estimated estimate(const method_name& method, const Metric& metric, const noell_case& which,
                                    const gonio::sample_set& samples) {
@@ -183,14 +200,15 @@ struct noell_experiment::parts {
     if (method.method == "pull-push") return tabulated(gonio::pull_push{truths.cells, threads});
     if (method.method == "scattered") return {gonio::tabulate(interpolate(samples, {}), truths.cells, threads)};
 
-    const auto others = materials(metric).without(names_of(which.material));
     if (method.method == "lc") return {combination(metric, which, samples).tabulate(truths.cells, threads)};
+    const std::vector<std::string> out = left_out(which, truths.names);
+    const auto others = materials(metric).without(out);
     gonio::correction_limits limits;
     limits.rounds = which.iterations.value_or(limits.rounds);
     if (which.iterations) limits.smallest_change = 0.0;
     if (method.method == "our") {
-      auto run = gonio::robust_reconstruction{others, corrections_without(which.material, false), limits, {}, threads}
-                     .initialise(samples);
+      auto run = gonio::robust_reconstruction{others, corrections_without(out, false), limits, {}, threads}.initialise(
+          samples);
       while (!run.converged()) run.step();
       const double good = gonio::automatic_weights{}.mixture(run.measured(), run.estimated()).inlier_fraction;
       return {run.result().tabulate(truths.cells, threads), 1.0 - good};
@@ -198,7 +216,7 @@ struct noell_experiment::parts {
     limits.smallest_change = 0.0;
     const bool printed = method.method == "printed";
     const double gamma = printed ? noell_gamma(which.outlier_ratio) : method.gamma;
-    const auto& functions = corrections_without(which.material, printed);
+    const auto& functions = corrections_without(out, printed);
     if (printed) limits.inertia = 0.0;
     const gonio::decomposition initial{others, gonio::nnls{}, threads};
     if (gamma == 0.0)
@@ -240,7 +258,7 @@ gonio::measured<gonio::log> noell_experiment::materials_without(const std::strin
 }
 
 const gonio::correction& noell_experiment::corrections_without(const std::string& material) {
-  return parts_->corrections_without(material, false);
+  return parts_->corrections_without(names_of(material), false);
 }
 
 Eigen::Index noell_experiment::samples_of(double data, Eigen::Index cells) noexcept {
@@ -297,6 +315,8 @@ bool noell_experiment::iterates(const std::string& method) {
   const std::string name = parse(method)->method;
   return name == "our" || name == "printed" || name == "gamma";
 }
+
+bool noell_experiment::combines(const std::string& method) { return iterates(method) || parse(method)->method == "lc"; }
 
 std::string noell_experiment::complaint(const std::string& method) {
   return parse(method) ? "" : "there is no method '" + method + "'";

@@ -27,6 +27,7 @@ struct noell_case {
   double outlier_ratio = 0.0;
   std::uint64_t seed = 1;
   std::optional<int> iterations = {};  ///< exactly as many; or else the method stops by itself
+  std::optional<int> basis = {};       ///< how many other materials, drawn by the seed, to estimate from; or else all
 };
 
 /// Holds the materials, the bases that methods need (each made when first asked for), and the measures of error.
@@ -41,7 +42,7 @@ class noell_experiment {
   /// The materials' tables.
   [[nodiscard]] const gonio::material_set& materials() const noexcept;
 
-  /// The estimate by a method from samples, from all materials but that of the case; of all if it has no name.
+  /// The estimate by a method from samples, from the other materials that a case draws; from all if it has no name.
   [[nodiscard]] gonio::brdf_table estimate(const std::string& method, const noell_case& which,
                                            const gonio::sample_set& samples);
 
@@ -51,8 +52,8 @@ class noell_experiment {
   /// The correction functions of all materials but one, by gonio's rule.
   [[nodiscard]] const gonio::correction& corrections_without(const std::string& material);
 
-  /// Measures the material, reconstructs it by a method from all other materials, and judges (`noell_measures::judge`);
-  /// seconds are those of the fit.
+  /// Measures the material, reconstructs it by a method from the other materials that the case draws, and judges
+  /// (`noell_measures::judge`); seconds are those of the fit.
   [[nodiscard]] json run(const std::string& method, const noell_case& which);
 
   /// Does what is done once for cases of the same share of data and seed, which are then quicker: radial basis
@@ -64,6 +65,9 @@ class noell_experiment {
 
   /// Does a method correct its estimate again and again?
   [[nodiscard]] static bool iterates(const std::string& method);
+
+  /// Does a method combine other materials?
+  [[nodiscard]] static bool combines(const std::string& method);
 
   /// What is wrong with the name of a method; empty if nothing is.
   [[nodiscard]] static std::string complaint(const std::string& method);

@@ -7,6 +7,7 @@
 #include "papers/experiments.hpp"
 #include "papers/networks_option.hpp"
 #include "papers/noell2014/noell_experiment.hpp"
+#include "papers/resumable_results.hpp"
 #include <gonio/estimate/planned_decomposition.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/evaluate/sphere_delta_e.hpp>
@@ -70,9 +71,11 @@ struct judgement {
   double luminance = gonio::sphere_delta_e::middle_grey;
   bool of_white = false;
 };
+const std::array judgements{judgement{"the truth's sphere has mean luminance 0.18"},
+                            judgement{"a white sphere has mean luminance 0.18", 0.18, true}};
 
 struct gap_options {
-  std::filesystem::path networks, environment;
+  std::filesystem::path networks, environment, state;
   double data_ratio = 0.1;
   std::vector<double> outlier_ratios{noell_outlier_ratios.begin(), noell_outlier_ratios.end()};
   std::vector<double> scales{10.0};
@@ -150,13 +153,23 @@ struct gap_options {
 using estimate_function = std::function<gonio::brdf_table(const gonio::sample_set&, const noell_case&)>;
 
 /// Mean Delta E by outlier ratio, one list for each judgement.
-using judged_means = std::vector<std::vector<double>>;
+using judged_means = std::array<std::vector<double>, judgements.size()>;
+
+/// A row of the table: a method, what is varied, and where its samples and outliers come from.
+struct gap_setting {
+  std::string method, variation;
+  named_source outliers;
+  sampling samples = sampling::cells;
+
+  [[nodiscard]] std::string name() const { return variation + outliers.name; }
+};
 
 /// What is measured, who looks, and how.
 class gap_experiment {
  public:
   gap_experiment(const gap_options& options, const gonio::progress& listener)
       : options_(options),
+        results_(options.state),
         methods_(options.networks, options.environment, options.threads, listener),
         truths_(methods_.materials()),
         delta_e_(truths_.cells,
@@ -199,32 +212,48 @@ class gap_experiment {
     };
   }
 
-  /// The means for each source of outliers.
-  [[nodiscard]] std::vector<judged_means> run(const estimate_function& estimate, sampling how,
-                                              std::span<const named_source> sources,
-                                              std::span<const judgement> judgements) const {
-    const std::vector<gonio::location> measured_at = locations(how);
-    const auto& names = options_.materials;
-    const std::vector<double> none(options_.outlier_ratios.size(), 0.0);
-    std::vector<judged_means> means(sources.size(), judged_means(judgements.size(), none));
+  /// The means in each setting; all take their samples from the same locations.
+  [[nodiscard]] std::vector<judged_means> run(const estimate_function& estimate,
+                                              std::span<const gap_setting> settings) {
+    const std::vector<gonio::location> measured_at = locations(settings.front().samples);
+    judged_means none;
+    none.fill(std::vector<double>(options_.outlier_ratios.size(), 0.0));
+    std::vector<judged_means> means(settings.size(), none);
     // Materials outermost: each has corrections of its own.
-    for (const std::string& name : names) {
-      const std::size_t material = truths_.find(name);
-      const gonio::brdf_table truth = truths_.table(material);
-      for (std::size_t s = 0; s < sources.size(); ++s)
+    for (const std::string& name : options_.materials)
+      for (std::size_t s = 0; s < settings.size(); ++s)
         for (std::size_t r = 0; r < options_.outlier_ratios.size(); ++r) {
-          const noell_case which{name, options_.data_ratio, options_.outlier_ratios[r], options_.seed, {}};
-          const auto samples =
-              measure(truth, measured_at, which.outlier_ratio, sources[s].source, 1000 * which.seed + material);
-          const gonio::brdf_table table = estimate(samples, which);
+          const noell_case which{name, options_.data_ratio, options_.outlier_ratios[r], options_.seed, {}, {}};
+          const json result = judged(estimate, settings[s], which, measured_at);
           for (std::size_t j = 0; j < judgements.size(); ++j)
-            means[s][j][r] += difference(table, truth, judgements[j]) / static_cast<double>(names.size());
+            means[s][j][r] += result[j].number() / static_cast<double>(options_.materials.size());
         }
-    }
     return means;
   }
 
  private:
+  /// The error by each judgement, as it was found before or is found now.
+  [[nodiscard]] json judged(const estimate_function& estimate, const gap_setting& setting, const noell_case& which,
+                            std::span<const gonio::location> measured_at) {
+    const json key{setting.method,
+                   setting.name(),
+                   which.material,
+                   which.data_ratio,
+                   which.outlier_ratio,
+                   which.seed,
+                   options_.environment.filename().string()};
+    if (const json* known = results_.find(key)) return *known;
+    const std::size_t material = truths_.find(which.material);
+    const gonio::brdf_table truth = truths_.table(material);
+    const auto samples =
+        measure(truth, measured_at, which.outlier_ratio, setting.outliers.source, 1000 * which.seed + material);
+    const gonio::brdf_table table = estimate(samples, which);
+    json errors = json::array();
+    for (const judgement& seen : judgements) errors.push_back(difference(table, truth, seen));
+    results_.add(key, errors);
+    return errors;
+  }
+
   [[nodiscard]] double difference(const gonio::brdf_table& estimate, const gonio::brdf_table& truth,
                                   const judgement& seen) const {
     const double own = delta_e_.expose(truth, options_.threads).exposure / gonio::sphere_delta_e::middle_grey;
@@ -234,14 +263,15 @@ class gap_experiment {
   }
 
   gap_options options_;
+  resumable_results results_;
   noell_experiment methods_;
   const gonio::material_set& truths_;  ///< of the methods
   gonio::sphere_delta_e delta_e_;
 };
 
-/// A row of figures by outlier ratio, and what the paper has in its place.
+/// A row and its figures by outlier ratio.
 struct gap_row {
-  std::string method, name;
+  gap_setting setting;
   judged_means means;
 };
 
@@ -271,13 +301,14 @@ void print_rows(const gap_options& options, std::size_t judged, std::span<const 
   };
   std::string last;
   for (const gap_row& row : rows) {
-    const std::vector<double> paper = published(options, row.method);
-    if (row.method != last) {
-      print(row.method, "the paper", paper);
+    const std::string& method = row.setting.method;
+    const std::vector<double> paper = published(options, method);
+    if (method != last) {
+      print(method, "the paper", paper);
       std::cout << " |\n";
     }
-    last = row.method;
-    print(row.method, row.name, row.means[judged]);
+    last = method;
+    print(method, row.setting.name(), row.means[judged]);
     std::cout << ' ' << fixed(factor_between(row.means[judged], paper), 2) << " |\n";
   }
 }
@@ -286,14 +317,14 @@ void run_gap(const gap_options& options) {
   progress_bar bar;
   const gonio::progress listener = bar.listener();
   gap_experiment experiment(options, listener);
-  const std::array judgements{judgement{"the truth's sphere has mean luminance 0.18"},
-                              judgement{"a white sphere has mean luminance 0.18", 0.18, true}};
   std::vector<gap_row> rows;
   const auto run = [&](const std::string& method, const std::string& name, const estimate_function& estimate,
                        std::span<const named_source> sources, sampling how = sampling::cells) {
     gonio::report(listener, method + ", " + name, 0.0);
-    const std::vector<judged_means> means = experiment.run(estimate, how, sources, judgements);
-    for (std::size_t s = 0; s < sources.size(); ++s) rows.push_back({method, name + sources[s].name, means[s]});
+    std::vector<gap_setting> settings;
+    for (const named_source& source : sources) settings.push_back({method, name, source, how});
+    const std::vector<judged_means> means = experiment.run(estimate, settings);
+    for (std::size_t s = 0; s < settings.size(); ++s) rows.push_back({settings[s], means[s]});
   };
   // Vary where outliers come from for each method, and metric and solver of the combination.
   const auto combine = [&](double scale, const std::string& metric) {
@@ -352,6 +383,7 @@ void add_noell_gap(command& app) {
       .check(check::positive_number())
       .capture_default_str();
   command.add_option("--seed", options->seed, "Seed of cells and outliers").capture_default_str();
+  command.add_output("--state", options->state, {}, "File in which results are kept, so that a run can be resumed");
   add_threads_option(command, options->threads);
   command.callback([options] { run_gap(*options); });
 }
