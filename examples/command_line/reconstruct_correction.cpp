@@ -12,10 +12,9 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
 namespace cli {
 
@@ -27,8 +26,7 @@ std::optional<double> gamma_of(const reconstruct_options& options) {
   const std::string& text = options.gamma;
   if (text == "auto") return options.as_printed ? std::optional(usual) : std::nullopt;
   double gamma = 0.0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), gamma);
-  if (status != std::errc() || end != text.data() + text.size() || !(gamma >= 0.0 && std::isfinite(gamma)))
+  if (gonio::io::detail::read_number(text, gamma) || gamma < 0.0)
     gonio::refuse("--gamma needs a number of at least 0, or auto, not '" + text + "'");
   return gamma;
 }

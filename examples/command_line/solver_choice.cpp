@@ -1,5 +1,6 @@
 #include "solver_choice.hpp"
 
+#include <gonio/io/text.hpp>
 #include <gonio/solve/choose_eta.hpp>
 #include <gonio/solve/lasso.hpp>
 #include <gonio/solve/least_squares.hpp>
@@ -7,8 +8,6 @@
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>
-
-#include <charconv>
 
 namespace cli {
 
@@ -33,8 +32,7 @@ gonio::any_solver make_tikhonov(const std::string& eta) {
 
 double number_of_eta(const std::string& text) {
   double value = 0.0;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (status != std::errc() || end != text.data() + text.size())
+  if (gonio::io::detail::read_number(text, value))
     gonio::refuse("--eta needs a positive number, gcv or loo, not '" + text + "'");
   return value;
 }

@@ -3,6 +3,9 @@
 
 #include <rapidcheck.h>
 
+#include <charconv>
+#include <cmath>
+
 namespace detail = gonio::io::detail;
 using scratch::check_refused;
 
@@ -26,6 +29,26 @@ TEST_CASE("numbers read back as they were written") {
   CHECK(rc::check([&](double value) { RC_ASSERT(parse(detail::shortest(value)) == value); }));
   for (const char* wrong : {"", "+", "+-1", "1,5", "1 2", "x", "0x10", "nan", "inf", "1e999"})
     check_refused([&] { return parse(wrong); }, {"a file, line 3: depth", detail::quoted(wrong)});
+}
+
+TEST_CASE("numbers by strtod: the same as by from_chars, whatever the field") {
+  const auto same = [](const std::string& field) {
+    double expected = -7.0, value = -7.0;
+    const auto [end, status] = std::from_chars(field.data(), field.data() + field.size(), expected);
+    const bool whole = status == std::errc::result_out_of_range || end == field.data() + field.size();
+    const std::errc failed = whole ? status : std::errc::invalid_argument;
+    CHECK_MESSAGE(detail::read_by_strtod(field, value) == failed, detail::quoted(field));
+    if (failed == std::errc() && !std::isnan(expected)) CHECK_MESSAGE(value == expected, detail::quoted(field));
+  };
+  for (const char* field :
+       {"0",    "-0.0", "1.",       ".5",  "-.5e-3", "1e5", "1E+05", "1e999", "-1e999", "1e-999", "4.9e-324",
+        "inf",  "-INF", "Infinity", "nan", "-nan",   "",    " 1",    "1 ",    "+1",     "-+1",    "--1",
+        "0x10", "1p3",  "1e",       "e1",  ".",      "-",   "1,5",   "infin", "1.5.2"})
+    same(field);
+  same(std::string("1\0", 2));
+  CHECK(rc::check([&](double value) { same(detail::shortest(value)); }));
+  const auto any_field = rc::gen::container<std::string>(rc::gen::elementOf(std::string("0123456789.eE+-infax ")));
+  CHECK(rc::check([&] { same(*any_field); }));
 }
 
 TEST_CASE("quotes: short and printable") {

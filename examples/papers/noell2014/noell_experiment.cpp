@@ -11,13 +11,13 @@
 #include <gonio/estimate/robust_reconstruction.hpp>
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/networks.hpp>
+#include <gonio/io/text.hpp>
 #include <gonio/metric/lin.hpp>
 #include <gonio/metric/log.hpp>
 #include <gonio/metric/root.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <map>
 #include <random>
@@ -42,9 +42,7 @@ struct method_name {
   const std::string head = text.substr(0, dash), tail = dash == std::string::npos ? "" : text.substr(dash + 1);
   if (head == "gamma") {
     double gamma = 0.0;
-    const auto [end, status] = std::from_chars(tail.data(), tail.data() + tail.size(), gamma);
-    if (status == std::errc() && end == tail.data() + tail.size() && gamma >= 0.0)
-      return method_name{head, "log", gamma};
+    if (!gonio::io::detail::read_number(tail, gamma) && gamma >= 0.0) return method_name{head, "log", gamma};
   }
   if (has_metric(head) && (tail == "lin" || tail == "root" || tail == "log")) return method_name{head, tail};
   return std::nullopt;

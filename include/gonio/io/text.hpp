@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace gonio::io::detail {
@@ -45,6 +46,9 @@ void for_each_line(std::string_view text, text_place& place, Use&& use) {
   text = without_byte_order_mark(text);
   for (std::string_view line; next_line(text, place, line);) use(line);
 }
+
+/// std::from_chars of a whole field for standard libraries that have none of floating-point numbers (libc++ before 20).
+[[nodiscard]] std::errc read_by_strtod(std::string_view digits, double& value);
 
 /// Reads a finite number. Returns what is wrong with the field, or nothing.
 [[nodiscard]] const char* read_number(std::string_view field, double& value);

@@ -6,7 +6,11 @@
 #include <gonio/core/error.hpp>
 #include <gonio/io/text.hpp>
 
+#include <locale.h>
+#include <stdlib.h>
+
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -14,6 +18,7 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+#include <version>
 
 namespace gonio::io::detail {
 
@@ -61,13 +66,39 @@ GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_vi
   fields.push_back(trimmed(line));
 }
 
+GONIO_INLINE std::errc read_by_strtod(std::string_view digits, double& value) {
+  // What strtod takes and from_chars does not: blanks and plus signs before a number, and hexadecimal digits.
+  constexpr std::string_view begins = "-.0123456789iInN";
+  if (digits.empty() || begins.find(digits.front()) == std::string_view::npos) return std::errc::invalid_argument;
+  if (digits.find_first_of("xX") != std::string_view::npos) return std::errc::invalid_argument;
+  static const ::locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  const std::string text(digits);  // which ends with a zero
+  char* end = nullptr;
+  errno = 0;
+  const double number = ::strtod_l(text.c_str(), &end, plain);
+  if (end != text.c_str() + text.size()) return std::errc::invalid_argument;
+  if (errno == ERANGE && (number == 0.0 || std::isinf(number))) return std::errc::result_out_of_range;
+  value = number;
+  return std::errc();
+}
+
+[[nodiscard]] GONIO_INLINE std::errc read_whole(std::string_view digits, double& value) {
+#if defined(__cpp_lib_to_chars)
+  const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (failed != std::errc()) return failed;
+  return end == digits.data() + digits.size() ? std::errc() : std::errc::invalid_argument;
+#else
+  return read_by_strtod(digits, value);
+#endif
+}
+
 GONIO_INLINE const char* read_number(std::string_view field, double& value) {
   // Instruments print a plus sign, which from_chars does not know.
   const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
   const std::string_view digits = field.substr(plus ? 1 : 0);
-  const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const std::errc failed = read_whole(digits, value);
   if (failed == std::errc::result_out_of_range) return " is out of range";
-  if (failed != std::errc() || end != digits.data() + digits.size()) return " is not a number";
+  if (failed != std::errc()) return " is not a number";
   return std::isfinite(value) ? nullptr : " is not finite";
 }
 

@@ -1,0 +1,40 @@
+# cmake [-D CHECK=ON] -P cmake/debian.cmake: Debian packages of this tree, into build/debian. CHECK: lintian must have
+# nothing to say, and the packages, unpacked into an empty root, must compile and run README's program by pkg-config
+# alone.
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+foreach(program IN ITEMS dpkg-buildpackage dh)
+  find_program(found ${program} NO_CACHE)
+  if(NOT found)
+    message(FATAL_ERROR "${program} is missing: apt-get install dpkg-dev debhelper (and lintian to check)")
+  endif()
+  unset(found)
+endforeach()
+
+file(STRINGS "${source}/CMakeLists.txt" project REGEX "^project\\(")
+string(REGEX MATCH "[0-9]+\\.[0-9]+\\.[0-9]+" version "${project}")
+set(folder "${source}/build/debian")
+set(tree "${folder}/gonio-${version}")
+file(REMOVE_RECURSE "${folder}")
+file(COPY "${source}/" DESTINATION "${tree}" PATTERN build EXCLUDE PATTERN .git EXCLUDE)
+file(COPY "${source}/cmake/debian/" DESTINATION "${tree}/debian" PATTERN changelog.in EXCLUDE)
+string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file("${source}/cmake/debian/changelog.in" "${tree}/debian/changelog" @ONLY)
+
+step("packages" ${cmake} -E chdir "${tree}" dpkg-buildpackage -us -uc -b)
+if(NOT CHECK)
+  return()
+endif()
+file(GLOB changes "${folder}/*.changes")
+# No bug of Debian's asks for the package.
+step("lintian" lintian --fail-on error,warning --suppress-tags initial-upload-closes-no-bugs ${changes})
+
+set(root "${folder}/root")
+file(GLOB packages "${folder}/*.deb")
+list(FILTER packages EXCLUDE REGEX dbgsym)
+foreach(package IN LISTS packages)
+  step("unpack ${package}" dpkg-deb --extract "${package}" "${root}")
+endforeach()
+file(GLOB compiled "${root}/usr/lib/*/pkgconfig")
+set(ENV{PKG_CONFIG_PATH} "${compiled}:${root}/usr/share/pkgconfig")
+set(ENV{PATH} "${root}/usr/bin:$ENV{PATH}")
+step("README's program" ${cmake} -E chdir "${source}" sh cmake/debian/tests/first-program)

@@ -1,0 +1,30 @@
+# What the scripts that read the tool's help share.
+
+# gonio_tool_help(RESULT TOOL WORD...): what `TOOL WORD... --help` prints.
+function(gonio_tool_help result tool)
+  execute_process(COMMAND "${tool}" ${ARGN} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX REPLACE "\n+$" "\n" help "${help}")
+  set(${result} "${help}" PARENT_SCOPE)
+endfunction()
+
+# gonio_subcommands(RESULT HELP): the names of the subcommands that a help lists.
+function(gonio_subcommands result help)
+  set(${result} "" PARENT_SCOPE)
+  string(FIND "${help}" "\nSubcommands:\n" position)
+  if(position EQUAL -1)
+    return()
+  endif()
+  string(SUBSTRING "${help}" ${position} -1 help)
+  string(REGEX MATCHALL "\n  [a-z-]+" names "${help}")
+  string(REGEX REPLACE "\n  " "" names "${names}")
+  set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
+# gonio_first_line(LINE REST): takes the first line off the text in the variable REST. Lists would not do: a help has
+# brackets and semicolons.
+macro(gonio_first_line line rest)
+  string(FIND "${${rest}}" "\n" gonio_end)
+  string(SUBSTRING "${${rest}}" 0 ${gonio_end} ${line})
+  math(EXPR gonio_end "${gonio_end} + 1")
+  string(SUBSTRING "${${rest}}" ${gonio_end} -1 ${rest})
+endmacro()
