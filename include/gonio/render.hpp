@@ -16,3 +16,4 @@
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/lookup_table.hpp>
+#include <gonio/render/merl_view.hpp>

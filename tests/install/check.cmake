@@ -21,6 +21,39 @@ endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${SCRATCH}/prefix")
 
+# Headers alone by their one command: nothing is compiled, and README's program finds what it needs by pkg-config.
+function(build_with_pkg_config package prefix)
+  file(GLOB folders "${prefix}/lib/pkgconfig" "${prefix}/lib/*/pkgconfig" "${prefix}/share/pkgconfig")
+  list(JOIN folders ":" path)
+  set(ENV{PKG_CONFIG_PATH} "${path}")
+  foreach(option IN ITEMS --cflags --libs --variable=prior)
+    execute_process(COMMAND pkg-config ${option} ${package} OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE
+                    COMMAND_ERROR_IS_FATAL ANY)
+    separate_arguments(found)
+    set(answer_${option} ${found})
+  endforeach()
+  set(program "${SCRATCH}/${package}")
+  set(examples "${CMAKE_CURRENT_LIST_DIR}/../../examples")
+  run("${COMPILER}" -std=c++20 -O1 ${answer_--cflags} "${examples}/learn/first_program.cpp" -o "${program}.out"
+      ${answer_--libs})
+  file(COPY "${examples}/data/measurements.csv" ${answer_--variable=prior} DESTINATION "${program}")
+  run("${CMAKE_COMMAND}" -E chdir "${program}" "${program}.out")
+endfunction()
+
+run("${CMAKE_COMMAND}" -D "PREFIX=${SCRATCH}/headers" -P "${CMAKE_CURRENT_LIST_DIR}/../../cmake/install_headers.cmake")
+foreach(file IN ITEMS include/gonio/gonio.hpp share/gonio/materials.prior share/doc/gonio/LICENSE)
+  if(NOT EXISTS "${SCRATCH}/headers/${file}")
+    message(FATAL_ERROR "${file} is not installed")
+  endif()
+endforeach()
+find_program(pkg_config pkg-config NO_CACHE)
+if(pkg_config)
+  build_with_pkg_config(gonio "${SCRATCH}/headers")
+  if(EXISTS "${BUILD_DIR}/gonio-compiled.pc")
+    build_with_pkg_config(gonio-compiled "${SCRATCH}/prefix")
+  endif()
+endif()
+
 # As on a machine without dlib and nanoflann, which this one has: a search for either fails. CMake warns of options
 # that nobody read, and that is what these should be.
 build_and_run(consumer build --no-warn-unused-cli

@@ -74,6 +74,12 @@ class horizon_index {
     return begin_[layer * rows_ + theta_d] + static_cast<std::uint32_t>(phi_d);  // modulo 2^32
   }
 
+  /// The same cell's number among all of the grid, as `grid::linear` counts them.
+  [[nodiscard]] Eigen::Index linear(Eigen::Index theta_h, Eigen::Index theta_d, Eigen::Index phi_d) const noexcept {
+    const Eigen::Index layer = std::min<Eigen::Index>(theta_h, last_[theta_d * columns_ + phi_d]);
+    return (layer * rows_ + theta_d) * columns_ + phi_d;
+  }
+
   /// The number of the cell whose node is nearest to a place.
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Index nearest(const grid_coordinates<Real>& place) const noexcept {
@@ -89,6 +95,13 @@ class horizon_index {
   /// The cells around a place: theta_h and theta_d end with their first and last nodes, phi_d wraps.
   template <std::floating_point Real>
   [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place) const noexcept {
+    return around(place, *this);
+  }
+
+  /// The same, by the numbers that `number_of(theta_h, theta_d, phi_d)` gives cells.
+  template <std::floating_point Real, class NumberOf>
+  [[nodiscard]] trilinear_corners<Real> around(const grid_coordinates<Real>& place,
+                                               const NumberOf& number_of) const noexcept {
     const auto [heights, rows, columns] = grid_.extents();
     const auto nodes = [this](Real coordinate, int extent) {
       return coordinate * static_cast<Real>(extent) - offset<Real>();
@@ -100,7 +113,7 @@ class horizon_index {
     for (Eigen::Index k = 0; k < 8; ++k) {
       const bool is_upper_h = (k & 4) != 0, is_upper_d = (k & 2) != 0, is_upper_p = (k & 1) != 0;
       corners.number[k] =
-          (*this)(is_upper_h ? h.upper : h.lower, is_upper_d ? d.upper : d.lower, is_upper_p ? p.upper : p.lower);
+          number_of(is_upper_h ? h.upper : h.lower, is_upper_d ? d.upper : d.lower, is_upper_p ? p.upper : p.lower);
       corners.weight[k] = (is_upper_h ? h.share : 1 - h.share) * (is_upper_d ? d.share : 1 - d.share) *
                           (is_upper_p ? p.share : 1 - p.share);
     }

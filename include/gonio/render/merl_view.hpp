@@ -1,0 +1,84 @@
+#pragma once
+/// A MERL table in memory that a renderer already holds, read where it is: nothing is copied. The grid is that of
+/// Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (doi:10.1145/882262.882343). A `lookup_table` is
+/// smaller and quicker, because the three channels of a cell stand side by side in it.
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/render/cell_finder.hpp>
+#include <gonio/render/grid_coordinates.hpp>
+#include <gonio/render/horizon_index.hpp>
+#include <gonio/render/lookup_table.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <concepts>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gonio::render {
+
+/// A view of three planes of red, green and blue in the scale of MERL's files, phi_d fastest and theta_h slowest; they
+/// must outlive it. Reads as `lookup_table::from_merl` of the same planes does: negative values, by which a file marks
+/// cells without one, are black, and cells below the horizon continue those above. It holds an index of the grid, 100
+/// KB. After construction there is no allocation, no lock and no exception, and any number of threads may read.
+/// ```cpp
+/// const gonio::render::merl_view paint(planes);  // what the file holds behind its header, 3 x 90 x 90 x 180
+/// const Eigen::Array3f f = paint(wi, wo);        // sr^-1, without the cosine
+/// ```
+/// Values are not looked at before they are asked for: one that is not finite comes back as it is.
+template <interpolation Interpolation = interpolation::nearest>
+class merl_view {
+ public:
+  /// O(cells of the grid). Throws gonio::error if the planes do not have its size.
+  explicit merl_view(std::span<const double> planes, const gonio::grid& cells = gonio::grid())
+      : planes_(planes), index_(cells), finder_(cells) {
+    if (std::ssize(planes) != 3 * cells.size())
+      refuse("three planes of " + std::to_string(cells.size()) + " values were expected of a MERL table, not " +
+             std::to_string(planes.size()) + " values");
+  }
+  /// Planes that end with the statement cannot be viewed.
+  explicit merl_view(std::vector<double>&& planes, const gonio::grid& cells = gonio::grid()) = delete;
+
+  /// Reflectance in sr^-1 of a pair, `float` or `double`.
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
+                                                    const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
+    const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
+    Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
+    if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return sum;
+    if constexpr (Interpolation == interpolation::nearest) {
+      const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
+      return value<Real>(index_.linear(cell.theta_h, cell.theta_d, cell.phi_d));
+    } else {
+      const auto corners = index_.around(to_grid_coordinates(ix, iy, iz, ox, oy, oz),
+                                         [this](auto... node) { return index_.linear(node...); });
+      for (Eigen::Index k = 0; k < 8; ++k) sum += corners.weight[k] * value<Real>(corners.number[k]);
+      return sum;
+    }
+  }
+
+  [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
+
+  /// The planes, where they are.
+  [[nodiscard]] std::span<const double> planes() const noexcept { return planes_; }
+
+ private:
+  template <std::floating_point Real>
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value(Eigen::Index linear) const noexcept {
+    Eigen::Array<Real, 3, 1> colour;
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      colour[channel] =
+          static_cast<Real>(std::max(planes_[channel * grid().size() + linear] * merl_scale[channel], 0.0));
+    return colour;
+  }
+
+  std::span<const double> planes_;
+  horizon_index index_;
+  cell_finder<double> finder_;
+};
+
+static_assert(brdf<merl_view<>>);
+
+}  // namespace gonio::render
