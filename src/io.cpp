@@ -21,6 +21,7 @@
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>
 #include <gonio/io/impl/rules.ipp>
+#include <gonio/io/impl/sample_collector.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
 #include <gonio/io/impl/setup_text.ipp>
@@ -28,3 +29,5 @@
 #include <gonio/io/impl/sphere_setup.ipp>
 #include <gonio/io/impl/table_npy.ipp>
 #include <gonio/io/impl/text.ipp>
+#include <gonio/io/impl/words.ipp>
+#include <gonio/io/impl/zemax_bsdf.ipp>

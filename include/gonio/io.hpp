@@ -26,6 +26,7 @@
 #include <gonio/io/renderer_material.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/rules.hpp>
+#include <gonio/io/sample_collector.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/setup_text.hpp>
@@ -33,3 +34,5 @@
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/io/words.hpp>
+#include <gonio/io/zemax_bsdf.hpp>

@@ -1,0 +1,47 @@
+#pragma once
+/// Bodies of io/sample_collector.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/rgb.hpp>
+#include <gonio/io/sample_collector.hpp>
+#include <gonio/io/text.hpp>
+#include <gonio/table/sample_set.hpp>
+
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace gonio::io::detail {
+
+GONIO_INLINE colour_channels colour_channels::spectrum(std::span<const double> wavelengths) {
+  if (wavelengths.size() == 1) return grey();
+  colour_channels channels(kind::spectrum, wavelengths.size());
+  channels.colour_.emplace(wavelengths);
+  return channels;
+}
+
+GONIO_INLINE rgb colour_channels::operator()(std::span<const double> values) const {
+  if (kind_ == kind::grey) return rgb::Constant(values[0]);
+  if (kind_ == kind::spectrum) return (*colour_)(values);
+  const rgb given{values[0], values[1], values[2]};
+  return kind_ == kind::xyz ? from_xyz(given) : given;
+}
+
+GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
+  if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
+    place.refuse({shortest(reflectance), " sr^-1 is beyond the range of float"});
+}
+
+GONIO_INLINE void sample_collector::add(const direction_pair& pair, const rgb& value, double weight) {
+  if (is_above_horizon(pair.wi) && is_above_horizon(pair.wo)) samples_.push_back({pair, value, weight});
+}
+
+GONIO_INLINE sample_set sample_collector::take(const std::string& name) && {
+  if (samples_.empty()) gonio::refuse({name, ": has no sample above the horizon, expected at least one"});
+  return std::move(samples_);
+}
+
+}  // namespace gonio::io::detail
