@@ -1,5 +1,6 @@
 // The bodies of io/, but for what image.cpp and shape_io.cpp have.
 
+#include <gonio/io/impl/astm_e1392.ipp>
 #include <gonio/io/impl/byte_stream.ipp>
 #include <gonio/io/impl/camera_calibration.ipp>
 #include <gonio/io/impl/capture_constraint.ipp>

@@ -1,6 +1,7 @@
 #include "measurement_kinds.hpp"
 
 #include "file_start.hpp"
+#include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/zemax_bsdf.hpp>
 
@@ -10,9 +11,14 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 2> kinds{{
+constexpr std::array<measurement_kind, 3> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
+    {"ASTM E1392",
+     [](std::string_view extension, std::string_view start) {
+       return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
+     },
+     gonio::io::read_astm_e1392},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
      gonio::io::read_cornell},
 }};

@@ -3,6 +3,7 @@
 /// data (io/exr.hpp, io/tiff.hpp, io/exif.hpp, which need OpenEXR, libtiff and libexif) and those of shapes
 /// (shape.hpp).
 
+#include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/believable.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/camera_calibration.hpp>

@@ -22,7 +22,7 @@ class colour_channels {
   [[nodiscard]] static colour_channels linear_rgb() { return {kind::rgb, 3}; }
   /// CIE XYZ under D65, Y of a perfect diffuser being 1 / pi.
   [[nodiscard]] static colour_channels xyz() { return {kind::xyz, 3}; }
-  /// Wavelengths in nanometres; a single one is grey. Throws what `spectral_colour` throws.
+  /// Wavelengths in nanometres, ascending; a single one is grey. Throws gonio::error unless two are visible.
   [[nodiscard]] static colour_channels spectrum(std::span<const double> wavelengths);
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

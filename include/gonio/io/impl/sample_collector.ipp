@@ -8,6 +8,7 @@
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -18,6 +19,9 @@ namespace gonio::io::detail {
 
 GONIO_INLINE colour_channels colour_channels::spectrum(std::span<const double> wavelengths) {
   if (wavelengths.size() == 1) return grey();
+  const auto is_visible = [](double wavelength) { return wavelength >= 380.0 && wavelength <= 780.0; };
+  if (std::ranges::count_if(wavelengths, is_visible) < 2)
+    gonio::refuse("fewer than two of the wavelengths are visible (380 to 780 nanometres)");
   colour_channels channels(kind::spectrum, wavelengths.size());
   channels.colour_.emplace(wavelengths);
   return channels;
