@@ -1,6 +1,7 @@
 // The bodies of io/, but for what image.cpp and shape_io.cpp have.
 
 #include <gonio/io/impl/astm_e1392.ipp>
+#include <gonio/io/impl/bird.ipp>
 #include <gonio/io/impl/byte_stream.ipp>
 #include <gonio/io/impl/camera_calibration.ipp>
 #include <gonio/io/impl/capture_constraint.ipp>
@@ -9,6 +10,7 @@
 #include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
+#include <gonio/io/impl/json_reader.ipp>
 #include <gonio/io/impl/merl.ipp>
 #include <gonio/io/impl/merl_directory.ipp>
 #include <gonio/io/impl/merl_gzip.ipp>

@@ -2,6 +2,7 @@
 
 #include "file_start.hpp"
 #include <gonio/io/astm_e1392.hpp>
+#include <gonio/io/bird.hpp>
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/zemax_bsdf.hpp>
 
@@ -11,7 +12,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 3> kinds{{
+constexpr std::array<measurement_kind, 4> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"ASTM E1392",
@@ -19,6 +20,8 @@ constexpr std::array<measurement_kind, 3> kinds{{
        return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
      },
      gonio::io::read_astm_e1392},
+    {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
+     gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
      gonio::io::read_cornell},
 }};

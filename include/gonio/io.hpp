@@ -5,6 +5,7 @@
 
 #include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/believable.hpp>
+#include <gonio/io/bird.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/camera_calibration.hpp>
 #include <gonio/io/capture_constraint.hpp>
@@ -13,6 +14,7 @@
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
+#include <gonio/io/json_reader.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
