@@ -2,6 +2,7 @@
 
 #include <gonio/io/impl/astm_e1392.ipp>
 #include <gonio/io/impl/bird.ipp>
+#include <gonio/io/impl/bird_data.ipp>
 #include <gonio/io/impl/byte_stream.ipp>
 #include <gonio/io/impl/camera_calibration.ipp>
 #include <gonio/io/impl/capture_constraint.ipp>
@@ -30,6 +31,7 @@
 #include <gonio/io/impl/setup_text.ipp>
 #include <gonio/io/impl/soft_specular_prior.ipp>
 #include <gonio/io/impl/sphere_setup.ipp>
+#include <gonio/io/impl/ssdd.ipp>
 #include <gonio/io/impl/table_npy.ipp>
 #include <gonio/io/impl/text.ipp>
 #include <gonio/io/impl/words.ipp>

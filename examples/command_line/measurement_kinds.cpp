@@ -4,6 +4,7 @@
 #include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/bird.hpp>
 #include <gonio/io/cornell.hpp>
+#include <gonio/io/ssdd.hpp>
 #include <gonio/io/zemax_bsdf.hpp>
 
 #include <array>
@@ -12,9 +13,11 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 4> kinds{{
+constexpr std::array<measurement_kind, 5> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
+    {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
+     gonio::io::read_ssdd},
     {"ASTM E1392",
      [](std::string_view extension, std::string_view start) {
        return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);

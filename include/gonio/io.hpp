@@ -35,6 +35,7 @@
 #include <gonio/io/setup_text.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/ssdd.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/io/words.hpp>

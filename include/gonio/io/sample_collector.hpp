@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -44,6 +45,9 @@ void require_float_range(double reflectance, const text_place& place);
 /// Is the direction above the horizon by more than the rounding of angles? Tables go to 90 degrees, where nothing can
 /// be measured, and those about the specular direction go on below.
 [[nodiscard]] inline bool is_above_horizon(const direction& w) noexcept { return w.z() > 1e-6; }
+
+/// Which of azimuths, in degrees, are not the same as one before, or a turn apart. O(n log n).
+[[nodiscard]] std::vector<bool> are_new_azimuths(std::span<const double> azimuths);
 
 /// Collects samples, but those at or below the horizon.
 class sample_collector {

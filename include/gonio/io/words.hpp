@@ -1,5 +1,6 @@
 #pragma once
-/// Text files of words and numbers, whatever lines they stand in. Lines that start with # are comments.
+/// Text files of words and numbers, whatever lines they stand in. Comments are lines that start with #, and what
+/// follows a word that is # alone.
 
 #include <gonio/io/text.hpp>
 
@@ -39,9 +40,15 @@ class word_reader {
   /// The words that are left on the line of the last one.
   [[nodiscard]] std::string_view take_rest_of_line();
 
+  /// As many bytes of so many each as follow the line of the last word, whatever they are.
+  [[nodiscard]] std::string_view take_bytes(std::size_t count, std::size_t of_each);
+
   [[nodiscard]] text_place& place() const noexcept { return place_; }
 
  private:
+  [[nodiscard]] bool is_at_end_of_line() const noexcept {
+    return line_.empty() || line_ == "#" || line_.starts_with("# ");
+  }
   [[nodiscard]] double ranged(std::string_view word, std::string_view what, double lowest, double highest) const;
 
   std::string_view text_, line_;

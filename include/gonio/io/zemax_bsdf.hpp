@@ -35,8 +35,6 @@ class zemax_bsdf_parser {
   void read_scatter_type();
   void require_lists() const;
   [[nodiscard]] plane read_plane();
-  /// Which azimuths are not the same as one before, a turn apart.
-  [[nodiscard]] std::vector<std::size_t> distinct_azimuths() const;
   [[nodiscard]] sample_set samples(const std::vector<plane>& planes) const;
 
   word_reader words_;

@@ -11,9 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace gonio::io::detail {
 
@@ -37,6 +39,18 @@ GONIO_INLINE rgb colour_channels::operator()(std::span<const double> values) con
 GONIO_INLINE void require_float_range(double reflectance, const text_place& place) {
   if (std::abs(reflectance) > double{std::numeric_limits<float>::max()})
     place.refuse({shortest(reflectance), " sr^-1 is beyond the range of float"});
+}
+
+GONIO_INLINE std::vector<bool> are_new_azimuths(std::span<const double> azimuths) {
+  constexpr double millionths = 1e6, turn = 360.0;
+  std::set<long long> known;
+  std::vector<bool> are_new;
+  for (const double azimuth : azimuths) {
+    const double within_turn = azimuth - turn * std::floor(azimuth / turn);
+    const long long rounded = std::llround(millionths * within_turn);
+    are_new.push_back(known.insert(rounded == std::llround(millionths * turn) ? 0 : rounded).second);
+  }
+  return are_new;
 }
 
 GONIO_INLINE void sample_collector::add(const direction_pair& pair, const rgb& value, double weight) {

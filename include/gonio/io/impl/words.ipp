@@ -16,7 +16,8 @@
 namespace gonio::io::detail {
 
 GONIO_INLINE std::string_view word_reader::peek() {
-  if (line_.empty() && !next_line(text_, place_, line_)) line_ = {};  // the last line may be a comment
+  while (is_at_end_of_line())
+    if (!next_line(text_, place_, line_)) return line_ = {};  // the last line may be a comment
   return line_.substr(0, line_.find_first_of(" \t"));
 }
 
@@ -68,10 +69,20 @@ GONIO_INLINE std::vector<double> word_reader::take_line(std::string_view what, d
   std::vector<double> numbers;
   do {
     numbers.push_back(ranged(take(what), what, lowest, highest));
-  } while (!line_.empty());
+  } while (!is_at_end_of_line());
   return numbers;
 }
 
 GONIO_INLINE std::string_view word_reader::take_rest_of_line() { return std::exchange(line_, {}); }
+
+GONIO_INLINE std::string_view word_reader::take_bytes(std::size_t count, std::size_t of_each) {
+  line_ = {};
+  if (count > text_.size() / of_each)
+    gonio::refuse({place_.name, ": has ", text_.size(), " bytes after line ", place_.line, ", expected ", count,
+                   " times ", of_each});
+  const std::string_view bytes = text_.substr(0, count * of_each);
+  text_.remove_prefix(bytes.size());
+  return bytes;
+}
 
 }  // namespace gonio::io::detail

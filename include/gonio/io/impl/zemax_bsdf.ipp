@@ -104,30 +104,19 @@ GONIO_INLINE zemax_bsdf_parser::plane zemax_bsdf_parser::read_plane() {
   return values;
 }
 
-GONIO_INLINE std::vector<std::size_t> zemax_bsdf_parser::distinct_azimuths() const {
-  std::vector<std::size_t> distinct;
-  for (std::size_t i = 0; i < azimuths_.size(); ++i) {
-    const auto is_same = [&](std::size_t k) {
-      return std::abs(std::remainder(azimuths_[i] - azimuths_[k], 360.0)) < 1e-6;
-    };
-    if (std::ranges::none_of(distinct, is_same)) distinct.push_back(i);
-  }
-  return distinct;
-}
-
 GONIO_INLINE sample_set zemax_bsdf_parser::samples(const std::vector<plane>& planes) const {
   const colour_channels channels = is_tristimulus_ ? colour_channels::xyz() : colour_channels::grey();
-  const std::vector<std::size_t> azimuths = distinct_azimuths();
+  const std::vector<bool> are_new = are_new_azimuths(azimuths_);
   const std::size_t columns = radials_.size(), block = azimuths_.size() * columns;
   std::array<double, 3> values{};
   sample_collector collector;
   for (std::size_t b = 0; b < rotations_.size() * incidences_.size(); ++b) {
     const double theta = radians(incidences_[b % incidences_.size()]);
     const double phi = radians(rotations_[b / incidences_.size()]);
-    for (const std::size_t row : azimuths)
+    for (std::size_t row = 0; row < azimuths_.size(); ++row)
       for (std::size_t column = 0; column < columns; ++column) {
         const double radial = radians(radials_[column]);
-        if (radial == 0.0 && row != azimuths.front()) continue;  // the specular direction, which every row has
+        if (!are_new[row] || (radial == 0.0 && row > 0)) continue;  // the specular direction is in every row
         for (std::size_t c = 0; c < planes.size(); ++c) values[c] = planes[c][b * block + row * columns + column];
         const direction wo = about_specular(theta, phi, radial, radians(azimuths_[row]));
         collector.add({spherical_direction(theta, phi), wo}, channels({values.data(), channels.size()}));
