@@ -1,5 +1,8 @@
 // The bodies of io/, but for what image.cpp and shape_io.cpp have.
 
+#include <gonio/io/impl/astm_e1392.ipp>
+#include <gonio/io/impl/bird.ipp>
+#include <gonio/io/impl/bird_data.ipp>
 #include <gonio/io/impl/byte_stream.ipp>
 #include <gonio/io/impl/camera_calibration.ipp>
 #include <gonio/io/impl/capture_constraint.ipp>
@@ -8,6 +11,7 @@
 #include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
+#include <gonio/io/impl/json_reader.ipp>
 #include <gonio/io/impl/merl.ipp>
 #include <gonio/io/impl/merl_directory.ipp>
 #include <gonio/io/impl/merl_gzip.ipp>
@@ -21,10 +25,14 @@
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>
 #include <gonio/io/impl/rules.ipp>
+#include <gonio/io/impl/sample_collector.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
 #include <gonio/io/impl/setup_text.ipp>
 #include <gonio/io/impl/soft_specular_prior.ipp>
 #include <gonio/io/impl/sphere_setup.ipp>
+#include <gonio/io/impl/ssdd.ipp>
 #include <gonio/io/impl/table_npy.ipp>
 #include <gonio/io/impl/text.ipp>
+#include <gonio/io/impl/words.ipp>
+#include <gonio/io/impl/zemax_bsdf.ipp>

@@ -3,6 +3,7 @@
 #include "command_line/component_figure.hpp"
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
+#include "command_line/measurement_kinds.hpp"
 #include "command_line/measures_as_json.hpp"
 #include "command_line/prior_material.hpp"
 #include "command_line/threads_option.hpp"
@@ -136,7 +137,7 @@ json describe_file(const info_options& options) {
   const std::filesystem::path& path = options.file;
   if (options.asks_for_prior()) return describe_prior(options);
   const std::string name = path.filename().string();
-  if (name.ends_with(".csv") || name.ends_with(".brdf")) return describe(read_measurements(path));
+  if (name.ends_with(".csv") || measurement_kind_of(path) != nullptr) return describe(read_measurements(path));
   if (name.ends_with(".npy")) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};

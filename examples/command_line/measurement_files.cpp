@@ -1,6 +1,6 @@
 #include "measurement_files.hpp"
 
-#include <gonio/io/cornell.hpp>
+#include "measurement_kinds.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/table_npy.hpp>
@@ -8,7 +8,8 @@
 namespace cli {
 
 gonio::sample_set read_measurements(const std::filesystem::path& path) {
-  return path.extension() == ".brdf" ? gonio::io::read_cornell(path) : gonio::io::read_samples(path);
+  if (const measurement_kind* kind = measurement_kind_of(path)) return kind->read(path);
+  return gonio::io::read_samples(path);
 }
 
 std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Files whose format is told from their name.
+/// Files whose format is told from their name or their beginning.
 
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -9,7 +9,7 @@
 
 namespace cli {
 
-/// Measurements: samples as CSV, or if the name ends in .brdf, Cornell's text format.
+/// Measurements: samples as CSV, or in a format of the field that is recognised (measurement_kinds.hpp).
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path);
 
 /// Which samples of a file count, by their positions.

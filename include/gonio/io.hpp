@@ -3,7 +3,9 @@
 /// data (io/exr.hpp, io/tiff.hpp, io/exif.hpp, which need OpenEXR, libtiff and libexif) and those of shapes
 /// (shape.hpp).
 
+#include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/believable.hpp>
+#include <gonio/io/bird.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/camera_calibration.hpp>
 #include <gonio/io/capture_constraint.hpp>
@@ -12,6 +14,7 @@
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
+#include <gonio/io/json_reader.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -26,10 +29,14 @@
 #include <gonio/io/renderer_material.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/rules.hpp>
+#include <gonio/io/sample_collector.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/setup_text.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
 #include <gonio/io/sphere_setup.hpp>
+#include <gonio/io/ssdd.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/io/words.hpp>
+#include <gonio/io/zemax_bsdf.hpp>

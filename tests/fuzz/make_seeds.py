@@ -168,6 +168,29 @@ put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1
 put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")
 put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
 put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")
+zemax = "# made up\nSource Measured\nSymmetry PlaneSymmetrical\nSpectralContent %s\nScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 2\n0 40\nScatterAzimuth 2\n0 180\nScatterRadial 2\n0 30\n\n"
+blocks = "%s\nDataBegin\nTIS 0.5\n1 2\n3 4\nTIS 0.5\n5 6\n7 8.5e-1\nDataEnd\n"
+put("zemax_bsdf", "grey.bsdf", zemax % "Monochrome" + blocks % "Monochrome")
+put("zemax_bsdf", "colour.bsdf", zemax % "XYZ" + "".join(blocks % f"Tristimulus{axis}" for axis in "XYZ"))
+for columns, row in (("R,G,B", "1,2,-3"), ("450nm,550nm,650nm", ".1,.2,.4"), ("BRDF", "1e-3")):
+    put("astm_e1392", columns[:3] + ".astm", f"SAMPLE made up\nNUM_POINTS 1\nVARS theta_i,phi_i,theta_s,phi_s,{columns}\n0.5,0,0.25,3.1,{row}\n")
+ssdd = "VERSION 0.3\nSOFTWARE made up\n\nDATA_TYPE brdf\nCOLOR_MODEL %s\nPARAM_TYPE %s_coordinate_system\nPARAM0_LIST 0 40\nPARAM2_LIST 0 30\nPARAM3_LIST 0 180 360\nDATA %s\n"
+for kind in ("spherical", "specular", "half_difference"):
+    put("ssdd", kind + ".ssdd", ssdd % ("monochrome", kind, "ascii") + "# numbers\n" + "1\n" * 12 + "DATA_TYPE specular_reflectance\nCOLOR_MODEL monochrome\nPARAM0_LIST 0\nDATA ascii\n.5\n")
+put("ssdd", "binary.ssdd", (ssdd % ("rgb", "spherical", "binary")).encode() + struct.pack("<36f", *(0.1 * i for i in range(36))))
+put("ssdd", "spectrum.ssdd", ssdd.replace("PARAM_TYPE", "WAVELENGTH_LIST 450 650\nPARAM_TYPE") % ("spectrum", "spherical", "ascii") + "1 2\n" * 12)
+
+
+def bird(more="", **columns):
+    values = {"theta_i": "30,30,0", "phi_i": "0,0,0", "theta_r": "60,60,45", "phi_r": "180,180,90", **columns}
+    entries = [f'"{name}":{{"unit":"deg","values":[{v}]}}' for name, v in values.items()]
+    entries.append('"BRDF":{"unit":"sr^-1","values":[0.1,0.3,0.5],"uncertainty":{"value":1,"unit":"%"}}')
+    return '{"metadata":{"type":"BRDF","list":[1,true,null,"\\u00b0"]},"data":{' + ",".join(entries) + more + "}}"
+
+
+put("bird", "plain.json", bird())
+put("bird", "spectral.json", bird(',"wavelength_i":{"unit":"nm","values":[450,650,550]},"uBRDF":{"unit":"%","values":[1,1,2]}'))
+put("bird", "polarised.json", bird(',"polarization_i":{"notation":"sp","values":["s","p",[1,0,0,0]]},"adhoc_variables":{"t":{"values":[1,1,1]}}'))
 put("cornell", "two.brdf", "2\n400\n700\n0 0 0 0 0.5 0.25\n")
 put("capture_constraint", "all.txt", "# rules\nlight 0 75\nviewer 0 80\nseparation 15 # degrees\nlight_step 7.5 0.5\nforbid 60 90 60 90\n")
 put("capture_constraint", "step.txt", "light_step 7.5\n")
@@ -222,6 +245,10 @@ words = {
     "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
     "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],
     "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF'],
+    "zemax_bsdf": ['Source', 'Measured', 'Symmetry', 'SpectralContent', 'Monochrome', 'XYZ', 'TristimulusX', 'ScatterType', 'BRDF', 'SampleRotation', 'AngleOfIncidence', 'ScatterAzimuth', 'ScatterRadial', 'DataBegin', 'DataEnd', 'TIS', '1000000', '1e308', '-360', '180', 'nan', '#', '\\x0A'],
+    "astm_e1392": ['NUM_POINTS', 'VARS ', 'theta_i,phi_i,theta_s,phi_s,', 'R,G,B', 'X,Y,Z', '400nm', '700nm', 'BRDF', '1.5707', '6.2831', '1e308', 'nan', '#', ',', '\\x0A'],
+    "ssdd": ['VERSION 0.3', 'DATA_TYPE', 'brdf', 'btdf', 'specular_reflectance', 'COLOR_MODEL', 'monochrome', 'rgb', 'xyz', 'spectrum', 'WAVELENGTH_LIST', 'PARAM_TYPE', 'spherical_coordinate_system', 'specular_coordinate_system', 'half_difference_coordinate_system', 'REDUCTION_TYPE', 'PARAM0_LIST', 'PARAM1_LIST', 'PARAM2_LIST', 'PARAM3_LIST', 'PARAM4_LIST', 'DATA', 'ascii', 'binary', '1e308', '360', 'nan', '# ', '\\x0A', '\\x00\\x00\\x80\\x7F'],
+    "bird": ['"metadata"', '"data"', '"theta_i"', '"phi_i"', '"theta_r"', '"phi_r"', '"BRDF"', '"uBRDF"', '"wavelength_i"', '"wavelength_r"', '"polarization_i"', '"polarization_r"', '"adhoc_variables"', '"unit"', '"values"', '"uncertainty"', '"value"', '"deg"', '"rad"', '"sr^-1"', '"%"', '"nm"', '"s"', '"p"', '"u"', '[1,-1,0,0]', '{', '}', '[', ']', ':', ',', '1e308', 'null', '\\\\u001b', '\\\\ud83d'],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
     "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
     "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'field_of_view', 'distortion', 'white_reflectance', 'white_plane', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],

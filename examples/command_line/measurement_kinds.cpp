@@ -1,0 +1,41 @@
+#include "measurement_kinds.hpp"
+
+#include "file_start.hpp"
+#include <gonio/io/astm_e1392.hpp>
+#include <gonio/io/bird.hpp>
+#include <gonio/io/cornell.hpp>
+#include <gonio/io/ssdd.hpp>
+#include <gonio/io/zemax_bsdf.hpp>
+
+#include <array>
+
+namespace cli {
+
+namespace {
+
+constexpr std::array<measurement_kind, 5> kinds{{
+    {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
+     gonio::io::read_zemax_bsdf},
+    {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
+     gonio::io::read_ssdd},
+    {"ASTM E1392",
+     [](std::string_view extension, std::string_view start) {
+       return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
+     },
+     gonio::io::read_astm_e1392},
+    {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
+     gonio::io::read_bird},
+    {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
+     gonio::io::read_cornell},
+}};
+
+}  // namespace
+
+const measurement_kind* measurement_kind_of(const std::filesystem::path& path) {
+  const std::string start = file_start(path), extension = lower_extension(path);
+  for (const measurement_kind& kind : kinds)
+    if (kind.recognises(extension, start)) return &kind;
+  return nullptr;
+}
+
+}  // namespace cli

@@ -1,0 +1,23 @@
+#pragma once
+/// The kinds of files that hold samples, and what each is recognised by.
+
+#include <gonio/table/sample_set.hpp>
+
+#include <filesystem>
+#include <string_view>
+
+namespace cli {
+
+/// A kind of file of samples other than CSV.
+struct measurement_kind {
+  std::string_view name;
+  /// By the name's extension, in lower case, and the first 4096 bytes.
+  bool (*recognises)(std::string_view extension, std::string_view start);
+  gonio::sample_set (*read)(const std::filesystem::path& path);
+};
+
+/// Of which kind a file is; null where none recognises it: samples as CSV, or something else. Throws gonio::error if
+/// the file cannot be read.
+[[nodiscard]] const measurement_kind* measurement_kind_of(const std::filesystem::path& path);
+
+}  // namespace cli
