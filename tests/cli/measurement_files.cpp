@@ -102,13 +102,16 @@ TEST_CASE("the likely mistakes get the right sentences") {
 
 TEST_CASE("a file from a spreadsheet is read as it is") {
   const one_file file;
-  const std::string scan =
+  std::string scan =
       "\xEF\xBB\xBF# Instrument: GON 360\r\nEinfall;\"Winkel [deg]\";phi_i;phi_o;Messwert;Temperatur\r\n"
       "45;-45,5;0;0;31,4%;23,1\r\n45;20;0;0;12,5%;23,1\r\n";
+  for (const char* row :
+       {"45;0;0;0;12,9%;23,1", "45;-20;0;0;13,8%;23,1", "45;-35;0;0;22%;23,1", "45;60;0;0;13,1%;23,1"})
+    scan += row + std::string("\r\n");
   const std::string columns = " --columns theta_i=Einfall,theta_o=Winkel --columns value=Messwert";
   const std::string output = file.info(scan, columns);
   CAPTURE(output);
-  for (const char* words : {"samples: 2", "quantity: percent", "instrument: GON 360", "column 'Temperatur' is ignored"})
+  for (const char* words : {"samples: 6", "quantity: percent", "instrument: GON 360", "column 'Temperatur' is ignored"})
     CHECK(output.find(words) != std::string::npos);
   CHECK(output.find("maximum: [0.0999") != std::string::npos);  // 0.314 / pi
   // The same in every command that reads samples, and in JSON.

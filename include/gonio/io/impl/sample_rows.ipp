@@ -83,9 +83,13 @@ GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   if (fields_.size() != columns.size()) refuse_size(line);
   std::size_t percent_signs = 0;
   for (std::size_t i = 0; i < fields_.size(); ++i) {
-    if (columns[i] < quantity_column)
-      read_number_of(columns[i], fields_[i], percent_signs);
-    else if (columns[i] == quantity_column)
+    const std::size_t column = columns[i];
+    // A plain number with a decimal point, which nearly all are, is read at once.
+    const bool is_number = column < quantity_column;
+    if (is_number && dialect_.decimal_mark == '.' && read_number(fields_[i], numbers_[column]) == nullptr) continue;
+    if (is_number)
+      read_number_of(column, fields_[i], percent_signs);
+    else if (column == quantity_column)
       read_quantity(fields_[i]);
   }
   for (const std::size_t column : header_.columns_in_radians()) numbers_[column] = degrees(numbers_[column]);
