@@ -10,6 +10,7 @@
 #include <gonio/core/impl/probability.ipp>
 #include <gonio/core/impl/random.ipp>
 #include <gonio/core/impl/rotation.ipp>
+#include <gonio/core/impl/spelling.ipp>
 
 namespace gonio::detail {
 

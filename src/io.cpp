@@ -8,6 +8,7 @@
 #include <gonio/io/impl/capture_constraint.ipp>
 #include <gonio/io/impl/checked_file.ipp>
 #include <gonio/io/impl/cornell.ipp>
+#include <gonio/io/impl/csv_dialect.ipp>
 #include <gonio/io/impl/exposure_times.ipp>
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
@@ -26,6 +27,10 @@
 #include <gonio/io/impl/rgl.ipp>
 #include <gonio/io/impl/rules.ipp>
 #include <gonio/io/impl/sample_collector.ipp>
+#include <gonio/io/impl/sample_header.ipp>
+#include <gonio/io/impl/sample_provenance.ipp>
+#include <gonio/io/impl/sample_quantity.ipp>
+#include <gonio/io/impl/sample_rows.ipp>
 #include <gonio/io/impl/samples.ipp>
 #include <gonio/io/impl/scan_journal.ipp>
 #include <gonio/io/impl/setup_text.ipp>

@@ -24,6 +24,7 @@ namespace {
 
 struct check_options {
   std::filesystem::path part, reference, prior;
+  measurement_options reading;
   std::optional<double> noise, reference_noise;
   double dark_noise = 0.0, tolerance = 0.0, false_alarms = 0.01, same_within = 0.01;
   bool print_json = false;
@@ -36,9 +37,9 @@ struct measured_surface {
   std::vector<Eigen::Index> numbers;  ///< from 1
   gonio::located_samples located;
 
-  measured_surface(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
-                   gonio::thread_count threads) {
-    const gonio::sample_set all = read_measurements(path);
+  measured_surface(const std::filesystem::path& path, const measurement_options& reading,
+                   const gonio::log_relative_pca& prior, gonio::thread_count threads) {
+    const gonio::sample_set all = read_measurements(path, reading);
     for (const Eigen::Index i : counting_samples(all)) {
       counting.push_back(all[i]);
       numbers.push_back(i + 1);
@@ -191,7 +192,8 @@ void print_as_json(const check_options& given, const check_result& result, const
 /// Says whether the part conforms.
 bool check_files(const check_options& given) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
-  const measured_surface part(given.part, prior, given.threads), reference(given.reference, prior, given.threads);
+  const measured_surface part(given.part, given.reading, prior, given.threads),
+      reference(given.reference, given.reading, prior, given.threads);
   const check_result result = check_part(given, part, reference, prior);
   if (given.print_json)
     print_as_json(given, result, part);
@@ -236,6 +238,7 @@ void add_check(command& app) {
                  "Measurements of the reference, in the same directions or in others; what is measured in both is "
                  "compared with the certainty of the noise")
       .required();
+  add_measurement_options(command, options->reading);
   add_noise_options(command, *options);
   command
       .add_option("--tolerance", options->tolerance,

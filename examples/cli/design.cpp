@@ -23,6 +23,7 @@ namespace {
 
 struct design_command {
   std::filesystem::path prior, constraint, start, given, output;
+  measurement_options reading;  ///< of --given
   design_options design;
   double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
   Eigen::Index published = 0;  ///< of how many measurements; 0: none
@@ -46,7 +47,7 @@ void require_given_alone(const design_command& command) {
 /// The next measurements beside samples that were made, by what these read.
 void run_given(const design_command& command) {
   require_given_alone(command);
-  const gonio::sample_set samples = read_measurements(command.given);
+  const gonio::sample_set samples = read_measurements(command.given, command.reading);
   const gonio::discrepancy_decomposition estimator{
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
@@ -104,11 +105,12 @@ void run(design_command command) {
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
   if (!command.given.empty()) return run_given(command);
+  if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
   command.design.near_field.step = gonio::radians(command.step);
   command.design.angular_error = gonio::radians(command.angular_error);
-  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start);
+  if (!command.start.empty()) command.design.start = gonio::io::read_direction_pairs(command.start, reading_of());
   const designed found =
       is_published ? set_of_the_literature(prior, command) : design(prior, command.design, bar.listener());
   gonio::io::write_direction_pairs(command.output, found.poses);
@@ -192,6 +194,7 @@ void add_design(command& app) {
   command.add_input("--given", options->given,
                     "Samples that were measured (.csv): the next ones by what these read, so that the reconstruction "
                     "errs least as seen on spheres");
+  add_measurement_options(command, options->reading);
   // Declare what needs no search.
   command
       .add_option("--published", options->published,

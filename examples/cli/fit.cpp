@@ -20,6 +20,7 @@ namespace cli {
 namespace {
 
 struct fit_command_options {
+  measurement_options reading;
   std::filesystem::path measurements, output, image, pbrt, mitsuba;
   std::string model = "ggx", metric = "log";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
@@ -55,8 +56,11 @@ void fit(const fit_command_options& options) {
   // Read the measurements, and fit the model under the metric.
   std::optional<gonio::brdf_table> table;
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
+  if (table) require_unused(options.reading, options.measurements);
+  gonio::io::sample_file measured;
+  if (!table) measured = read_measurement_file(options.measurements, options.reading);
   const auto observations = table ? gonio::model::fit_observations(*table, options.fit.threads, options.cell_weights)
-                                  : gonio::model::fit_observations(read_measurements(options.measurements));
+                                  : gonio::model::fit_observations(measured.samples);
   const gonio::model::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
 
   // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
@@ -79,11 +83,11 @@ void fit(const fit_command_options& options) {
   }
   // Print the fit.
   if (!options.print_json) return print(found, observations.size());
-  std::cout << json{{"measurements", observations.size()},  {"loss", found.loss},
-                    {"evaluations", found.evaluations},     {"converged", found.converged},
-                    {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}}
-                   .dump(2)
-            << '\n';
+  json all{{"measurements", observations.size()},  {"loss", found.loss},
+           {"evaluations", found.evaluations},     {"converged", found.converged},
+           {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}};
+  all.update(facts_of(measured));
+  std::cout << all.dump(2) << '\n';
 }
 
 }  // namespace
@@ -96,6 +100,7 @@ void add_fit(command& app) {
       .add_input("measurements", options->measurements,
                  "Samples (.csv, or .brdf in Cornell's text format) or a table (.binary or .binary.gz)")
       .required();
+  add_measurement_options(command, options->reading);
   std::string names;
   for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
     names += (names.empty() ? "" : ", ") + std::string(kind->name());

@@ -28,6 +28,7 @@ namespace {
 struct info_options {
   std::filesystem::path file, components, component_spheres;
   std::string weights_of;
+  measurement_options reading;
   Eigen::Index count = 5;
   int size = 128;
   bool print_json = false;
@@ -84,14 +85,17 @@ json describe(const gonio::soft_specular_prior& prior) {
   return result;
 }
 
-json describe(const gonio::sample_set& samples) {
+json describe(const gonio::io::sample_file& measured) {
+  const gonio::sample_set& samples = measured.samples;
   gonio::rgb low = samples.front().value, high = low;
   for (const gonio::sample& s : samples) {
     low = low.min(s.value);
     high = high.max(s.value);
   }
-  return {
+  json result{
       {"kind", "samples"}, {"samples", samples.size()}, {"minimum", per_channel(low)}, {"maximum", per_channel(high)}};
+  result.update(facts_of(measured));
+  return result;
 }
 
 json array_of(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
@@ -135,9 +139,13 @@ json describe_prior(const info_options& options) {
 /// By what the file starts with or how its name ends.
 json describe_file(const info_options& options) {
   const std::filesystem::path& path = options.file;
-  if (options.asks_for_prior()) return describe_prior(options);
+  if (options.asks_for_prior()) {
+    require_unused(options.reading, path);
+    return describe_prior(options);
+  }
   const std::string name = path.filename().string();
-  if (name.ends_with(".csv") || measurement_kind_of(path) != nullptr) return describe(read_measurements(path));
+  if (holds_measurements(path)) return describe(read_measurement_file(path, options.reading));
+  require_unused(options.reading, path);
   if (name.ends_with(".npy")) {
     const auto networks = gonio::io::read_networks(path);
     return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
@@ -158,6 +166,7 @@ void add_info(command& app) {
   auto command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
   const auto options = std::make_shared<info_options>();
   command.add_input("file", options->file, "The file").required();
+  add_measurement_options(command, options->reading);
   command.add_output(
       "--components", options->components, {".png"},
       "Of a prior: image to write (.png) of slices at phi_d = 90 degrees, theta_h to the right and theta_d upwards: "

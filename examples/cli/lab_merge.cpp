@@ -5,6 +5,7 @@
 #include "cli/frame_files.hpp"
 #include "command_line/fixed.hpp"
 #include "command_line/threads_option.hpp"
+#include "command_line/warning.hpp"
 #include "lab.hpp"
 #include "lab/photographs.hpp"
 #include <gonio/capture/merged_frames.hpp>
@@ -116,9 +117,9 @@ void report(const gonio::capture::merged_frames& merged, const gonio::capture::d
             << " saturated\n";
   constexpr Eigen::Index one_in = 20;
   if (one_in * merged.count(value_state::contradictory) > std::ssize(merged.states) / 3)
-    std::cerr
-        << "gonio: warning: the exposures of many pixels contradict each other: the noise is larger than --read-noise, "
-           "--shot-noise and --flicker say, the response is another one, or something moved\n";
+    warn(
+        "the exposures of many pixels contradict each other: the noise is larger than --read-noise, --shot-noise and "
+        "--flicker say, the response is another one, or something moved");
   constexpr std::size_t most_named = 20;
   const auto& hot = dark.hot_pixels();
   for (std::size_t i = 0; i < std::min(hot.size(), most_named); ++i)

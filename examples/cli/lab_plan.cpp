@@ -2,6 +2,7 @@
 
 #include "command_line/fixed.hpp"
 #include "command_line/machine_choice.hpp"
+#include "command_line/measurement_files.hpp"
 #include "lab.hpp"
 #include <gonio/capture/scan.hpp>
 #include <gonio/capture/trajectory.hpp>
@@ -56,7 +57,7 @@ timed_plan plan_of(const plan_command& options) {
     if (options.machine.name != "robot") gonio::refuse("--whole requires --machine robot");
     return whole_hemisphere(lab::robot(room, gonio::radians(options.machine.tolerance)));
   }
-  const auto pairs = gonio::io::read_direction_pairs(options.directions);
+  const auto pairs = gonio::io::read_direction_pairs(options.directions, reading_of());
   timed_plan result;
   result.plan = with_machine(options.machine, room,
                              [&](const auto& machine) { return gonio::capture::plan_scan(machine, pairs); });

@@ -4,6 +4,7 @@
 #include "adaptive_scan.hpp"
 #include "command_line/json.hpp"
 #include "command_line/machine_choice.hpp"
+#include "command_line/measurement_files.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
 #include "lab.hpp"
@@ -160,7 +161,7 @@ void run(const scan_command& options) {
   if (options.adaptive && options.choice.reference.empty())
     gonio::refuse("--adaptive needs --reference, a scan of the white reference by the same machine");
   if (!options.adaptive && !options.choice.reference.empty()) gonio::refuse("--reference needs --adaptive");
-  const auto poses = gonio::io::read_direction_pairs(options.plan);
+  const auto poses = gonio::io::read_direction_pairs(options.plan, reading_of());
   lab::dark_room room = room_of(options);
   with_machine(options.machine, room, [&](auto& machine) {
     if (options.adaptive) return scan_adaptively(options, machine, poses);

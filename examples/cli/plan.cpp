@@ -2,6 +2,7 @@
 
 #include "command_line/fixed.hpp"
 #include "command_line/json.hpp"
+#include "command_line/measurement_files.hpp"
 #include "commands.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/samples.hpp>
@@ -121,7 +122,7 @@ gonio::image drawing_of(const std::vector<pose>& poses) {
 
 void run(const plan_options& options) {
   std::vector<pose> poses;
-  for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(options.directions))
+  for (const gonio::direction_pair& pair : gonio::io::read_direction_pairs(options.directions, reading_of()))
     poses.push_back(to_pose(pair));
   if (!options.image.empty()) gonio::io::write_png(options.image, drawing_of(poses));
   if (options.print_json)

@@ -22,6 +22,7 @@ namespace {
 
 struct properties_options {
   std::filesystem::path file;
+  measurement_options reading;
   double tolerance = 0.5;
   bool print_json = false;
   gonio::thread_count threads;
@@ -115,7 +116,8 @@ json to_json(const gonio::model::equal_samples& equal) {
 
 /// Samples have no integral; what they have is pairs that ought to be equal.
 json properties_of_samples(const properties_options& options) {
-  const gonio::sample_set samples = read_measurements(options.file);
+  const gonio::io::sample_file measured = read_measurement_file(options.file, options.reading);
+  const gonio::sample_set& samples = measured.samples;
   const auto symmetries = gonio::model::compare_equal_samples(samples, gonio::radians(options.tolerance));
   Eigen::Index negative = 0, lowest = 0;
   for (Eigen::Index i = 0; i < std::ssize(samples); ++i) {
@@ -123,6 +125,7 @@ json properties_of_samples(const properties_options& options) {
     if (samples[i].value.minCoeff() < samples[lowest].value.minCoeff()) lowest = i;
   }
   json all{{"kind", "samples"}};
+  all.update(facts_of(measured));
   all["negative"] = {{"samples", negative},
                      {"of", samples.size()},
                      {"lowest", samples[lowest].value.minCoeff()},
@@ -133,12 +136,9 @@ json properties_of_samples(const properties_options& options) {
   return all;
 }
 
-bool holds_samples(const std::filesystem::path& file) {
-  return file.extension() == ".csv" || file.extension() == ".brdf";
-}
-
 json properties_of_file(const properties_options& options) {
-  if (holds_samples(options.file)) return properties_of_samples(options);
+  if (holds_measurements(options.file)) return properties_of_samples(options);
+  require_unused(options.reading, options.file);
   if (options.file.extension() == ".bsdf") return properties_of_rgl(options.file, options.threads);
   return properties_of_merl(options.file);
 }
@@ -213,6 +213,7 @@ void add_properties(command& app) {
       .add_input("file", options->file,
                  "Table (.binary, .binary.gz or .bsdf) or measurements (.csv, or .brdf in Cornell's text format)")
       .required();
+  add_measurement_options(command, options->reading);
   command
       .add_option("--tolerance", options->tolerance,
                   "Degrees to which the directions of samples must agree to be compared")
@@ -221,7 +222,7 @@ void add_properties(command& app) {
   command.add_flag("--json", options->print_json, "Print as JSON");
   add_threads_option(command, options->threads);
   command.callback([command, options] {
-    if (command.count("--tolerance") > 0 && !holds_samples(options->file))
+    if (command.count("--tolerance") > 0 && !holds_measurements(options->file))
       gonio::refuse("--tolerance needs samples (.csv or .brdf), not " + options->file.string());
     const json all = properties_of_file(*options);
     if (options->print_json)

@@ -8,6 +8,7 @@
 #include "command_line/reconstruct_methods.hpp"
 #include "command_line/sample_warnings.hpp"
 #include "command_line/threads_option.hpp"
+#include "command_line/warning.hpp"
 #include "commands.hpp"
 #include "images.hpp"
 #include "uncertainty_image.hpp"
@@ -110,15 +111,17 @@ void write_history(const std::filesystem::path& path, std::span<const gonio::cor
   gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
 }
 
-void print(const reconstruction& result, std::size_t samples, bool as_json) {
-  for (const std::string& sentence : result.warnings) std::cerr << "gonio: warning: " << sentence << '\n';
+void print(const reconstruction& result, const gonio::io::sample_file& measured, bool as_json) {
+  for (const std::string& sentence : result.warnings) warn(sentence);
   if (as_json) {
-    json all{{"samples", samples}};
+    json all{{"samples", measured.samples.size()}};
+    all.update(facts_of(measured));
     all.update(result.details);
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << samples << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence << '\n';
+  std::cout << measured.samples.size() << " samples" << (result.sentence.empty() ? "" : ", ") << result.sentence
+            << '\n';
 }
 
 void write_sphere(const reconstruct_options& options, const gonio::brdf_table& table, const image_options& how) {
@@ -140,7 +143,8 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
 }
 
 void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {
-  const auto samples = read_measurements(options.samples);
+  const gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
+  const gonio::sample_set& samples = measured.samples;
   reconstruction result = chosen.reconstruct(options, samples);
   std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
   if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
@@ -157,7 +161,7 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
     gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
     write_history(options.iteration_figure / "history.csv", result.history);
   }
-  print(result, samples.size(), options.print_json);
+  print(result, measured, options.print_json);
 }
 
 void add_method_option(command& to, std::string& name) {
@@ -197,6 +201,7 @@ void add_reconstruct(command& app) {
   const auto how = std::make_shared<image_options>();
   // Declare the samples and the method.
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
+  add_measurement_options(command, options->reading);
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);

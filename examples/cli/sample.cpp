@@ -1,5 +1,6 @@
 /// gonio sample: a simulated measurement of a table.
 
+#include "command_line/measurement_files.hpp"
 #include "commands.hpp"
 #include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -20,7 +21,8 @@ struct sample_options {
 };
 
 std::vector<Eigen::Index> chosen_cells(const sample_options& options, const gonio::valid_cells& cells) {
-  if (!options.directions.empty()) return gonio::cells_at(cells, gonio::io::read_directions(options.directions));
+  if (!options.directions.empty())
+    return gonio::cells_at(cells, gonio::io::read_directions(options.directions, reading_of()));
   const Eigen::Index count = options.count != 0 ? options.count : gonio::share_of(cells.size(), options.ratio);
   return gonio::random_cells(cells, count, options.seed);
 }

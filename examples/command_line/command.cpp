@@ -2,9 +2,9 @@
 
 #include "declared_files.hpp"
 #include "negative_answer.hpp"
-#include "spelling.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/core/spelling.hpp>
 #include <gonio/io/file.hpp>
 
 #include <CLI/CLI.hpp>
@@ -303,7 +303,7 @@ std::string unknown_word(const CLI::App& all, int argc, char** argv) {
   const CLI::App* at = &all;
   std::string path = all.get_name();
   const auto sentence = [&](const std::string& word, const char* kind, const std::vector<std::string>& known) {
-    const auto meant = nearest_word(word, known);
+    const auto meant = gonio::nearest_word(word, known);
     return "'" + word + "' is no " + kind + " of " + path +
            (meant ? ": did you mean " + *meant + "?" : " (" + path + " --help lists them)");
   };

@@ -2,9 +2,9 @@
 
 #include <gonio/core/error.hpp>
 #include <gonio/io/file.hpp>
+#include <gonio/io/text.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <system_error>
 #include <utility>
 
@@ -29,9 +29,7 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
 
 /// Letters of either case.
 bool has_extension(const fs::path& path, const std::vector<std::string>& extensions) {
-  std::string extension = path.extension().string();
-  for (char& letter : extension) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-  return std::ranges::find(extensions, extension) != extensions.end();
+  return std::ranges::find(extensions, gonio::io::detail::lower_case(path.extension().string())) != extensions.end();
 }
 
 std::string listed(const std::vector<std::string>& words) {

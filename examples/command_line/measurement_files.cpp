@@ -1,15 +1,89 @@
 #include "measurement_files.hpp"
 
+#include "file_start.hpp"
 #include "measurement_kinds.hpp"
+#include "sample_warnings.hpp"
+#include "warning.hpp"
+#include <gonio/core/error.hpp>
 #include <gonio/io/merl.hpp>
-#include <gonio/io/samples.hpp>
 #include <gonio/io/table_npy.hpp>
+#include <gonio/io/text.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace cli {
 
-gonio::sample_set read_measurements(const std::filesystem::path& path) {
-  if (const measurement_kind* kind = measurement_kind_of(path)) return kind->read(path);
-  return gonio::io::read_samples(path);
+namespace {
+
+/// Appends the entries of "theta_o=Winkel,g=Y".
+void add_columns(const std::string& list, std::vector<gonio::io::column_name>& columns) {
+  std::vector<std::string_view> entries;
+  gonio::io::detail::split_fields(list, entries);
+  for (const std::string_view entry : entries) {
+    const std::size_t equals = entry.find('=');
+    if (equals == std::string_view::npos || equals == 0 || equals + 1 == entry.size())
+      gonio::refuse({"--columns ", list, ": '", entry, "' is no pair of names, expected one like theta_o=Winkel"});
+    columns.push_back({std::string(entry.substr(0, equals)), std::string(entry.substr(equals + 1))});
+  }
+}
+
+}  // namespace
+
+gonio::io::sample_reading reading_of(const measurement_options& options) {
+  gonio::io::sample_reading reading{.columns = {}, .quantity = {}, .note = warn};
+  for (const std::string& list : options.columns) add_columns(list, reading.columns);
+  if (!options.quantity.empty()) reading.quantity = gonio::io::quantity_named(options.quantity);
+  return reading;
+}
+
+void add_measurement_options(command& to, measurement_options& options) {
+  const auto& names = gonio::io::sample_quantity_names;
+  to.add_option("--quantity", options.quantity,
+                "What the numbers of a .csv file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
+                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column value "
+                "whose file does not say it")
+      .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
+  to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
+      .repeatable();
+}
+
+bool holds_measurements(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 3> extensions{".csv", ".tsv", ".txt"};
+  return std::ranges::find(extensions, lower_extension(path)) != extensions.end() ||
+         measurement_kind_of(path) != nullptr;
+}
+
+void require_unused(const measurement_options& options, const std::filesystem::path& path) {
+  if (!options.empty()) gonio::refuse({path.native(), ": --quantity and --columns need a .csv file of samples"});
+}
+
+gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
+  gonio::io::sample_file file;
+  if (const measurement_kind* kind = measurement_kind_of(path)) {
+    require_unused(options, path);  // such a file says what its values are
+    file.samples = kind->read(path);
+  } else {
+    file = gonio::io::read_sample_file(path, reading_of(options));
+  }
+  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
+  return file;
+}
+
+gonio::sample_set read_measurements(const std::filesystem::path& path, const measurement_options& options) {
+  return read_measurement_file(path, options).samples;
+}
+
+json facts_of(const gonio::io::sample_file& file) {
+  json facts = json::object();
+  if (file.quantity) facts["quantity"] = name_of(*file.quantity);
+  if (file.wavelength) facts["wavelength_nm"] = *file.wavelength;
+  const auto& [instrument, date, conditions] = file.provenance;
+  if (!instrument.empty()) facts["instrument"] = instrument;
+  if (!date.empty()) facts["date"] = date;
+  if (!conditions.empty()) facts["conditions"] = conditions;
+  return facts;
 }
 
 std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
@@ -20,7 +94,7 @@ std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
 }
 
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
-  if (path.extension() == ".npy" || path.extension() == ".NPY")
+  if (extension_of(path) == ".npy")
     gonio::io::write_table_npy(path, table);
   else
     gonio::io::write_merl(path, table);

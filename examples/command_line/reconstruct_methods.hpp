@@ -3,6 +3,7 @@
 
 #include "json.hpp"
 #include "materials.hpp"
+#include "measurement_files.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
@@ -19,6 +20,7 @@ namespace cli {
 
 struct reconstruct_options {
   std::filesystem::path samples, output, image, history, iteration_figure, truth;
+  measurement_options reading;
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;

@@ -28,6 +28,7 @@ void add_model_recovery(command& app);
 void add_laboratory(command& app);
 void add_importance_sampling(command& app);
 void add_measured_intervals(command& app);
+void add_implausible_samples(command& app);
 void add_real_materials(command& app);
 void add_conformity(command& app);
 void add_real_fits(command& app);

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   papers::add_laboratory(app);
   papers::add_importance_sampling(app);
   papers::add_measured_intervals(app);
+  papers::add_implausible_samples(app);
   papers::add_real_materials(app);
   papers::add_conformity(app);
   papers::add_real_fits(app);

@@ -21,4 +21,5 @@
 #include <gonio/core/rotation.hpp>
 #include <gonio/core/sampled_direction.hpp>
 #include <gonio/core/spectrum.hpp>
+#include <gonio/core/spelling.hpp>
 #include <gonio/core/statistics.hpp>

@@ -11,6 +11,7 @@
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/cornell.hpp>
+#include <gonio/io/csv_dialect.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
@@ -30,6 +31,10 @@
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/rules.hpp>
 #include <gonio/io/sample_collector.hpp>
+#include <gonio/io/sample_header.hpp>
+#include <gonio/io/sample_provenance.hpp>
+#include <gonio/io/sample_quantity.hpp>
+#include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/setup_text.hpp>

@@ -48,7 +48,7 @@ TEST_CASE("bad samples") {
   with(header, {"bad.csv"});
   with(header + "1,2,3,0.1,nan,0.1\n", {"bad.csv", "line 2", "nan"});
   with(header + "1,2,3,0.1,0.1,0.1\n80,80,0,0.1,0.1,0.1\n", {"line 3", "horizon"});
-  with("theta_h,theta_d,phi_d,r,g,b,colour\n1,2,3,1,1,1,1\n", {"colour"});
+  with("theta_h,theta_d,phi_d,r,g,colour\n1,2,3,1,1,1\n", {"'b' is missing", "'colour'"});
   with("theta_h,theta_d,phi_d,r,g\n1,2,3,1,1\n", {"b"});
   with(header + "1,2,3,0.1,0.1\n", {"line 2"});
   scratch::put(path, header + "1,2,3,0.1,0.1,0.1\n");

@@ -1,3 +1,4 @@
+#include "sample_text.hpp"
 #include "scratch.hpp"
 #include <gonio/io/samples.hpp>
 #include <gonio/io/text.hpp>
@@ -11,14 +12,9 @@ using gonio::io::read_directions;
 using gonio::io::read_samples;
 using gonio::io::write_samples;
 using scratch::check_refused;
+using scratch::check_text_refused;
 
 namespace {
-
-void check_text_refused(const std::string& text, std::initializer_list<std::string> words) {
-  CAPTURE(text);
-  check_refused([&] { return parse_samples(text, "paint.csv"); }, {"paint.csv"});
-  check_refused([&] { return parse_samples(text, "paint.csv"); }, words);
-}
 
 const std::string header = "theta_h,theta_d,phi_d,r,g,b\n";
 
@@ -131,8 +127,8 @@ TEST_CASE("bad headers are refused") {
   check_text_refused("", {"is empty", "expected a header line"});
   check_text_refused("\n# only a comment\n\n", {"is empty", "expected a header line"});
   check_text_refused(header, {"no samples", "at least one"});
-  check_text_refused("# c\ntheta_h,theta_d,phi_d,r,g,blue\n", {"line 2", "'blue' is unknown", "expected"});
-  check_text_refused("theta_h,theta_d,phi_d,r,g,b,\n", {"line 1", "'' is unknown"});
+  check_text_refused("# c\ntheta_h,theta_d,phi_d,r,g,azure\n",
+                     {"line 2", "'b' is missing", "looks comma-separated", "not known in it: 'azure'"});
   check_text_refused("theta_h,theta_d,phi_d,r,g,b,g\n", {"line 1", "'g' appears twice"});
   check_text_refused("theta_h,phi_d,r,g,b\n", {"line 1", "'theta_d' is missing"});
   check_text_refused("theta_i,phi_i,theta_o,r,g,b\n", {"line 1", "'phi_o' is missing"});
@@ -140,8 +136,9 @@ TEST_CASE("bad headers are refused") {
   check_text_refused("theta_h,theta_d,phi_d,r,g\n", {"line 1", "'b' is missing"});
   check_text_refused("r,g,b\n", {"line 1", "no columns of directions"});
   check_text_refused("theta_h,theta_d,phi_d,theta_i,r,g,b\n", {"line 1", "more than one way"});
-  check_text_refused("10,20,30,1,1,1\n", {"line 1", "'10' is unknown"});
-  check_text_refused(std::string(1000, '\x01'), {"line 1", "'????", "...' is unknown"});
+  check_text_refused("10,20,30,1,1,1\n", {"line 1", "no header line", "looks comma-separated"});
+  check_text_refused(std::string(1000, '\x01'),
+                     {"line 1", "no columns of directions", "separated by blanks", "'????", "...'"});
 }
 
 TEST_CASE("bad lines are refused by line, column and value") {
@@ -269,8 +266,11 @@ TEST_CASE("unusable samples are not written") {
 }
 
 TEST_CASE("damaged CSV files are read or refused") {
-  const auto valid = scratch::bytes_of(header + "1,2,3,4,5,6\n10,20,30,0.1,0.2,0.3\n");
-  scratch::check_survives_damage(valid, 5000, [](std::span<const std::byte> bytes) {
-    return parse_samples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x");
-  });
+  for (const std::string& text :
+       {header + "1,2,3,4,5,6\n10,20,30,0.1,0.2,0.3\n",
+        std::string(
+            "# quantity: percent\n\"theta_i [deg]\";theta_o;value;quantity;x\n1,5;-2;\"3,5\";percent;\"a\"\"\"\n")})
+    scratch::check_survives_damage(scratch::bytes_of(text), 5000, [](std::span<const std::byte> bytes) {
+      return parse_samples({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x");
+    });
 }

@@ -25,18 +25,26 @@ struct text_place {
   [[noreturn]] void refuse(const message_part& what) const { refuse({what}); }
 };
 
+/// What may stand around a field. A carriage return ends lines on some systems.
+inline constexpr std::string_view blanks = " \t\r";
+
 /// A field in quotes, short and printable whatever a broken file holds.
 [[nodiscard]] std::string quoted(std::string_view field);
 
 [[nodiscard]] std::string_view trimmed(std::string_view text) noexcept;
 
+/// The text with A to Z as small letters, whatever the locale.
+[[nodiscard]] std::string lower_case(std::string_view text);
+
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text) noexcept;
 
-/// The fields of a line between its commas, trimmed; what `fields` held before is dropped.
-void split_fields(std::string_view line, std::vector<std::string_view>& fields);
+/// The fields of a line between its commas, or another separator, trimmed; what `fields` held before is dropped.
+void split_fields(std::string_view line, std::vector<std::string_view>& fields, char separator = ',');
 
-/// Takes the next line that holds something off the front of a text, trimmed; `place` is then there. Lines that start
-/// with # are comments.
+/// Takes the next line that holds more than blanks off the front of a text; `place` is then there.
+[[nodiscard]] bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line);
+
+/// The same, trimmed, without comments, the lines that start with #.
 [[nodiscard]] bool next_line(std::string_view& text, text_place& place, std::string_view& line);
 
 /// Calls `use(line)` for each line that holds something, trimmed, `place` being there. Lines that start with # are

@@ -4,178 +4,22 @@
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
 #include <gonio/io/file.hpp>
+#include <gonio/io/sample_header.hpp>
+#include <gonio/io/sample_quantity.hpp>
+#include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
-
-// The columns, grouped; the numbers below index this list.
-inline constexpr std::array<std::string_view, 20> sample_columns{
-    "theta_h", "theta_d", "phi_d", "theta_i", "phi_i", "theta_o", "phi_o",  "wi_x",     "wi_y",     "wi_z",
-    "wo_x",    "wo_y",    "wo_z",  "r",       "g",     "b",       "weight", "weight_r", "weight_g", "weight_b"};
-
-struct column_group {
-  std::size_t first = 0;
-  std::size_t count = 0;
-};
-inline constexpr column_group half_difference_group{0, 3};
-inline constexpr column_group angle_group{3, 4};
-inline constexpr column_group vector_group{7, 6};
-inline constexpr column_group colour_group{13, 3};
-inline constexpr column_group weight_group{16, 1};
-inline constexpr column_group channel_weight_group{17, 3};
-
-using sample_row = std::array<double, sample_columns.size()>;
-
-/// The header line: which column each field of a line is, and how directions are given.
-class sample_header {
- public:
-  void read(std::string_view line, bool needs_colour, const text_place& place);
-
-  [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
-  [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
-  /// The columns that say how much a sample counts: one, or one for each channel.
-  [[nodiscard]] column_group weights() const {
-    return has_any(channel_weight_group) ? channel_weight_group : weight_group;
-  }
-
- private:
-  void add(std::string_view field, const text_place& place);
-  void find_directions(const text_place& place);
-  [[nodiscard]] bool has_any(const column_group& group) const;
-  [[nodiscard]] bool has(std::size_t column) const { return has_any({column, 1}); }
-  void require(const column_group& group, const text_place& place) const;
-
-  std::vector<std::size_t> columns_;
-  column_group directions_;
-};
-
-GONIO_INLINE void sample_header::read(std::string_view line, bool needs_colour, const text_place& place) {
-  std::vector<std::string_view> fields;
-  split_fields(line, fields);
-  for (const std::string_view field : fields) add(field, place);
-  find_directions(place);
-  if (needs_colour || has_any(colour_group)) require(colour_group, place);
-  if (!has_any(channel_weight_group)) return;
-  if (has_any(weight_group))
-    place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
-  require(channel_weight_group, place);
-}
-
-GONIO_INLINE void sample_header::add(std::string_view field, const text_place& place) {
-  std::size_t column = 0;
-  while (column < sample_columns.size() && sample_columns[column] != field) ++column;
-  if (column == sample_columns.size())
-    place.refuse({"column ", quoted(field), " is unknown, expected theta_h,theta_d,phi_d or ",
-                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z, and r,g,b and perhaps weight or "
-                  "weight_r,weight_g,weight_b"});
-  if (has(column)) place.refuse({"column ", quoted(field), " appears twice"});
-  columns_.push_back(column);
-}
-
-GONIO_INLINE void sample_header::find_directions(const text_place& place) {
-  int groups = 0;
-  for (const column_group& group : {half_difference_group, angle_group, vector_group}) {
-    if (!has_any(group)) continue;
-    directions_ = group;
-    ++groups;
-  }
-  if (groups == 0)
-    place.refuse({"there are no columns of directions, expected theta_h,theta_d,phi_d or ",
-                  "theta_i,phi_i,theta_o,phi_o or wi_x,wi_y,wi_z,wo_x,wo_y,wo_z"});
-  if (groups > 1) place.refuse("directions are given in more than one way, expected one of them");
-  require(directions_, place);
-}
-
-GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
-  for (const std::size_t column : columns_)
-    if (column >= group.first && column < group.first + group.count) return true;
-  return false;
-}
-
-GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
-  for (std::size_t column = group.first; column < group.first + group.count; ++column)
-    if (!has(column)) place.refuse({"column '", sample_columns[column], "' is missing"});
-}
-
-/// A line of numbers, in its place.
-struct parsed_row {
-  const sample_row& numbers;
-  const column_group& group;   ///< how directions are given
-  const column_group weights;  ///< how weights are given
-  const text_place& place;
-
-  [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
-};
-
-/// Reads a file of samples or directions line by line:
-/// `row_reader rows(text, name, false); while (rows.next()) use(rows.row());`
-class row_reader {
- public:
-  row_reader(std::string_view text, const std::string& name, bool needs_colour)
-      : left_(without_byte_order_mark(text)), place_{name, 0}, needs_colour_(needs_colour) {
-    numbers_[weight_group.first] = 1.0;
-  }
-
-  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
-  [[nodiscard]] bool next();
-
-  [[nodiscard]] parsed_row row() const noexcept { return {numbers_, header_.directions(), header_.weights(), place_}; }
-
- private:
-  void read_numbers(std::string_view line);
-
-  std::string_view left_;
-  text_place place_;
-  bool needs_colour_;
-  sample_header header_;
-  std::vector<std::string_view> fields_;
-  sample_row numbers_{};
-  std::size_t rows_ = 0;
-};
-
-GONIO_INLINE bool row_reader::next() {
-  std::string_view line;
-  if (header_.columns().empty()) {
-    if (!next_line(left_, place_, line))
-      gonio::refuse({place_.name, ": is empty, expected a header line that names the columns"});
-    header_.read(line, needs_colour_, place_);
-  }
-  if (next_line(left_, place_, line)) {
-    read_numbers(line);
-    ++rows_;
-    return true;
-  }
-  if (rows_ == 0) gonio::refuse({place_.name, ": has a header line but no samples, expected at least one"});
-  return false;
-}
-
-GONIO_INLINE void row_reader::read_numbers(std::string_view line) {
-  const std::vector<std::size_t>& columns = header_.columns();
-  split_fields(line, fields_);
-  if (fields_.size() != columns.size())
-    place_.refuse({fields_.size(), " fields, expected ", columns.size(), " as in the header line"});
-  for (std::size_t i = 0; i < fields_.size(); ++i)
-    if (const char* wrong = read_number(fields_[i], numbers_[columns[i]]))
-      place_.refuse({"column ", sample_columns[columns[i]], ": ", quoted(fields_[i]), wrong});
-  const column_group weights = header_.weights();
-  for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
-    if (numbers_[column] < 0.0)
-      place_.refuse(
-          {"column ", sample_columns[column], ": ", shortest(numbers_[column]), " is negative, expected at least 0"});
-}
 
 /// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
 /// as an azimuth of 180 degrees.
@@ -224,8 +68,9 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
 
 /// Light and viewer of a row that gives directions.
 [[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
-  const auto& [numbers, group, weights, place] = row;
-  if (group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
+  const sample_row& numbers = row.numbers;
+  const text_place& place = row.place;
+  if (row.group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
   const double theta_i = polar_angle(numbers, 3, true, place), theta_o = polar_angle(numbers, 5, true, place);
   return {spherical_direction(theta_i, azimuth(numbers, 4, place)),
           spherical_direction(theta_o, azimuth(numbers, 6, place))};
@@ -251,13 +96,24 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
-[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row) {
-  const double* colour = &row.numbers[colour_group.first];
-  for (std::size_t channel = 0; channel < 3; ++channel)
-    if (std::abs(colour[channel]) > double{std::numeric_limits<float>::max()})
-      row.place.refuse({"column ", sample_columns[colour_group.first + channel], ": ", shortest(colour[channel]),
+/// The value of a row as a BRDF, sr^-1.
+[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
+  const double* given = &row.numbers[row.values.first];
+  const bool is_grey = row.values.count == 1;
+  if (is_grey && !row.quantity)
+    row.place.refuse(
+        "the file does not say what the numbers of value are, expected a comment line '# quantity: brdf' above, or "
+        "brdf-cosine, reflectance-factor or percent (--quantity says it of files that do not)");
+  const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
+  rgb value;
+  for (Eigen::Index channel = 0; channel < 3; ++channel) {
+    const std::size_t field = is_grey ? 0 : static_cast<std::size_t>(channel);
+    value[channel] = factor * given[field];
+    if (std::abs(value[channel]) > double{std::numeric_limits<float>::max()})
+      row.place.refuse({"column ", sample_columns[row.values.first + field], ": ", shortest(value[channel]),
                         " sr^-1 is beyond the range of float"});
-  return {colour[0], colour[1], colour[2]};
+  }
+  return value;
 }
 
 GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
@@ -283,32 +139,47 @@ GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view
 
 namespace gonio::io {
 
-GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name) {
-  sample_set samples;
-  detail::row_reader rows(text, name, true);
+GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::string& name,
+                                           const sample_reading& reading) {
+  sample_file file;
+  detail::row_reader rows(text, name, true, reading);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
-    samples.push_back({detail::row_directions(row), detail::row_value(row), detail::row_weight(row)});
+    const sample_directions at = detail::row_directions(row);
+    file.samples.push_back({at, detail::row_value(row, at), detail::row_weight(row)});
   }
-  return samples;
+  file.quantity = rows.quantity();
+  file.wavelength = rows.wavelength();
+  file.provenance = rows.provenance();
+  return file;
 }
 
-GONIO_INLINE sample_set read_samples(const std::filesystem::path& path) {
-  const auto bytes = read_bytes(path);
-  return parse_samples(detail::as_text(bytes), path.native());
+GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name, const sample_reading& reading) {
+  return parse_sample_file(text, name, reading).samples;
 }
 
-GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path) {
+GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path, const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false);
+  return parse_sample_file(detail::as_text(bytes), path.native(), reading);
+}
+
+GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
+  return read_sample_file(path, reading).samples;
+}
+
+GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
+                                                          const sample_reading& reading) {
+  const auto bytes = read_bytes(path);
+  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
   std::vector<half_difference> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).angles());
   return all;
 }
 
-GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path) {
+GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
+                                                              const sample_reading& reading) {
   const auto bytes = read_bytes(path);
-  detail::row_reader rows(detail::as_text(bytes), path.native(), false);
+  detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
   std::vector<direction_pair> all;
   while (rows.next()) all.push_back(detail::row_directions(rows.row()).pair());
   return all;

@@ -35,10 +35,16 @@ GONIO_INLINE std::string quoted(std::string_view field) {
 }
 
 GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
-  constexpr std::string_view blank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blank);
+  const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blank) - begin + 1);
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+GONIO_INLINE std::string lower_case(std::string_view text) {
+  std::string small(text);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
 }
 
 GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noexcept {
@@ -46,22 +52,30 @@ GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noe
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
-GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
+GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line) {
   while (!text.empty()) {
     ++place.line;
     const std::size_t end = text.find('\n');
-    line = trimmed(text.substr(0, end));
+    line = text.substr(0, end);
     text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    if (!line.empty() && line.front() != '#') return true;
+    if (line.find_first_not_of(blanks) != std::string_view::npos) return true;
   }
   return false;
 }
 
-GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields) {
+GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
+  while (next_whole_line(text, place, line)) {
+    line = trimmed(line);
+    if (line.front() != '#') return true;
+  }
+  return false;
+}
+
+GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields, char separator) {
   fields.clear();
-  for (std::size_t comma = line.find(','); comma != std::string_view::npos; comma = line.find(',')) {
-    fields.push_back(trimmed(line.substr(0, comma)));
-    line.remove_prefix(comma + 1);
+  for (std::size_t end = line.find(separator); end != std::string_view::npos; end = line.find(separator)) {
+    fields.push_back(trimmed(line.substr(0, end)));
+    line.remove_prefix(end + 1);
   }
   fields.push_back(trimmed(line));
 }

@@ -1,8 +1,9 @@
-#include <command_line/spelling.hpp>
+#include <gonio/core/spelling.hpp>
+
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
-using cli::nearest_word, cli::spelling_distance;
+using gonio::nearest_word, gonio::spelling_distance;
 
 TEST_CASE("how far words are apart") {
   CHECK(spelling_distance("", "") == 0);

@@ -1,10 +1,19 @@
-#include "spelling.hpp"
+#pragma once
+/// Bodies of core/spelling.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/spelling.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
-namespace cli {
+namespace gonio {
 
-std::size_t spelling_distance(std::string_view one, std::string_view other) {
+GONIO_INLINE std::size_t spelling_distance(std::string_view one, std::string_view other) {
   // Row i of the table is that of the first i letters of `one`; three rows are kept.
   std::vector<std::size_t> before_last, last(other.size() + 1), now(other.size() + 1);
   for (std::size_t j = 0; j <= other.size(); ++j) last[j] = j;
@@ -22,11 +31,11 @@ std::size_t spelling_distance(std::string_view one, std::string_view other) {
   return last.back();
 }
 
-std::optional<std::string> nearest_word(std::string_view misspelt, const std::vector<std::string>& words) {
+GONIO_INLINE std::optional<std::string> nearest_word(std::string_view misspelt, const std::vector<std::string>& words) {
   const auto distance = [&](const std::string& word) { return spelling_distance(misspelt, word); };
   const auto nearest = std::ranges::min_element(words, {}, distance);
   if (nearest == words.end() || 3 * distance(*nearest) > std::max(misspelt.size(), nearest->size())) return {};
   return *nearest;
 }
 
-}  // namespace cli
+}  // namespace gonio

@@ -1,0 +1,65 @@
+#pragma once
+/// Bodies of io/sample_quantity.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/direction.hpp>
+#include <gonio/io/sample_quantity.hpp>
+#include <gonio/io/text.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gonio::io {
+
+GONIO_INLINE std::string_view name_of(sample_quantity quantity) noexcept {
+  return sample_quantity_names[static_cast<std::size_t>(quantity)];
+}
+
+GONIO_INLINE std::optional<sample_quantity> quantity_named(std::string_view name) {
+  std::string word = detail::lower_case(detail::trimmed(name));
+  for (char& c : word)
+    if (c == ' ' || c == '_') c = '-';
+  const auto found = std::ranges::find(sample_quantity_names, word);
+  if (found == sample_quantity_names.end()) return {};
+  return static_cast<sample_quantity>(found - sample_quantity_names.begin());
+}
+
+GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) noexcept {
+  switch (quantity) {
+    case sample_quantity::brdf:
+      return 1.0;
+    case sample_quantity::brdf_cosine:
+      return 1.0 / wo.z();
+    case sample_quantity::reflectance_factor:
+      return std::numbers::inv_pi;
+    case sample_quantity::percent:
+      return 0.01 * std::numbers::inv_pi;
+  }
+  return 1.0;
+}
+
+}  // namespace gonio::io
+
+namespace gonio::io::detail {
+
+GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::string& by, const text_place& place) {
+  if (quantity_ && *quantity_ != quantity)
+    place.refuse({"the values are ", name_of(*quantity_), " by ", by_, ", but ", name_of(quantity), " by ", by,
+                  ", expected one quantity"});
+  if (!quantity_) by_ = by;
+  quantity_ = quantity;
+}
+
+GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by, const text_place& place) {
+  if (quantity_ == sample_quantity::reflectance_factor) quantity_ = sample_quantity::percent;
+  state(sample_quantity::percent, by, place);
+}
+
+GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_place& place) {
+  if (other.quantity_) state(*other.quantity_, other.by_, place);
+}
+
+}  // namespace gonio::io::detail

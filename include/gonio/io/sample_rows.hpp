@@ -1,0 +1,84 @@
+#pragma once
+/// The lines of a file of samples or directions as numbers, each where it stands. io/samples.hpp makes directions and
+/// values of them.
+
+#include <gonio/io/csv_dialect.hpp>
+#include <gonio/io/sample_header.hpp>
+#include <gonio/io/sample_provenance.hpp>
+#include <gonio/io/sample_quantity.hpp>
+#include <gonio/io/text.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gonio::io::detail {
+
+using sample_row = std::array<double, sample_columns.size()>;
+
+/// A line of numbers, in its place.
+struct parsed_row {
+  const sample_row& numbers;
+  const column_group& group;  ///< how directions are given
+  const column_group& values;
+  const column_group& weights;
+  std::optional<sample_quantity> quantity;
+  const text_place& place;
+
+  [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
+};
+
+/// Reads a file of samples or directions line by line:
+/// `row_reader rows(text, name, false, {}); while (rows.next()) use(rows.row());`
+class row_reader {
+ public:
+  row_reader(std::string_view text, const std::string& name, bool needs_value, const sample_reading& reading);
+
+  /// Turns to the next line of numbers. At the end of the file it is false, or an error if there was none.
+  [[nodiscard]] bool next();
+
+  [[nodiscard]] parsed_row row() const noexcept {
+    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), place_};
+  }
+  [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
+  [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
+  [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
+
+ private:
+  [[nodiscard]] bool next_line(std::string_view& line);
+  void read_comment(std::string_view comment);
+  void read_header(std::string_view line);
+  void read_fields(std::string_view line);
+  void read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs);
+  void read_quantity(std::string_view field);
+  void check_percent_signs(std::size_t signs);
+  void check_wavelength();
+  void check_weights() const;
+  void look_at_sides();
+  void finish() const;
+  [[noreturn]] void refuse_size(std::string_view line) const;
+
+  std::string_view left_;
+  text_place place_;
+  bool needs_value_;
+  const sample_reading& reading_;
+  csv_dialect dialect_;
+  sample_header header_;
+  stated_quantity quantity_;
+  sample_provenance provenance_;
+  std::optional<double> wavelength_;
+  std::vector<std::string_view> fields_;
+  sample_row numbers_{};
+  std::size_t rows_ = 0;
+  bool has_percent_signs_ = false, has_signed_angle_ = false;
+  std::size_t line_of_unknown_side_ = 0;  ///< where two angles are not 0 and none is negative
+};
+
+}  // namespace gonio::io::detail
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/sample_rows.ipp>
+#endif

@@ -1,0 +1,155 @@
+/// Files as instruments and spreadsheets write them, and what goes wrong with them.
+
+#include "../io/scratch.hpp"
+#include "tool.hpp"
+#include <gonio/io/samples.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+namespace {
+
+/// A file that each command is run on.
+struct one_file {
+  scratch::folder folder;
+  std::string path = (folder / "scan.csv").string();
+
+  void put(const std::string& text) const { scratch::put(path, text); }
+
+  void refuses(const std::string& text, std::initializer_list<const char*> words,
+               const std::string& options = "") const {
+    put(text);
+    CAPTURE(text);
+    ::refuses("reconstruct " + path + options + " -o " + (folder / "out.binary").string(), words);
+    CHECK(folder.entries() == 1);
+  }
+
+  /// What `gonio info` says of the file: it must accept it.
+  std::string info(const std::string& text, const std::string& options = "") const {
+    put(text);
+    return run("info " + path + options);
+  }
+
+  void warns(const std::string& text, const std::string& words, const std::string& options = "") const {
+    const std::string output = info(text, options);
+    CAPTURE(output);
+    CHECK(output.find("gonio: warning: " + path + ": " + words) != std::string::npos);
+  }
+
+  void is_silent_on(const std::string& text, const std::string& options = "") const {
+    CHECK(info(text, options).find("warning") == std::string::npos);
+  }
+};
+
+const std::string angles = "theta_i,phi_i,theta_o,phi_o,";
+
+/// Light and viewer all over the hemisphere, away from the mirror direction, and a value of the viewer's angle.
+template <class Value>
+std::string dull_scan(const std::string& columns, const Value& value) {
+  std::string text = angles + columns + "\n";
+  for (int theta_o = 10; theta_o <= 80; theta_o += 5)
+    text +=
+        "70,0," + std::to_string(theta_o) + ",30," + std::to_string(value(theta_o * std::numbers::pi / 180.0)) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("the likely mistakes get the right sentences") {
+  const one_file file;
+  // A misspelt column.
+  file.refuses("theta_i;phi_i;tetha_o;phi_o;r;g;b\n10;0;20;0;1;1;1\n",
+               {"line 1: column 'theta_o' is missing: is it 'tetha_o'?; the header line looks semicolon-separated",
+                "--columns"});
+  // No header line, or one behind #.
+  file.refuses("# theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,0,1,1,1\n",
+               {"line 2: there is no header line above the numbers", "behind # is a comment"});
+  // Numbers of which nobody says what they are.
+  file.refuses(angles + "value\n10,0,20,0,0.3\n",
+               {"line 2", "does not say what the numbers of value are", "--quantity"});
+  // Who says it twice, and differently.
+  file.refuses("# quantity: percent\n" + angles + "value\n10,0,20,0,30\n",
+               {"line 1: the values are brdf by what is asked for (--quantity), but percent by the comment in line 1"},
+               " --quantity brdf");
+  // Decimal commas between commas.
+  file.refuses(
+      angles + "r,g,b\n10,5,0,20,5,0,1,5,1,5,1,5\n",
+      {"line 2: 12 fields, expected 7", "comma-separated: separate fields by semicolons if numbers have decimal"});
+  // Lines that are separated otherwise than the header line.
+  file.refuses(angles + "r,g,b\n10;0;20;0;1;1;1\n", {"1 field, expected 7", "comma-separated, this one semicolon"});
+  // Thousands.
+  file.refuses(
+      "theta_i;phi_i;theta_o;phi_o;r;g;b\n10;0;20;0;1,5;1.234,5;1\n",
+      {"column g: '1.234,5' is not a number: it has a point and a comma", "semicolon-separated with decimal commas"});
+  // A workbook, and what a spreadsheet calls Unicode text.
+  file.refuses("PK\x03\x04 xl/workbook.xml", {"looks like a workbook", "save its sheet as CSV"});
+  file.refuses("\xFF\xFEt", {"looks like UTF-16 text, expected UTF-8"});
+  // Many wavelengths.
+  file.refuses(angles + "wavelength,brdf\n10,0,20,0,550,1\n10,0,20,0,560,1\n",
+               {"line 3: column wavelength: 560 nm, but 550 nm above: more than one wavelength"});
+  // A plane without sides.
+  file.refuses("theta_i,theta_o,r,g,b\n45,20,1,1,1\n", {"line 2: on which sides of the normal", "phi_i and phi_o"});
+  // A column that is not there, and a list that is none.
+  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"there is no column 'Winkel' to be theta_o"},
+               " --columns theta_o=Winkel");
+  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--columns theta_o: 'theta_o' is no pair of names"},
+               " --columns theta_o");
+  file.refuses(angles + "r,g,b\n10,0,20,0,1,1,1\n", {"--quantity", "luminance"}, " --quantity luminance");
+}
+
+TEST_CASE("a file from a spreadsheet is read as it is") {
+  const one_file file;
+  std::string scan =
+      "\xEF\xBB\xBF# Instrument: GON 360\r\nEinfall;\"Winkel [deg]\";phi_i;phi_o;Messwert;Temperatur\r\n"
+      "45;-45,5;0;0;31,4%;23,1\r\n45;20;0;0;12,5%;23,1\r\n";
+  for (const char* row :
+       {"45;0;0;0;12,9%;23,1", "45;-20;0;0;13,8%;23,1", "45;-35;0;0;22%;23,1", "45;60;0;0;13,1%;23,1"})
+    scan += row + std::string("\r\n");
+  const std::string columns = " --columns theta_i=Einfall,theta_o=Winkel --columns value=Messwert";
+  const std::string output = file.info(scan, columns);
+  CAPTURE(output);
+  for (const char* words : {"samples: 6", "quantity: percent", "instrument: GON 360", "column 'Temperatur' is ignored"})
+    CHECK(output.find(words) != std::string::npos);
+  CHECK(output.find("maximum: [0.0999") != std::string::npos);  // 0.314 / pi
+  // The same in every command that reads samples, and in JSON.
+  const std::string json = run("reconstruct " + file.path + columns + " --json");
+  for (const char* words : {"\"quantity\": \"percent\"", "\"instrument\": \"GON 360\""})
+    CHECK(json.find(words) != std::string::npos);
+  run("properties " + file.path + columns);
+  run("fit " + file.path + columns + " --model phong --json");
+  run("check " + file.path + " --reference " + file.path + columns + " --noise 0.02");
+}
+
+TEST_CASE("options on samples need samples") {
+  const one_file file;
+  const std::string table = (file.folder / "paint.binary").string(), out = (file.folder / "out.csv").string();
+  run("expand --formula red-paint -o " + table);
+  for (const std::string command : {"fit ", "info ", "properties "})
+    refuses(command + table + " --quantity percent", {"paint.binary: --quantity and --columns need a .csv file"});
+  refuses("design -n 1 --quantity percent -o " + out, {"--quantity and --columns need --given"});
+}
+
+TEST_CASE("numbers that look like something else are accepted with a warning") {
+  const one_file file;
+  file.warns(angles + "r,g,b\n0.5,0,0.7,3.1,1,1,1\n0.6,0,0.9,3.1,1,1,1\n0.1,0,1.4,3.1,1,1,1\n",
+             "light and viewer of all samples are within 3.2 degrees of the normal: are the angles radians?");
+  file.is_silent_on(
+      "theta_i [rad],phi_i [rad],theta_o [rad],phi_o [rad],brdf\n"
+      "0.5,0,0.7,3.1,1\n0.6,0,0.9,3.1,1\n0.1,0,1.4,3.1,1\n");
+  const auto white = [](double theta_o) { return 0.3 + 0.01 * std::cos(5.0 * theta_o); };  // of 0.318 at most
+  file.is_silent_on(dull_scan("brdf", white));
+  file.warns(dull_scan("brdf", [&](double angle) { return std::numbers::pi * white(angle); }),
+             "away from highlights half of the samples reflect more than");
+  file.warns(dull_scan("brdf", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
+             "away from highlights half of the samples reflect more than");
+  file.warns(dull_scan("value", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
+             "away from highlights half of the samples reflect more than", " --quantity reflectance-factor");
+  file.is_silent_on(dull_scan("value", [&](double angle) { return 100.0 * std::numbers::pi * white(angle); }),
+                    " --quantity percent");
+  const auto with_cosine = [&](double angle) { return white(angle) * std::cos(angle); };
+  file.warns(dull_scan("brdf", with_cosine), "away from highlights the values fall like the cosine");
+  file.is_silent_on(dull_scan("value", with_cosine), " --quantity brdf-cosine");
+}

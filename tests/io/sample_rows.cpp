@@ -1,0 +1,115 @@
+#include "sample_text.hpp"
+#include <gonio/io/sample_provenance.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <string>
+
+using gonio::degrees;
+using gonio::io::parse_samples;
+using scratch::check_text_refused;
+
+namespace {
+
+const std::string half_header = "theta_h,theta_d,phi_d,r,g,b\n";
+
+}  // namespace
+
+TEST_CASE("the same samples in every dialect") {
+  const auto expected = parse_samples(
+      "theta_i,phi_i,theta_o,phi_o,r,g,b,weight\n30.5,0,45,180.25,0.1,-0.2,3e-1,1\n10,20,60,90,1,2,3,0.5\n", "x");
+  for (const std::string text :
+       {// spreadsheets of countries with decimal commas
+        "theta_i;phi_i;theta_o;phi_o;r;g;b;weight\n30,5;0;45;180,25;0,1;-0,2;3e-1;1\n10;20;60;90;1;2;3;0,5\n",
+        "theta_i\tphi_i\ttheta_o\tphi_o\tr\tg\tb\tweight\n30,5\t0\t45\t180,25\t0,1\t-0,2\t3e-1\t1\n"
+        "10\t20\t60\t90\t1\t2\t3\t0,5\n",
+        // semicolons and tabs with decimal points
+        "theta_i;phi_i;theta_o;phi_o;r;g;b;weight\n30.5;0;45;180.25;0.1;-0.2;3e-1;1\n10;20;60;90;1;2;3;0.5\n",
+        "theta_i\tphi_i\ttheta_o\tphi_o\tr\tg\tb\tweight\r\n30.5\t0\t45\t180.25\t0.1\t-0.2\t3e-1\t1\r\n"
+        "10\t20\t60\t90\t1\t2\t3\t0.5\r\n",
+        // runs of blanks
+        "  theta_i phi_i  theta_o phi_o r g b weight\n 30.5  0 45 180.25   0.1 -0.2\t3e-1 1\n10 20 60 90 1 2 3 .5 \n",
+        "theta_i phi_i theta_o phi_o r g b weight\n30,5 0 45 180,25 0,1 -0,2 3e-1 1\n10 20 60 90 1 2 3 0,5\n",
+        // quotes, also around decimal commas
+        "\"theta_i\",\"phi_i\",\"theta_o\",\"phi_o\",\"r\",\"g\",\"b\",\"weight\"\r\n"
+        "\"30,5\",0,45,\"180,25\",\"0,1\", \"-0,2\" ,3e-1,1\r\n10,20,60,90,1,2,3,\"0,5\"\r\n",
+        "theta_i \"phi_i\" theta_o phi_o r g b weight\n\"30.5\" 0 45 180.25 0.1 -0.2 3e-1 \"1\" \n10 20 60 90 1 2 3 "
+        ".5\n",
+        // names in any case, with units, and what instruments call them
+        "\xEF\xBB\xBFTheta In;PHI_IN;Theta Out [deg];phi_s (\xC2\xB0);Red;GREEN;b [1/sr];Weight\n"
+        "30,5;0;45;180,25;0,1;-0,2;3e-1;1\n10;20;60;90;1;2;3;0,5\n",
+        "thetai,phii,theta_r_deg,phi_r/deg,R,G,B "
+        "[sr^-1],weight\n30.5,0,45,180.25,0.1,-0.2,3e-1,1\n10,20,60,90,1,2,3,.5\n",
+        // what spreadsheets make of comments, empty lines and short header lines
+        "\"# measured, on a Thursday\";;;;;;;\ntheta_i;phi_i;theta_o;phi_o;r;g;b;weight;;\n;;;;;;;;;\n"
+        "30,5;0;45;180,25;0,1;-0,2;3e-1;1;;\n10;20;60;90;1;2;3;0,5\n",
+        // columns that are not needed, of text and with quotes in it
+        "number,theta_i,phi_i,theta_o,phi_o,r,g,b,weight,remark\n1,30.5,0,45,180.25,0.1,-0.2,3e-1,1,\"a \"\"b\"\", "
+        "c\"\n"
+        "2,10,20,60,90,1,2,3,0.5,\n",
+        "theta_i\tphi_i\ttheta_o\tphi_o\tr\tg\tb\tweight\tremark\n30.5\t0\t45\t180.25\t0.1\t-0.2\t3e-1\t1\t\n"
+        "10\t20\t60\t90\t1\t2\t3\t0.5\tsecond\n"}) {
+    CAPTURE(text);
+    const auto samples = parse_samples(text, "x");
+    REQUIRE(samples.size() == expected.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      CHECK((samples[i].value == expected[i].value).all());
+      CHECK(samples[i].weight == expected[i].weight);
+      CHECK(samples[i].directions.pair().wi == expected[i].directions.pair().wi);
+      CHECK(samples[i].directions.pair().wo == expected[i].directions.pair().wo);
+    }
+  }
+}
+
+TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart") {
+  const auto samples = parse_samples("theta_i,theta_o,value\n# quantity: brdf\n45,-45,2\n45,20,1\n", "x");
+  CHECK(samples[0].angles().theta_h == doctest::Approx(0.0));  // the mirror direction
+  CHECK(degrees(samples[1].angles().theta_d) == doctest::Approx(12.5));
+  CHECK(parse_samples("theta_i,theta_o,r,g,b\n0,45,1,1,1\n30,0,1,1,1\n", "x").size() == 2);  // no sides to tell apart
+  check_text_refused("theta_i,theta_o,r,g,b\n0,45,1,1,1\n45,20,1,1,1\n45,45,1,1,1\n",
+                     {"line 3", "which sides", "phi_i and phi_o"});
+  check_text_refused("theta_i,theta_o,phi_0,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "is it 'phi_0'"});
+  check_text_refused("theta_i,theta_o,azimuth,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "'azimuth'"});
+  check_text_refused("theta_i,r,g,b\n45,1,1,1\n", {"'theta_o' is missing"});
+}
+
+TEST_CASE("one wavelength, and what a file says of its measurements") {
+  const auto file = gonio::io::parse_sample_file(
+      "# Instrument: GON 360: arm 2\n#date:2026-11-25\n# conditions: 23 C\n# conditions: dry\n# other: x\n"
+      "theta_i,phi_i,theta_o,phi_o,wavelength [nm],BRDF [1/sr]\n10,0,60,0,633,0.25\n10,0,50,0,633,0.5\n",
+      "x");
+  CHECK(file.wavelength == 633.0);
+  CHECK(file.quantity == gonio::io::sample_quantity::brdf);
+  CHECK(file.provenance == gonio::io::sample_provenance{"GON 360: arm 2", "2026-11-25", "23 C; dry"});
+  CHECK((file.samples[1].value == 0.5).all());
+  CHECK(gonio::io::format_samples(file.samples, file.provenance)
+            .starts_with("# instrument: GON 360: arm 2\n# date: 2026-11-25\n# conditions: 23 C; dry\ntheta_h,"));
+  const std::string two = "theta_h,theta_d,phi_d,wavelength,brdf\n1,2,3,550,1\n1,2,3,";
+  check_text_refused(two + "650,1\n", {"line 3", "650 nm, but 550 nm above", "more than one wavelength"});
+  check_text_refused(two + "0,1\n", {"line 3", "wavelength: 0 nm", "more than 0"});
+  check_text_refused("theta_h,theta_d,phi_d,wavelength,r,g,b\n1,2,3,550,1,1,1\n", {"r,g,b have no wavelength"});
+}
+
+TEST_CASE("refusals say what the file looks like") {
+  check_text_refused("theta_i;phi_i;tetha_o;phi_o;r;g;b\n1;2;3;4;5;6;7\n",
+                     {"line 1", "'theta_o' is missing: is it 'tetha_o'?", "looks semicolon-separated"});
+  check_text_refused("Einfall;Ausfall;Y\n1;2;3\n",
+                     {"no columns of directions", "looks semicolon-separated", "'Einfall', 'Ausfall', 'Y'"});
+  check_text_refused(half_header + "1;2;3;4;5;6\n",
+                     {"1 field, expected 6", "looks comma-separated, this one semicolon"});
+  check_text_refused(half_header + "1,5,2,3,4,5,6,5\n",
+                     {"8 fields, expected 6", "semicolons if numbers have decimal commas"});
+  check_text_refused("theta_h;theta_d;phi_d;r;g;b\n1,5;2;3;4;5;6\n1;2;3;4.5;5;6\n",
+                     {"line 3", "column r", "'4.5' has a decimal point, but a number above has a decimal comma",
+                      "looks semicolon-separated with decimal commas"});
+  check_text_refused("theta_h;theta_d;phi_d;r;g;b\n1;2;3;1.234,5;5;6\n", {"'1.234,5'", "a point and a comma"});
+  check_text_refused("theta_h\ttheta_d\tphi_d\tr\tg\tb\n1\t2\t3\tn/a\t5\t6\n", {"'n/a'", "looks tab-separated"});
+  check_text_refused("theta_i,theta_in,phi_i,phi_o,theta_o,r,g,b\n", {"'theta_in', which is theta_i, appears twice"});
+  check_text_refused("theta_h,theta_d,phi_d,R\n1,2,3,4\n", {"'g' is missing", "value for one channel"});
+  check_text_refused("\"theta_h,theta_d,phi_d,r,g,b\n", {"line 1", "double quote is not closed"});
+  check_text_refused(half_header + "1,2,\"3\"0,4,5,6\n", {"line 2", "behind its closing double quote"});
+  check_text_refused(std::string("PK\x03\x04\x14\x00", 6), {"workbook", "CSV"});
+  check_text_refused(std::string("\xFF\xFEt\x00h\x00", 6), {"UTF-16", "UTF-8"});
+}
