@@ -20,5 +20,6 @@
 #include <gonio/model/physical_properties.hpp>
 #include <gonio/model/sampling_techniques.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/model/torrance_sparrow.hpp>
 #include <gonio/model/ward.hpp>

@@ -1,20 +1,24 @@
 #pragma once
-/// Files of the RGL material database (`.bsdf`): measured isotropic materials in RGB, held in a container of named
-/// arrays ("tensor file", version 1.0). Dupuy and Jakob 2018 (doi:10.1145/3272127.3275059); see
-/// model/adaptive_brdf.hpp for what the arrays are.
+/// Files of the RGL material database (`.bsdf`), which Mitsuba 3 and pbrt-v4 read as material "measured": isotropic
+/// materials in RGB or in spectra, held in a container of named arrays ("tensor file", version 1.0). Dupuy and Jakob
+/// 2018 (doi:10.1145/3272127.3275059); see model/adaptive_brdf.hpp for what the arrays are.
 ///
 /// A container is the text "tensor_file" and a zero, two bytes of version, a uint32 with the number of arrays, and for
 /// each of them: a uint16 length and the name, a uint16 number of dimensions, a uint8 type, a uint64 position of its
 /// elements in the file and a uint64 extent for each dimension; all little-endian.
 
+#include <gonio/core/brdf.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/named_files.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
+#include <gonio/model/tabulate_adaptively.hpp>
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,19 +40,45 @@ struct tensor_field {
 
 }  // namespace detail
 
+/// The values of a material at several wavelengths, in the place of its red, green and blue.
+struct rgl_spectra {
+  std::vector<double> wavelengths;   ///< nanometres, ascending; w of them
+  model::unit_square_tables values;  ///< w n tables for n theta_i, all wavelengths of the first theta_i first
+};
+
 /// A material, and what its file says of it.
 struct rgl_material {
-  model::adaptive_brdf material;
+  model::adaptive_brdf material;  ///< of spectra their linear Rec. 709 colour under D65
   std::string description;
+  std::optional<rgl_spectra> spectra;  ///< if the file has them instead of RGB
 };
 
 /// A material from the bytes of a file; `name` is what errors call it. Throws gonio::error if an array is missing or
-/// malformed, for an anisotropic material (more than two azimuths of the light) and for one that has spectra alone.
+/// malformed and for an anisotropic material (more than two azimuths of the light).
 [[nodiscard]] rgl_material parse_rgl(std::span<const std::byte> bytes, const std::string& name);
 
 /// Reads a file.
 [[nodiscard]] inline rgl_material read_rgl(const std::filesystem::path& path) {
   return parse_rgl(read_bytes(path), path.string());
+}
+
+/// The bytes of a file. Of spectra, if there are any, the spectral variant, which pbrt-v4 and Mitsuba's spectral
+/// variants want; otherwise that of Mitsuba's RGB variants. Throws gonio::error for spectra that do not fit the
+/// material, and for a material whose values are in tables that are not square, which renderers refuse.
+[[nodiscard]] std::vector<std::byte> serialise_rgl(const rgl_material& material);
+
+/// Writes a file beside its target and renames it.
+inline void write_rgl(const std::filesystem::path& path, const rgl_material& material) {
+  write_atomically(path, serialise_rgl(material));
+}
+
+/// The same of any BRDF, in RGB: `tabulate_adaptively` makes its tables, unless it has some.
+template <brdf Brdf>
+void write_rgl(const std::filesystem::path& path, const Brdf& f, const std::string& description = "gonio") {
+  if constexpr (std::same_as<Brdf, model::adaptive_brdf>)
+    write_rgl(path, rgl_material{f, description, {}});
+  else
+    write_rgl(path, rgl_material{model::tabulate_adaptively(f), description, {}});
 }
 
 /// The materials (`.bsdf`) in a folder; see `list_named_files`.

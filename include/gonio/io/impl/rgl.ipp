@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/printable.hpp>
+#include <gonio/core/spectrum.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/rgl.hpp>
 
@@ -20,7 +21,7 @@
 namespace gonio::io::detail {
 
 inline constexpr std::string_view tensor_magic{"tensor_file\0", 12};
-inline constexpr std::uint8_t tensor_float32 = 10;
+inline constexpr std::uint8_t tensor_uint8 = 1, tensor_float32 = 10;
 /// Bytes of an element by the code of its type: nothing, eight kinds of integers, then float16, float32 and float64.
 inline constexpr std::array<std::uint64_t, 12> tensor_element_size{0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
 
@@ -118,27 +119,160 @@ class rgl_arrays {
   const std::string& name_;
 };
 
+/// Red, green and blue of spectra.
+[[nodiscard]] inline model::unit_square_tables rgb_of(const rgl_spectra& spectra) {
+  const spectral_colour colour(spectra.wavelengths);
+  const model::unit_square_tables& all = spectra.values;
+  const Eigen::Index size = all.rows * all.columns, bands = colour.size(), angles = all.tables / bands;
+  model::unit_square_tables colours{3 * angles, all.rows, all.columns, std::vector<float>(3 * angles * size)};
+  std::vector<double> spectrum(spectra.wavelengths.size());
+  for (Eigen::Index angle = 0; angle < angles; ++angle)
+    for (Eigen::Index i = 0; i < size; ++i) {
+      for (Eigen::Index band = 0; band < bands; ++band) spectrum[band] = all.values[(angle * bands + band) * size + i];
+      const rgb value = colour(spectrum);
+      for (Eigen::Index c = 0; c < 3; ++c) colours.values[(3 * angle + c) * size + i] = static_cast<float>(value[c]);
+    }
+  return colours;
+}
+
+/// Throws gonio::error unless there is a table for each wavelength and each theta_i.
+inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
+  const model::unit_square_tables& all = spectra.values;
+  const auto tables = std::ssize(spectra.wavelengths) * static_cast<Eigen::Index>(angles);
+  if (all.tables != tables || std::ssize(all.values) != tables * all.rows * all.columns)
+    refuse({"the spectra need ", tables, " tables, for ", spectra.wavelengths.size(), " wavelengths and ", angles,
+            " angles, not ", all.tables});
+}
+
+[[nodiscard]] inline rgl_spectra read_spectra(const rgl_arrays& arrays, std::size_t angles) {
+  const std::vector<float> wavelengths = arrays.numbers("wavelengths");
+  rgl_spectra spectra{{wavelengths.begin(), wavelengths.end()}, arrays.tables("spectra", 5)};
+  require_spectra(spectra, angles);
+  return spectra;
+}
+
+/// The arrays of a container that is written.
+class tensor_writer {
+ public:
+  using extents = std::vector<std::uint64_t>;
+
+  void add(const std::string& name, const extents& shape, std::span<const std::byte> elements, std::uint8_t type) {
+    fields_.push_back({name, type, shape, {elements.begin(), elements.end()}});
+  }
+  void add(const std::string& name, const extents& shape, const std::vector<float>& numbers) {
+    add(name, shape, std::as_bytes(std::span(numbers)), tensor_float32);
+  }
+  /// The last two dimensions are the tables'.
+  void add(const std::string& name, extents shape, const model::unit_square_tables& tables) {
+    shape.push_back(static_cast<std::uint64_t>(tables.rows));
+    shape.push_back(static_cast<std::uint64_t>(tables.columns));
+    add(name, shape, tables.values);
+  }
+
+  [[nodiscard]] std::vector<std::byte> bytes() const {
+    std::uint64_t position = tensor_magic.size() + 2 + sizeof(std::uint32_t);
+    for (const field& each : fields_) position += 13 + each.name.size() + 8 * each.shape.size();
+    byte_writer writer;
+    writer.put_bytes(tensor_magic.data(), tensor_magic.size());
+    writer.put(std::uint8_t{1});
+    writer.put(std::uint8_t{0});
+    writer.put(static_cast<std::uint32_t>(fields_.size()));
+    for (const field& each : fields_) {
+      writer.put(static_cast<std::uint16_t>(each.name.size()));
+      writer.put_bytes(each.name.data(), each.name.size());
+      writer.put(static_cast<std::uint16_t>(each.shape.size()));
+      writer.put(each.type);
+      writer.put(position);
+      writer.put_all(std::span(each.shape));
+      position += each.elements.size();
+    }
+    for (const field& each : fields_) writer.put_all(std::span(each.elements));
+    return writer.take();
+  }
+
+ private:
+  struct field {
+    std::string name;
+    std::uint8_t type = 0;
+    extents shape;
+    std::vector<std::byte> elements;
+  };
+
+  std::vector<field> fields_;
+};
+
+/// How bright the values are: by this, renderers draw directions. Every point can be drawn.
+[[nodiscard]] inline std::vector<float> luminances(const model::unit_square_tables& colours) {
+  constexpr double least_share = 1e-3;
+  const Eigen::Index size = colours.rows * colours.columns, angles = colours.tables / 3;
+  std::vector<float> all(angles * size);
+  for (Eigen::Index angle = 0; angle < angles; ++angle) {
+    const float* red = colours.row(3 * angle, 0);
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const rgb value(red[i], red[size + i], red[2 * size + i]);
+      const double bright = std::max(luminance(value), 0.0);
+      all[angle * size + i] = static_cast<float>(bright);
+      sum += bright;
+    }
+    const double mean = sum > 0.0 ? sum / static_cast<double>(size) : 1.0;
+    const auto least = static_cast<float>(least_share * mean);
+    for (Eigen::Index i = 0; i < size; ++i) all[angle * size + i] = std::max(all[angle * size + i], least);
+  }
+  return all;
+}
+
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
 
+GONIO_INLINE std::vector<std::byte> serialise_rgl(const rgl_material& material) {
+  const model::adaptive_brdf_parts& parts = material.material.parts();
+  const model::unit_square_tables& values = material.spectra ? material.spectra->values : parts.reflectance;
+  if (material.spectra) detail::require_spectra(*material.spectra, parts.theta_i.size());
+  if (values.rows != values.columns || values.rows != parts.reflectance.rows)
+    gonio::refuse({"a .bsdf file needs square tables of reflectance, not ", values.rows, " x ", values.columns});
+  const auto size = static_cast<std::uint64_t>(values.rows), angles = static_cast<std::uint64_t>(parts.theta_i.size());
+  const std::string description = material.description.empty() ? "gonio" : material.description;
+  detail::tensor_writer file;
+  file.add("description", {description.size()}, std::as_bytes(std::span(description)), detail::tensor_uint8);
+  file.add("phi_i", {1}, std::vector<float>{0.0f});
+  file.add("theta_i", {angles}, std::vector<float>(parts.theta_i.begin(), parts.theta_i.end()));
+  file.add("sigma", {}, parts.projected_area);
+  file.add("ndf", {}, parts.normals);
+  file.add("vndf", {1, angles}, parts.visible_normals);
+  file.add("luminance", {1, angles, size, size}, detail::luminances(parts.reflectance));
+  if (material.spectra) {
+    const std::vector<double>& wavelengths = material.spectra->wavelengths;
+    file.add("wavelengths", {wavelengths.size()}, std::vector<float>(wavelengths.begin(), wavelengths.end()));
+  }
+  const auto channels = static_cast<std::uint64_t>(values.tables) / angles;
+  file.add(material.spectra ? "spectra" : "rgb", {1, angles, channels}, values);
+  file.add("jacobian", {1}, std::as_bytes(std::span("\1", 1)), detail::tensor_uint8);
+  return file.bytes();
+}
+
 GONIO_INLINE rgl_material parse_rgl(std::span<const std::byte> bytes, const std::string& name) {
   const detail::rgl_arrays arrays(bytes, name);
-  if (!arrays.has("rgb") && arrays.has("spectra"))
-    gonio::refuse({name, ": holds spectra, expected a file of the RGB variant, with an array 'rgb'"});
   if (const std::size_t azimuths = arrays.numbers("phi_i").size(); azimuths > 2)
     gonio::refuse({name, ": is anisotropic (", azimuths, " azimuths of the light), expected an isotropic material"});
   const std::vector<float> theta_i = arrays.numbers("theta_i");
   std::string description;
   if (arrays.has("description")) description = arrays.text("description");
+  // Without it the file has the values themselves, and no distribution of normals is to be multiplied by.
+  if (arrays.has("jacobian") && arrays.text("jacobian") != std::string("\1"))
+    gonio::refuse({name, ": the array 'jacobian' is not 1, expected values that are relative to the normals"});
   try {
     // A float's pi/2 may be larger than a double's.
     std::vector<double> angles(theta_i.begin(), theta_i.end());
     for (double& angle : angles)
       if (angle > 0.5 * std::numbers::pi && angle < 0.5 * std::numbers::pi + 1e-6) angle = 0.5 * std::numbers::pi;
+    std::optional<rgl_spectra> spectra;
+    if (!arrays.has("rgb") && arrays.has("spectra")) spectra = detail::read_spectra(arrays, angles.size());
+    model::unit_square_tables colours = spectra ? detail::rgb_of(*spectra) : arrays.tables("rgb", 5);
     return {model::adaptive_brdf({std::move(angles), arrays.tables("ndf", 2), arrays.tables("sigma", 2),
-                                  arrays.tables("vndf", 4), arrays.tables("rgb", 5)}),
-            std::move(description)};
+                                  arrays.tables("vndf", 4), std::move(colours)}),
+            std::move(description), std::move(spectra)};
   } catch (const error& why) {
     const std::string what = why.what();
     gonio::refuse({what.starts_with(name) ? "" : name + ": ", what});

@@ -79,14 +79,30 @@ struct neighbouring_angles {
   }
 };
 
-/// The polar angle, exact near the normal too.
-[[nodiscard]] inline double polar_angle(const direction& w) noexcept {
-  return std::atan2(std::hypot(w.x(), w.y()), w.z());
+[[nodiscard]] inline double polar_coordinate(const direction& w) noexcept {
+  return std::sqrt(gonio::polar_angle(w) * (2.0 / std::numbers::pi));
 }
 
-[[nodiscard]] inline double polar_coordinate(const direction& w) noexcept {
-  return std::sqrt(polar_angle(w) * (2.0 / std::numbers::pi));
-}
+/// The trapezoids of a table, in units of its patches.
+struct table_sums {
+  Eigen::Index columns;
+  Eigen::ArrayXd along;   ///< of each row up to each column, row after row
+  Eigen::ArrayXd across;  ///< of whole rows up to each of them
+
+  table_sums(const float* values, Eigen::Index rows, Eigen::Index columns_)
+      : columns(columns_), along(rows * columns_), across(rows) {
+    for (Eigen::Index row = 0; row < rows; ++row) {
+      const Eigen::Index first = row * columns;
+      along[first] = 0.0;
+      for (Eigen::Index i = first + 1; i < first + columns; ++i)
+        along[i] = along[i - 1] + 0.5 * (double{values[i - 1]} + double{values[i]});
+      across[row] = row == 0 ? 0.0 : across[row - 1] + 0.5 * (row_total(row - 1) + row_total(row));
+    }
+  }
+
+  [[nodiscard]] double row_total(Eigen::Index row) const noexcept { return along[(row + 1) * columns - 1]; }
+  [[nodiscard]] double total() const noexcept { return across[across.size() - 1]; }
+};
 
 /// Where the cumulative distribution of visible normals maps a half vector.
 [[nodiscard]] inline square_point visible_position(const unit_square_tables& density, const unit_square_tables& along,
@@ -154,24 +170,16 @@ GONIO_INLINE adaptive_brdf::stored adaptive_brdf::summed_up(adaptive_brdf_parts 
   const auto [tables, rows, columns] = std::tuple(density.tables, density.rows, density.columns);
   unit_square_tables along = density;
   unit_square_tables across{1, tables, rows, std::vector<float>(tables * rows)};
-  Eigen::ArrayXd part(rows * columns), whole(rows);
+  const Eigen::Index size = rows * columns;
   for (Eigen::Index t = 0; t < tables; ++t) {
-    // Sum along each row, then from row to row.
-    Eigen::Map<Eigen::ArrayXf> values(density.values.data() + t * part.size(), part.size());
-    for (Eigen::Index row = 0; row < rows; ++row) {
-      const Eigen::Index first = row * columns;
-      part[first] = 0.0;
-      for (Eigen::Index i = first + 1; i < first + columns; ++i)
-        part[i] = part[i - 1] + 0.5 * (double{values[i - 1]} + double{values[i]});
-      const auto sum_of = [&](Eigen::Index of) { return part[(of + 1) * columns - 1]; };
-      whole[row] = row == 0 ? 0.0 : whole[row - 1] + 0.5 * (sum_of(row - 1) + sum_of(row));
-    }
+    Eigen::Map<Eigen::ArrayXf> values(density.values.data() + t * size, size);
+    const detail::table_sums sums(values.data(), rows, columns);
     // Scale the whole to 1: between two theta_i, sums are interpolated.
-    const double sum = whole[rows - 1];
+    const double sum = sums.total();
     if (!(sum > 0.0)) refuse({"no normals are visible from theta_i number ", t});
     values = (values.cast<double>() / sum).cast<float>();
-    Eigen::Map<Eigen::ArrayXf>(along.values.data() + t * part.size(), part.size()) = (part / sum).cast<float>();
-    Eigen::Map<Eigen::ArrayXf>(across.values.data() + t * rows, rows) = (whole / sum).cast<float>();
+    Eigen::Map<Eigen::ArrayXf>(along.values.data() + t * size, size) = (sums.along / sum).cast<float>();
+    Eigen::Map<Eigen::ArrayXf>(across.values.data() + t * rows, rows) = (sums.across / sum).cast<float>();
   }
   return {std::move(parts), std::move(along), std::move(across)};
 }
@@ -188,7 +196,7 @@ GONIO_INLINE rgb adaptive_brdf::as_measured(const direction& wi, const direction
   const double divisor = 4.0 * wo.z() * detail::square_patch(area, light).value(area, 0);
   if (!(divisor > 0.0)) return rgb::Zero();
   const double scale = detail::square_patch(normals, half).value(normals, 0) / divisor;
-  const detail::neighbouring_angles angles(theta_i, detail::polar_angle(wi));
+  const detail::neighbouring_angles angles(theta_i, polar_angle(wi));
   const detail::square_patch patch(
       reflectance, detail::visible_position(visible, tables_->along_rows, tables_->across_rows, half, angles));
   rgb value;

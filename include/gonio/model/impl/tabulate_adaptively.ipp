@@ -1,0 +1,240 @@
+#pragma once
+/// Bodies of model/tabulate_adaptively.hpp.
+
+#include <gonio/core/compiled.hpp>
+#include <gonio/core/error.hpp>
+#include <gonio/core/parallel.hpp>
+#include <gonio/model/adaptive_brdf.hpp>
+#include <gonio/model/impl/adaptive_brdf.ipp>
+#include <gonio/model/tabulate_adaptively.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+namespace gonio::model::detail {
+
+inline constexpr double quarter_turn = 0.5 * std::numbers::pi;
+/// What is said of the horizon is read a bit above it, where a BRDF has a value.
+inline constexpr double highest_angle = quarter_turn - 1e-3;
+/// The share of normals that are those of a surface rough in the extreme: it gives the values far from the highlight
+/// their part of the tables, and no normal a density of zero.
+inline constexpr double rough_share = 0.2;
+
+/// The coordinate of a node, from 0 to 1.
+[[nodiscard]] inline double unit_coordinate(Eigen::Index node, Eigen::Index nodes) {
+  return static_cast<double>(node) / static_cast<double>(nodes - 1);
+}
+
+/// The polar angle of a coordinate along the rows: the inverse of `polar_coordinate`.
+[[nodiscard]] inline double polar_angle_at(double along) { return quarter_turn * along * along; }
+
+/// The integral of max(0, m . w) over the azimuth of m, of which the polar angles are given.
+[[nodiscard]] inline double projected_ring(double theta_m, double theta) {
+  const double up = std::cos(theta_m) * std::cos(theta), aside = std::sin(theta_m) * std::sin(theta);
+  if (up >= aside) return 2.0 * std::numbers::pi * up;
+  const double limit = std::acos(-up / aside);
+  return 2.0 * (up * limit + aside * std::sin(limit));
+}
+
+/// A distribution of normals over polar angles that are uniform in the coordinate along the rows.
+class normal_distribution {
+ public:
+  /// From what f reflects back to the light.
+  normal_distribution(const brdf_function& f, Eigen::Index nodes)
+      : theta_(nodes), weights_(nodes), rings_(nodes, nodes), density_(nodes) {
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      const double along = unit_coordinate(i, nodes);
+      theta_[i] = polar_angle_at(along);
+      // d theta = pi along d along, by the trapezoidal rule.
+      const double step = (i == 0 || i == nodes - 1 ? 0.5 : 1.0) / static_cast<double>(nodes - 1);
+      weights_[i] = std::numbers::pi * along * std::sin(theta_[i]) * step;
+    }
+    for (Eigen::Index i = 0; i < nodes; ++i)
+      for (Eigen::Index j = 0; j < nodes; ++j) rings_(i, j) = projected_ring(theta_[j], theta_[i]) * weights_[j];
+    Eigen::ArrayXd back(nodes);
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      const direction m = spherical_direction(std::min(theta_[i], highest_angle), 0.0);
+      back[i] = std::max(luminance(f(m, m)), 0.0) * m.z();
+    }
+    iterate(back);
+  }
+
+  [[nodiscard]] const Eigen::ArrayXd& density() const noexcept { return density_; }
+
+  [[nodiscard]] Eigen::ArrayXd projected_area() const {
+    Eigen::ArrayXd area(theta_.size());
+    for (Eigen::Index i = 0; i < area.size(); ++i) area[i] = (rings_.row(i).transpose() * density_).sum();
+    return area;
+  }
+
+ private:
+  static constexpr int iterations = 16;
+
+  void iterate(const Eigen::ArrayXd& back) {
+    // Materials that reflect nothing back have normals like a surface rough in the extreme.
+    density_.setConstant(std::numbers::inv_pi);
+    if (!(back > 0.0).any()) return;
+
+    for (int i = 0; i < iterations; ++i) density_ = normalised(back * projected_area());
+    density_ = (1.0 - rough_share) * density_ + rough_share * std::numbers::inv_pi;
+  }
+
+  /// The area that is seen from above is 1.
+  [[nodiscard]] Eigen::ArrayXd normalised(const Eigen::ArrayXd& density) const {
+    return density / (2.0 * std::numbers::pi * (density * theta_.cos() * weights_).sum());
+  }
+
+  Eigen::ArrayXd theta_, weights_;
+  Eigen::ArrayXXd rings_;
+  Eigen::ArrayXd density_;
+};
+
+/// What of [0, 1] has the integral `wanted` of a density that goes from `low` to `high`.
+[[nodiscard]] inline double linear_quantile(double low, double high, double wanted) {
+  const double root = std::sqrt(std::max(low * low + 2.0 * (high - low) * wanted, 0.0));
+  return low + root > 0.0 ? std::clamp(2.0 * wanted / (low + root), 0.0, 1.0) : 0.0;
+}
+
+/// The inverse of `visible_position` at one theta_i.
+class visible_normal_quantiles {
+ public:
+  visible_normal_quantiles(const float* density, Eigen::Index rows, Eigen::Index columns)
+      : density_(density), sums_(density, rows, columns) {}
+
+  [[nodiscard]] square_point operator()(const square_point& position) const {
+    const double rows_wanted = inside(position.across) * sums_.total();
+    const Eigen::Index row = interval(sums_.across.size(), rows_wanted, [&](auto i) { return sums_.across[i]; });
+    const double across =
+        linear_quantile(sums_.row_total(row), sums_.row_total(row + 1), rows_wanted - sums_.across[row]);
+    const auto between_rows = [&](const auto& values, Eigen::Index column) {
+      const Eigen::Index low = row * sums_.columns + column;
+      return std::lerp(double{values[low]}, double{values[low + sums_.columns]}, across);
+    };
+    const auto sum_at = [&](Eigen::Index column) { return between_rows(sums_.along, column); };
+    const double wanted = inside(position.along) * sum_at(sums_.columns - 1);
+    const Eigen::Index column = interval(sums_.columns, wanted, sum_at);
+    const double along =
+        linear_quantile(between_rows(density_, column), between_rows(density_, column + 1), wanted - sum_at(column));
+    return {(static_cast<double>(row) + across) / static_cast<double>(sums_.across.size() - 1),
+            (static_cast<double>(column) + along) / static_cast<double>(sums_.columns - 1)};
+  }
+
+ private:
+  /// Not the very borders: there, what is nearest to the border of what is visible is meant.
+  [[nodiscard]] static double inside(double coordinate) { return std::clamp(coordinate, 1e-6, 1.0 - 1e-6); }
+
+  /// The last of the intervals between the nodes whose sums, which do not fall, begin below what is wanted.
+  template <class Sum>
+  [[nodiscard]] static Eigen::Index interval(Eigen::Index nodes, double wanted, const Sum& sum) {
+    Eigen::Index low = 0, high = nodes - 1;
+    while (high - low > 1) {
+      const Eigen::Index middle = (low + high) / 2;
+      (sum(middle) < wanted ? low : high) = middle;
+    }
+    return low;
+  }
+
+  const float* density_;
+  table_sums sums_;
+};
+
+/// f(wi, wo) cos(theta_o). Below the horizon it goes on as a straight line.
+[[nodiscard]] inline rgb continued_cosine_value(const brdf_function& f, const direction& wi, const direction& wo) {
+  constexpr double lowest_cosine = 0.02;
+  if (wo.z() > 0.0) return f(wi, wo) * wo.z();
+  const double scale = std::sqrt((1.0 - lowest_cosine * lowest_cosine) / (1.0 - wo.z() * wo.z()));
+  const direction above(scale * wo.x(), scale * wo.y(), lowest_cosine);
+  return wo.z() * f(wi, above);
+}
+
+/// Two rows of the same numbers: what does not depend on the azimuth.
+[[nodiscard]] inline unit_square_tables isotropic_table(const Eigen::ArrayXd& row) {
+  unit_square_tables table{1, 2, row.size(), std::vector<float>(2 * row.size())};
+  Eigen::Map<Eigen::ArrayXXf>(table.values.data(), row.size(), 2).colwise() = row.cast<float>();
+  return table;
+}
+
+/// The tables of a material, filled one theta_i after the other.
+class adaptive_tabulation {
+ public:
+  adaptive_tabulation(const brdf_function& f, const adaptive_resolution& resolution) : f_(f) {
+    const auto [angles, values, visible, normals] = resolution;
+    const normal_distribution distribution(f, normals);
+    parts_.normals = isotropic_table(distribution.density());
+    parts_.projected_area = isotropic_table(distribution.projected_area());
+    for (Eigen::Index i = 0; i < angles; ++i) parts_.theta_i.push_back(quarter_turn * unit_coordinate(i, angles));
+    parts_.visible_normals = {angles, visible, visible, std::vector<float>(angles * visible * visible)};
+    parts_.reflectance = {3 * angles, values, values, std::vector<float>(3 * angles * values * values)};
+  }
+
+  /// Of the angle with this number.
+  void fill(Eigen::Index number) {
+    const direction wi = spherical_direction(std::min(parts_.theta_i[number], highest_angle), 0.0);
+    fill_visible_normals(number, wi);
+    fill_reflectance(number, wi);
+  }
+
+  [[nodiscard]] adaptive_brdf_parts take() && { return std::move(parts_); }
+
+ private:
+  [[nodiscard]] static direction half_vector(const square_point& at) {
+    return spherical_direction(polar_angle_at(at.along), (2.0 * at.across - 1.0) * std::numbers::pi);
+  }
+  [[nodiscard]] double normal_density(const square_point& at) const {
+    return square_patch(parts_.normals, at).value(parts_.normals, 0);
+  }
+
+  void fill_visible_normals(Eigen::Index number, const direction& wi) {
+    unit_square_tables& visible = parts_.visible_normals;
+    Eigen::Index at = number * visible.rows * visible.columns;
+    for (Eigen::Index row = 0; row < visible.rows; ++row)
+      for (Eigen::Index column = 0; column < visible.columns; ++column) {
+        const square_point node{unit_coordinate(row, visible.rows), unit_coordinate(column, visible.columns)};
+        const direction m = half_vector(node);
+        // Of the unit square, not of solid angle; the factor that is the same everywhere does not matter.
+        const double jacobian = node.along * std::hypot(m.x(), m.y());
+        visible.values[at++] = static_cast<float>(normal_density(node) * std::max(wi.dot(m), 0.0) * jacobian);
+      }
+  }
+
+  void fill_reflectance(Eigen::Index number, const direction& wi) {
+    const unit_square_tables& visible = parts_.visible_normals;
+    const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
+    const square_point light{0.5, polar_coordinate(wi)};
+    const double area = square_patch(parts_.projected_area, light).value(parts_.projected_area, 0);
+    unit_square_tables& reflectance = parts_.reflectance;
+    const Eigen::Index size = reflectance.rows * reflectance.columns;
+    float* red = reflectance.values.data() + 3 * number * size;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const square_point half = quantiles({unit_coordinate(i / reflectance.columns, reflectance.rows),
+                                           unit_coordinate(i % reflectance.columns, reflectance.columns)});
+      const direction m = half_vector(half);
+      const direction wo = 2.0 * m.dot(wi) * m - wi;
+      const rgb value = continued_cosine_value(f_, wi, wo) * (4.0 * area / normal_density(half));
+      for (Eigen::Index c = 0; c < 3; ++c) red[c * size + i] = static_cast<float>(value[c]);
+    }
+  }
+
+  const brdf_function& f_;
+  adaptive_brdf_parts parts_;
+};
+
+inline void require_resolution(const adaptive_resolution& resolution) {
+  const auto [angles, values, visible, normals] = resolution;
+  for (const Eigen::Index count : {angles, values, visible, normals})
+    if (count < 2 || count > 4096) refuse({"adaptive tables need from 2 to 4096 numbers along each axis, not ", count});
+}
+
+GONIO_INLINE adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const adaptive_resolution& resolution,
+                                                      thread_count threads) {
+  require_resolution(resolution);
+  adaptive_tabulation tabulation(f, resolution);
+  for_each_index(
+      resolution.theta_i, 1, [&](Eigen::Index number) { tabulation.fill(number); }, threads);
+  return std::move(tabulation).take();
+}
+
+}  // namespace gonio::model::detail
