@@ -1,15 +1,15 @@
-# cmake [-D ONLY=format|weight|others|sanitize] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
+# cmake [-D ONLY=format|weight|others|python|sanitize] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
 # or one part of it.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
-set(parts format weight others sanitize)
+set(parts format weight others python sanitize)
 if(ONLY)
   if(NOT ONLY IN_LIST parts)
     message(FATAL_ERROR "ONLY is one of ${parts}")
   endif()
   set(parts ${ONLY})
 endif()
-gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages}
+gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages} ${gonio_python_packages}
              clang-19 libclang-rt-19-dev clang-format-14 time)
 
 if("format" IN_LIST parts)
@@ -34,6 +34,15 @@ if("others" IN_LIST parts)
        -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
   step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills")
+endif()
+
+# The Python module and its wheel, whose build asks PyPI. All code of a module can be placed anywhere: a folder apart.
+if("python" IN_LIST parts)
+  step("python: configure" ${cmake} -S . -B build/python -G Ninja -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release
+       -D Python_EXECUTABLE=/usr/bin/python3 -D GONIO_BUILD_PYTHON=ON
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=OFF -D GONIO_BUILD_LEARN=OFF -D GONIO_TEST_CONSUMERS=OFF)
+  step("python: build" ${cmake} --build build/python --parallel ${cores} --target gonio_python gonio_tool)
+  step("python: test" ${ctest} --test-dir build/python --label-regex python)
 endif()
 
 if("sanitize" IN_LIST parts)

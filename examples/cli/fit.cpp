@@ -22,12 +22,10 @@ namespace {
 struct fit_command_options {
   measurement_options reading;
   std::filesystem::path measurements, output, image, pbrt, mitsuba;
-  std::string model = "ggx", metric = "log";
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
-  bool fresnel = false, print_json = false, no_cosine_weight = false;
+  bool print_json = false, no_cosine_weight = false;
   image_options how;
-  /// Those that are nearest on measured materials: docs/results/models.md.
-  gonio::model::model_fit_options fit{.norm = gonio::model::fit_norm::huber};
+  model_choice choice;
 };
 
 bool is_table(const std::filesystem::path& path) { return path.extension() == ".binary" || path.extension() == ".gz"; }
@@ -48,20 +46,18 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
 }
 
 void fit(const fit_command_options& options) {
-  // Choose the lobes.
   if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
     gonio::refuse("--cell-weights needs a table: samples carry their own weights");
-  auto kinds = lobes_named(options.model);
-  if (options.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
   // Read the measurements, and fit the model under the metric.
   std::optional<gonio::brdf_table> table;
   if (is_table(options.measurements)) table.emplace(gonio::io::read_merl_any(options.measurements));
   if (table) require_unused(options.reading, options.measurements);
   gonio::io::sample_file measured;
   if (!table) measured = read_measurement_file(options.measurements, options.reading);
-  const auto observations = table ? gonio::model::fit_observations(*table, options.fit.threads, options.cell_weights)
-                                  : gonio::model::fit_observations(measured.samples);
-  const gonio::model::model_fit found = fit_by_metric(options.metric, kinds, observations, options.fit);
+  const auto observations =
+      table ? gonio::model::fit_observations(*table, options.choice.fit.threads, options.cell_weights)
+            : gonio::model::fit_observations(measured.samples);
+  const gonio::model::model_fit found = fit_chosen(options.choice, observations);
 
   // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
   const std::string pbrt = options.pbrt.empty() ? "" : gonio::io::pbrt_material(found.model);
@@ -71,12 +67,12 @@ void fit(const fit_command_options& options) {
   // Tabulate the fit, and draw it beside the table that was measured.
   if (!options.output.empty() || !options.image.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
-    const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.fit.threads);
+    const gonio::brdf_table fitted = gonio::tabulate(found.model, cells, options.choice.fit.threads);
     if (!options.output.empty()) write_table(options.output, fitted);
     if (!options.image.empty()) {
       std::vector<gonio::image> images;
-      if (table) images.push_back(sphere_image(*table, options.how, options.fit.threads));
-      images.push_back(sphere_image(fitted, options.how, options.fit.threads));
+      if (table) images.push_back(sphere_image(*table, options.how, options.choice.fit.threads));
+      images.push_back(sphere_image(fitted, options.how, options.choice.fit.threads));
       expose_spheres(images, std::span(images).first(1), options.how);  // by what was measured
       gonio::io::write_png(options.image, gonio::render::side_by_side(images, 8));
     }
@@ -105,18 +101,18 @@ void add_fit(command& app) {
   for (const gonio::model::lobe_kind* kind : gonio::model::lobe_kinds())
     names += (names.empty() ? "" : ", ") + std::string(kind->name());
   command
-      .add_option("--model", options->model,
+      .add_option("--model", options->choice.model,
                   "A lobe beside a Lambertian one, or with sum:ward+ggx the lobes that are named: " + names)
       .capture_default_str();
   // Declare how they are compared.
   command
-      .add_option("--metric", options->metric,
+      .add_option("--metric", options->choice.metric,
                   "Reflectance is compared as it is (lin), as log (ln(1 + x)) or as cubic root")
       .check(check::one_of({"lin", "log", "cubic"}))
       .capture_default_str();
-  command.add_flag("--fresnel", options->fresnel,
+  command.add_flag("--fresnel", options->choice.fresnel,
                    "The last lobe times the reflectance of a dielectric (Phong's lobes)");
-  add_fit_options(command, options->fit);
+  add_fit_options(command, options->choice.fit);
   command.add_flag("--no-cosine-weight", options->no_cosine_weight,
                    "Compare reflectance without the cosine of the light");
   add_cell_weights_option(command, options->cell_weights);
@@ -129,11 +125,11 @@ void add_fit(command& app) {
   command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");
   command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
-  add_threads_option(command, options->fit.threads);
-  command.callback([options] {
-    if (options->fit.cosine_weighted && options->no_cosine_weight)
+  add_threads_option(command, options->choice.fit.threads);
+  command.callback([command, options] {
+    if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
       gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
-    options->fit.cosine_weighted = !options->no_cosine_weight;
+    options->choice.fit.cosine_weighted = !options->no_cosine_weight;
     fit(*options);
   });
 }

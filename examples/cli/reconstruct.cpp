@@ -3,96 +3,25 @@
 #include "command_line/json.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/measurement_files.hpp"
-#include "command_line/method_record.hpp"
 #include "command_line/prior_option.hpp"
-#include "command_line/reconstruct_methods.hpp"
-#include "command_line/sample_warnings.hpp"
+#include "command_line/reconstruct_choice.hpp"
 #include "command_line/threads_option.hpp"
 #include "command_line/warning.hpp"
 #include "commands.hpp"
 #include "images.hpp"
 #include "uncertainty_image.hpp"
-#include <gonio/core/finite.hpp>
 #include <gonio/io/file.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <span>
-#include <sstream>
-#include <string_view>
 
 namespace cli {
 
 namespace {
-
-struct method {
-  const char* name;
-  const char* description;
-  reconstruction (*reconstruct)(const reconstruct_options&, const gonio::sample_set&);
-  /// Those options that not all methods take.
-  std::vector<std::string_view> takes;
-};
-
-const std::vector<method>& methods() {
-  static const std::vector<method> all{
-      {"pca",
-       "principal components (Nielsen et al. 2015)",
-       reconstruct_by_components,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
-        "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
-        "--uncertainty-image"}},  // refuses some of them itself, and says why
-      {"soft-specular",
-       "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
-       "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "
-       "et al. 2015, section 8)",
-       reconstruct_by_soft_or_specular,
-       {"--prior", "--eta"}},
-      {"linear",
-       "a combination of the materials themselves (Noell et al. 2014)",
-       reconstruct_by_materials,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--lambda",
-        "--variance"}},
-      {"correction",
-       "such a combination, corrected again and again (Noell et al. 2014), from 2000 samples on, or if an option of "
-       "its "
-       "own is given; else what pca does",
-       reconstruct_by_corrections,
-       {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--gamma", "--as-printed", "--iterations",
-        "--history", "--iteration-figure", "--truth", "--seed"}},
-      {"rbf",
-       "radial basis functions (a rival of Noell et al. 2014)",
-       reconstruct_by_radial_functions,
-       {"--prior", "--metric", "--root", "--seed"}},
-      {"pull-push", "interpolation (Gortler et al. 1996, the other rival)", reconstruct_by_pull_push, {}},
-      {"scattered",
-       "a mean of the nearest samples (Shepard 1968), from which nothing else is known: no prior",
-       reconstruct_by_neighbours,
-       {"--neighbours"}}};
-  return all;
-}
-
-const method& method_named(const std::string& name) {
-  return *std::ranges::find(methods(), name, [](const method& m) { return std::string_view(m.name); });
-}
-
-/// Refuses options that the method would ignore, naming the methods that would not.
-void require_taken(const command& given, const method& chosen) {
-  const auto takes = [](const method& m, std::string_view option) { return std::ranges::count(m.takes, option) > 0; };
-  for (const method& other : methods())
-    for (const std::string_view option : other.takes) {
-      if (given.count(std::string(option)) == 0 || takes(chosen, option)) continue;
-      std::string names;
-      for (const method& m : methods())
-        if (takes(m, option)) names += (names.empty() ? "" : " or ") + std::string(m.name);
-      gonio::refuse(std::string(option) + " needs --method " + names + ", not --method " + chosen.name);
-    }
-  if (given.count("--truth") > 0 && given.count("--iteration-figure") == 0)
-    gonio::refuse("--truth requires --iteration-figure");
-}
 
 /// A line for each round; docs/reference/formats.md has the columns.
 void write_history(const std::filesystem::path& path, std::span<const gonio::correction_round> rounds) {
@@ -130,26 +59,9 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
   gonio::io::write_png(options.image, spheres.front());
 }
 
-/// Samples may be such that what they are completed to is no number; it is they that are to blame, not the output.
-void require_finite(const gonio::brdf_table& table, const gonio::sample_set& samples,
-                    const reconstruct_options& options) {
-  if (gonio::all_finite(table.values())) return;
-  double largest = 0.0;
-  for (const gonio::sample& s : samples) largest = std::max(largest, s.value.abs().maxCoeff());
-  std::ostringstream value;
-  value << largest;
-  gonio::refuse({options.samples.native(), ": these samples, of up to ", value.str(),
-                 " sr^-1, complete to a table that is not finite by the method ", options.method});
-}
-
-void reconstruct(const reconstruct_options& options, const image_options& how, const method& chosen) {
+void reconstruct_and_write(const reconstruct_options& options, const image_options& how) {
   const gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
-  const gonio::sample_set& samples = measured.samples;
-  reconstruction result = chosen.reconstruct(options, samples);
-  std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
-  if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
-    result.warnings.push_back(std::move(sentence));
-  require_finite(result.table, samples, options);
+  const reconstruction result = reconstruct(options, measured.samples);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);
   if (!options.uncertainty.empty()) write_table(options.uncertainty, *result.uncertainty);
@@ -167,7 +79,7 @@ void reconstruct(const reconstruct_options& options, const image_options& how, c
 void add_method_option(command& to, std::string& name) {
   std::string description;
   std::vector<std::string> names;
-  for (const method& m : methods()) {
+  for (const reconstruct_method& m : reconstruct_methods()) {
     description += (names.empty() ? "" : "; ") + std::string(m.name) + ": " + m.description;
     names.emplace_back(m.name);
   }
@@ -252,12 +164,10 @@ void add_reconstruct(command& app) {
   add_threads_option(command, options->threads);
   // Refuse options that the method does not take, then run it.
   command.callback([command, options, how] {
-    const method& chosen = method_named(options->method);
-    require_taken(command, chosen);
-    options->has_own_options = std::ranges::any_of(chosen.takes, [&](std::string_view option) {
-      return option != "--prior" && option != "--seed" && command.count(std::string(option)) > 0;
-    });
-    reconstruct(*options, *how, chosen);
+    take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
+    if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
+      gonio::refuse("--truth requires --iteration-figure");
+    reconstruct_and_write(*options, *how);
   });
 }
 

@@ -67,6 +67,13 @@ gonio::model::model_fit fit_by_metric(const std::string& metric,
   return gonio::model::fit_model(kinds, observations, gonio::lin(), options);
 }
 
+gonio::model::model_fit fit_chosen(const model_choice& choice,
+                                   std::span<const gonio::model::fit_observation> observations) {
+  auto kinds = lobes_named(choice.model);
+  if (choice.fresnel) kinds.back() = &with_fresnel_factor(*kinds.back());
+  return fit_by_metric(choice.metric, kinds, observations, choice.fit);
+}
+
 json to_json(const gonio::model::analytic_brdf& model) {
   json lobes = json::array();
   for (const gonio::model::analytic_lobe& lobe : model.lobes()) {

@@ -6,10 +6,19 @@
 #include "measures_as_json.hpp"
 #include <gonio/model/fit_model.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
 namespace cli {
+
+/// A model, and what is compared to fit it. The defaults are those that are nearest on measured materials:
+/// docs/results/models.md.
+struct model_choice {
+  std::string model = "ggx", metric = "log";
+  bool fresnel = false;
+  gonio::model::model_fit_options fit{.norm = gonio::model::fit_norm::huber, .cosine_weighted = true};
+};
 
 /// The lobes of `ggx` (beside a Lambertian one), or of `sum:ggx+ward` (as they stand). Throws gonio::error.
 [[nodiscard]] std::vector<const gonio::model::lobe_kind*> lobes_named(const std::string& model);
@@ -28,6 +37,10 @@ void add_cell_weights_option(command& to, gonio::model::cell_weighting& weightin
                                                     const std::vector<const gonio::model::lobe_kind*>& kinds,
                                                     std::span<const gonio::model::fit_observation> observations,
                                                     const gonio::model::model_fit_options& options);
+
+/// Fits the model that is chosen. Throws gonio::error where `lobes_named` or `with_fresnel_factor` does.
+[[nodiscard]] gonio::model::model_fit fit_chosen(const model_choice& choice,
+                                                 std::span<const gonio::model::fit_observation> observations);
 
 /// The lobes with their colours and parameters.
 [[nodiscard]] json to_json(const gonio::model::analytic_brdf& model);

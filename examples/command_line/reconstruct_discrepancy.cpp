@@ -152,8 +152,7 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
   if (!options.keeps_all) describe(screened, located.size(), numbers, result);
   const gonio::posterior known(estimator, screened.kept);
   describe(known, prior, options, result);
-  if (!options.uncertainty.empty() || !options.uncertainty_image.empty())
-    result.uncertainty = uncertainty_table(known, options.threads);
+  if (options.wants_uncertainty()) result.uncertainty = uncertainty_table(known, options.threads);
   return result;
 }
 

@@ -97,8 +97,7 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   const auto prior = gonio::io::read_prior(options.materials.prior);
   if (options.discrepancy != 0.0 && penalised && options.solver.eta.empty() && options.angular_error == 0.0)
     return reconstruct_with_discrepancy(options, prior, samples);
-  if (options.keeps_all || !options.residuals.empty() || !options.uncertainty.empty() ||
-      !options.uncertainty_image.empty())
+  if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
         "--no-reject, --residuals, --uncertainty and --uncertainty-image need a discrepancy: they go with none of "
         "--discrepancy 0, --misplaced, --eta and other solvers than tikhonov");

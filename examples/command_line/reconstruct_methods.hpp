@@ -27,8 +27,9 @@ struct reconstruct_options {
   double discrepancy = 0.02;
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
-  bool has_own_options = false;  ///< the method was asked for something beside what all methods have
-  bool as_printed = false;       ///< correction as Noell et al. 2014 print it
+  bool keeps_uncertainty = false;  ///< beside those that are written: in the result
+  bool has_own_options = false;    ///< the method was asked for something beside what all methods have
+  bool as_printed = false;         ///< correction as Noell et al. 2014 print it
   int iterations = 10;
   std::uint64_t seed = 0;
   Eigen::Index neighbours = gonio::scattered_options{}.neighbours;
@@ -36,6 +37,10 @@ struct reconstruct_options {
   solver_choice solver;
   bool print_json = false;
   gonio::thread_count threads;
+
+  [[nodiscard]] bool wants_uncertainty() const {
+    return keeps_uncertainty || !uncertainty.empty() || !uncertainty_image.empty();
+  }
 };
 
 /// A fit on its way to the user.

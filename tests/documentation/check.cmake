@@ -1,5 +1,5 @@
 # cmake -D SOURCE=REPOSITORY -P check.cmake: fails unless
-# - each C++ block of README.md and of docs/ names a file of the repository on the line before it, as in
+# - each C++ or Python block of README.md and of docs/ names a file of the repository on the line before it, as in
 #   `<!-- examples/learn/own_metric.cpp -->`, and its lines stand in that file, in a row. The tests build these files;
 # - each relative link of these pages leads to a file;
 # - the lines of the pages of docs/learn/ and docs/reference/ have at most 120 characters, tables apart.
@@ -20,14 +20,18 @@ function(line_of result text position)
   set(${result} ${line} PARENT_SCOPE) # the text has a line feed put before its first line
 endfunction()
 
-# The C++ blocks of a page.
+# The C++ and Python blocks of a page.
 function(check_blocks page text)
   set(rest "${text}")
   set(consumed 0)
   while(TRUE)
-    string(REGEX MATCH "\n```(cpp|c[+][+]|C[+][+]|cxx)[^\n]*\n" opening "${rest}")
+    string(REGEX MATCH "\n```(cpp|c[+][+]|C[+][+]|cxx|python)[^\n]*\n" opening "${rest}")
     if(NOT opening)
       break()
+    endif()
+    set(language "C++")
+    if(CMAKE_MATCH_1 STREQUAL "python")
+      set(language "Python")
     endif()
     string(FIND "${rest}" "${opening}" position)
     math(EXPR at "${consumed} + ${position} + 1")
@@ -41,7 +45,7 @@ function(check_blocks page text)
     string(SUBSTRING "${rest}" 0 ${end} block)
 
     if(NOT before MATCHES "\n<!-- ([a-zA-Z0-9_./-]+) -->$")
-      violation("${page}:${line}: the line before this C++ block must name its program: <!-- examples/learn/NAME.cpp -->")
+      violation("${page}:${line}: the line before this ${language} block must name its program: <!-- examples/learn/NAME.cpp -->")
       continue()
     endif()
     set(program "${CMAKE_MATCH_1}")

@@ -1,0 +1,152 @@
+/// Where to measure.
+
+#include "arrays.hpp"
+#include "command_line/design_search.hpp"
+#include "subjects.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/design/published_directions.hpp>
+#include <gonio/evaluate/next_measurement.hpp>
+#include <gonio/io/capture_constraint.hpp>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace python {
+
+namespace {
+
+/// The literature's and the searches' sets, and what they are worth.
+struct found_design {
+  std::vector<gonio::direction_pair> directions;
+  double value = 0.0;
+  cli::design_quality quality;
+};
+
+void require_one_of(const std::string& given, const char* name, std::initializer_list<std::string_view> words) {
+  if (std::ranges::count(words, std::string_view(given)) > 0) return;
+  std::string all;
+  for (const std::string_view word : words) all += (all.empty() ? "" : ", ") + std::string(word);
+  gonio::refuse({name, " is '", given, "': expected one of ", all});
+}
+
+std::vector<gonio::direction_pair> pairs_of(const py::object& directions, const char* name) {
+  std::vector<gonio::direction_pair> pairs;
+  for (const gonio::sample_directions& each : sample_directions_of(directions, name)) pairs.push_back(each.pair());
+  return pairs;
+}
+
+found_design design_for(const gonio::log_relative_pca& prior, Eigen::Index count, const std::string& geometry,
+                        const std::string& criterion, const std::string& search, double eta, double noise,
+                        double common_shift, bool in_sample, double misplaced_degrees, const py::object& start,
+                        const std::optional<std::filesystem::path>& constraint, std::uint64_t seed, unsigned threads) {
+  require_one_of(geometry, "geometry", {"point", "sphere", "near-field", "fixed-camera", "fixed-light"});
+  require_one_of(criterion, "criterion", {"expected-error", "perceived", "condition", "a-optimal", "d-optimal"});
+  require_one_of(search, "search", {"exchange", "greedy", "descent"});
+  cli::design_options options{.count = count,
+                              .geometry = geometry,
+                              .criterion = criterion,
+                              .search = search,
+                              .eta = eta,
+                              .noise = noise,
+                              .common_shift = common_shift,
+                              .in_sample = in_sample,
+                              .angular_error = gonio::radians(misplaced_degrees),
+                              .near_field = {},
+                              .start = {},
+                              .seed = seed,
+                              .threads = gonio::thread_count{threads}};
+  if (!start.is_none()) options.start = pairs_of(start, "start");
+  if (constraint) options.near_field.constraint = gonio::io::read_capture_constraint(*constraint);
+  const py::gil_scoped_release released;
+  const cli::designed found = cli::design(prior, options, interruption());
+  return {found.poses, found.value, cli::quality_of(prior, options, found)};
+}
+
+/// Of points that someone else chose.
+found_design quality_for(const gonio::log_relative_pca& prior, const py::object& directions, double eta, double noise,
+                         bool in_sample) {
+  cli::design_options options;
+  options.eta = eta;
+  options.noise = noise;
+  options.in_sample = in_sample;
+  cli::designed given;
+  for (const gonio::sample_directions& each : sample_directions_of(directions, "directions")) {
+    given.poses.push_back(each.pair());
+    given.samples.push_back(each.angles());
+  }
+  const py::gil_scoped_release released;
+  return {given.poses, given.value, cli::quality_of(prior, options, given)};
+}
+
+py::tuple next_for(const gonio::log_relative_pca& prior, const gonio::sample_set& samples, Eigen::Index count,
+                   double noise, unsigned threads) {
+  if (count < 1) gonio::refuse({"count is ", count, ": expected at least 1"});
+  std::vector<gonio::direction_pair> pairs;
+  double remaining = 0.0;
+  {
+    const py::gil_scoped_release released;
+    const gonio::discrepancy_decomposition estimator{prior, {.noise = noise}, gonio::thread_count{threads}};
+    const gonio::measurement_chooser chooser{
+        estimator, {}, gonio::design::default_candidates(), gonio::thread_count{threads}};
+    for (const gonio::next_measurement& next : chooser.choose(samples, count)) {
+      pairs.push_back(next.pose);
+      remaining = next.expected_delta_e;
+    }
+  }
+  return py::make_tuple(array_of(pairs), remaining);
+}
+
+py::array_t<double> published(Eigen::Index count) {
+  if (!gonio::design::has_nielsen_directions(count))
+    gonio::refuse({"there is no published set of ", count, " directions: expected 1, 2, 5, 10 or 20"});
+  std::vector<gonio::direction_pair> pairs;
+  for (const gonio::half_difference& angles : gonio::design::nielsen_directions(count))
+    pairs.push_back(gonio::to_directions(angles));
+  return array_of(pairs);
+}
+
+}  // namespace
+
+void add_design(py::module_& m) {
+  py::class_<found_design> type(m, "Design", "Directions to measure, and what is expected of them.");
+  type.def_property_readonly(
+      "directions", [](const found_design& d) { return array_of(d.directions); },
+      "Light and viewer of each measurement, of an image its centre: shape (n, 6), wi and wo.");
+  type.def_readonly("value", &found_design::value, "Of the criterion.");
+  type.def_property_readonly(
+      "expected_error", [](const found_design& d) { return d.quality.expected_error; },
+      "Root mean square over the cells, of the reflectance's logarithm.");
+  type.def_property_readonly(
+      "unknown_share", [](const found_design& d) { return d.quality.unknown_share; },
+      "The same as a share of what it is with nothing measured.");
+
+  const cli::design_options standard;
+  m.def(
+      "design", &design_for, py::arg("prior"), py::arg("count") = standard.count, py::kw_only(),
+      py::arg("geometry") = standard.geometry, py::arg("criterion") = standard.criterion,
+      py::arg("search") = standard.search, py::arg("eta") = standard.eta, py::arg("noise") = standard.noise,
+      py::arg("common_shift") = standard.common_shift, py::arg("in_sample") = standard.in_sample,
+      py::arg("misplaced_degrees") = 0.0, py::arg("start") = py::none(), py::arg("constraint") = py::none(),
+      py::arg("seed") = standard.seed, py::arg("threads") = 0,
+      "Directions that tell a prior's materials apart best, as `gonio design` finds them. start: directions that are\n"
+      "measured anyway. constraint: a file, what the apparatus cannot do. Ctrl-C ends the search.");
+  m.def("expected_error", &quality_for, py::arg("prior"), py::arg("directions"), py::kw_only(),
+        py::arg("eta") = standard.eta, py::arg("noise") = standard.noise, py::arg("in_sample") = standard.in_sample,
+        "What is expected of directions of one's own: shape (n, 6) or (n, 3), as `Samples` takes them.");
+  m.def(
+      "next_directions", &next_for, py::arg("prior"), py::arg("samples"), py::arg("count") = 1, py::kw_only(),
+      py::arg("noise") = 0.0, py::arg("threads") = 0,
+      "The best measurements beside some that were made, by what these read: directions of shape (count, 6), and the\n"
+      "Delta E of spheres that is expected to remain.");
+  m.def("published_directions", &published, py::arg("count") = 20,
+        "The directions of Nielsen et al. 2015: 1, 2, 5, 10 or 20 of them, shape (count, 6).");
+}
+
+}  // namespace python

@@ -1,0 +1,14 @@
+#pragma once
+/// What the tool prints as JSON, as Python's dictionaries and lists.
+
+#include "command_line/json.hpp"
+
+#include <pybind11/pybind11.h>
+
+namespace python {
+
+[[nodiscard]] inline pybind11::object to_python(const cli::json& value) {
+  return pybind11::module_::import("json").attr("loads")(value.dump());
+}
+
+}  // namespace python

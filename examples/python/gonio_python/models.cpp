@@ -1,0 +1,110 @@
+/// Analytic models: fits of them, formula materials, and what renderers read.
+
+#include "brdf_methods.hpp"
+#include "command_line/model_choice.hpp"
+#include "json_to_python.hpp"
+#include "subjects.hpp"
+#include <gonio/io/renderer_material.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <pybind11/stl.h>
+
+#include <map>
+#include <string>
+
+namespace python {
+
+namespace {
+
+using gonio::model::cell_weighting;
+using gonio::model::fit_norm;
+
+/// What a word stands for.
+template <class Value>
+Value named(const std::string& word, const char* name, const std::map<std::string, Value>& known) {
+  if (const auto found = known.find(word); found != known.end()) return found->second;
+  std::string words;
+  for (const auto& [each, value] : known) words += (words.empty() ? "" : ", ") + each;
+  gonio::refuse({name, " is '", word, "': expected one of ", words});
+}
+
+cli::model_choice choice_of(const std::string& model, const std::string& metric, const std::string& loss,
+                            bool cosine_weighted, bool fresnel, Eigen::Index starts, std::uint64_t seed,
+                            unsigned threads) {
+  cli::model_choice choice;
+  choice.model = model;
+  choice.metric = named<std::string>(metric, "metric", {{"lin", "lin"}, {"log", "log"}, {"cubic", "cubic"}});
+  choice.fresnel = fresnel;
+  choice.fit.norm =
+      named<fit_norm>(loss, "loss", {{"l1", fit_norm::l1}, {"l2", fit_norm::l2}, {"huber", fit_norm::huber}});
+  choice.fit.cosine_weighted = cosine_weighted;
+  if (starts < 0 || starts > 10'000) gonio::refuse({"starts is ", starts, ": expected 0 to 10000"});
+  choice.fit.random_starts = starts;
+  choice.fit.seed = seed;
+  choice.fit.threads.value = threads;
+  return choice;
+}
+
+gonio::model::model_fit fit_samples(const gonio::sample_set& samples, const std::string& model,
+                                    const std::string& metric, const std::string& loss, bool cosine_weighted,
+                                    bool fresnel, Eigen::Index starts, std::uint64_t seed, unsigned threads) {
+  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, starts, seed, threads);
+  return cli::fit_chosen(choice, gonio::model::fit_observations(samples));
+}
+
+gonio::model::model_fit fit_table(const gonio::brdf_table& table, const std::string& model, const std::string& metric,
+                                  const std::string& loss, bool cosine_weighted, bool fresnel, Eigen::Index starts,
+                                  std::uint64_t seed, unsigned threads, const std::string& cell_weights) {
+  const auto choice = choice_of(model, metric, loss, cosine_weighted, fresnel, starts, seed, threads);
+  const auto weighting = named<cell_weighting>(cell_weights, "cell_weights",
+                                               {{"equal", cell_weighting::equal},
+                                                {"solid-angle", cell_weighting::solid_angle},
+                                                {"cosine", cell_weighting::cosine}});
+  return cli::fit_chosen(choice, gonio::model::fit_observations(table, choice.fit.threads, weighting));
+}
+
+void add_fit_function(py::module_& m) {
+  using gonio::model::model_fit;
+  py::class_<model_fit> type(m, "ModelFit", "A fitted model, and what is known of its minimum.");
+  type.def_readonly("model", &model_fit::model, "The fitted BRDF.");
+  type.def_readonly("loss", &model_fit::loss, "The weighted mean of the norm of the residual.");
+  type.def_readonly("evaluations", &model_fit::evaluations, "Of the loss.");
+  type.def_readonly("converged", &model_fit::converged, "Did the fit reach a minimum?");
+  type.def_readonly("promised_gain", &model_fit::promised_gain, "What one more step promises.");
+  const cli::model_choice standard;
+  m.def(
+      "fit_model", &fit_samples, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
+      py::arg("metric") = standard.metric, py::arg("loss") = "huber",
+      py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
+      py::arg("starts") = standard.fit.random_starts, py::arg("seed") = standard.fit.seed, py::arg("threads") = 0,
+      py::call_guard<py::gil_scoped_release>(),
+      "Fits an analytic model as `gonio fit` does: a lobe beside a Lambertian one, or with 'sum:ward+ggx' the lobes\n"
+      "that are named. measurements: samples, or a table, whose cells count as cell_weights says (equal, solid-angle,\n"
+      "cosine).");
+  m.def("fit_model", &fit_table, py::arg("measurements"), py::arg("model") = standard.model, py::kw_only(),
+        py::arg("metric") = standard.metric, py::arg("loss") = "huber",
+        py::arg("cosine_weighted") = standard.fit.cosine_weighted, py::arg("fresnel") = standard.fresnel,
+        py::arg("starts") = standard.fit.random_starts, py::arg("seed") = standard.fit.seed, py::arg("threads") = 0,
+        py::arg("cell_weights") = "equal", py::call_guard<py::gil_scoped_release>());
+}
+
+}  // namespace
+
+void add_models(py::module_& m) {
+  py::class_<gonio::model::analytic_brdf> analytic(m, "AnalyticBrdf", "A sum of lobes.");
+  analytic.def_property_readonly(
+      "lobes", [](const gonio::model::analytic_brdf& f) { return to_python(cli::to_json(f)); },
+      "Each lobe's name, colour and parameters.");
+  analytic.def("mitsuba", &gonio::io::mitsuba_material, "The material as XML of Mitsuba 3.");
+  analytic.def("pbrt", &gonio::io::pbrt_material, "The material as text of pbrt-v4.");
+  add_brdf_methods(m, analytic);
+  add_fit_function(m);
+
+  py::class_<gonio::model::formula_brdf> formula(
+      m, "FormulaBrdf", "A material given by a formula: it is in no database, and its true values are known.");
+  add_brdf_methods(m, formula);
+  m.def("formula_material", &gonio::model::formula_material, py::arg("name"), "A formula material by its name.");
+  m.def("formula_material_names", &gonio::model::formula_material_names);
+}
+
+}  // namespace python

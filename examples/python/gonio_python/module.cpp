@@ -1,0 +1,45 @@
+/// The Python module: it says what went wrong, and has its subjects.
+
+#include "subjects.hpp"
+#include <gonio/core/error.hpp>
+
+#include <pybind11/pybind11.h>
+
+namespace python {
+
+namespace py = pybind11;
+
+std::filesystem::path prior_file(const std::optional<std::filesystem::path>& given) {
+  if (given) return *given;
+  const auto module = py::module_::import("gonio._gonio").attr("__file__").cast<std::string>();
+  return std::filesystem::path(module).parent_path() / "materials.prior";
+}
+
+gonio::progress interruption() {
+  return [](std::string_view, double) {
+    const py::gil_scoped_acquire held;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  };
+}
+
+void warn(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0) throw py::error_already_set();
+}
+
+}  // namespace python
+
+PYBIND11_MODULE(_gonio, m) {
+  m.doc() = "Complete BRDFs from a few reflectance measurements.";
+  m.attr("__version__") = GONIO_VERSION;
+  auto error = pybind11::register_exception<gonio::error>(m, "Error", PyExc_ValueError);
+  error.attr("__module__") = "gonio";
+  error.doc() = "Bad input. The message is one sentence: what is wrong, where, and what was expected.";
+  python::add_tables(m);
+  python::add_samples(m);
+  python::add_estimators(m);
+  python::add_reconstruct(m);
+  python::add_design(m);
+  python::add_models(m);
+  python::add_rendering(m);
+}

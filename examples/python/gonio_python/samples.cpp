@@ -1,0 +1,130 @@
+/// Measurements: arrays in, views of the library's memory out, and their files.
+
+#include "arrays.hpp"
+#include "command_line/measurement_files.hpp"
+#include "subjects.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/io/samples.hpp>
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <string>
+
+namespace python {
+
+namespace {
+
+/// One number for a sample, or one for each channel; the same for all samples if there is one alone.
+class channel_numbers {
+ public:
+  channel_numbers(const py::object& given, const std::string& name, py::ssize_t samples)
+      : array_(finite_rows(given, name, {3, 0})), data_(array_.data()), has_channels_(array_.ndim() == 2) {
+    if (array_.shape(0) != samples)
+      gonio::refuse({name, " has ", array_.shape(0), " rows, directions has ", samples, ": expected the same number"});
+  }
+
+  [[nodiscard]] gonio::rgb operator[](py::ssize_t i) const {
+    if (!has_channels_) return gonio::rgb::Constant(data_[i]);
+    return {data_[3 * i], data_[3 * i + 1], data_[3 * i + 2]};
+  }
+
+ private:
+  doubles array_;
+  const double* data_;
+  bool has_channels_;
+};
+
+gonio::sample_set samples_from_arrays(const py::object& directions, const py::object& values,
+                                      const py::object& weights) {
+  const auto places = sample_directions_of(directions, "directions");
+  const auto count = static_cast<py::ssize_t>(places.size());
+  const channel_numbers value(values, "values", count);
+  gonio::sample_set samples;
+  samples.reserve(places.size());
+  for (py::ssize_t i = 0; i < count; ++i) samples.push_back({places[static_cast<std::size_t>(i)], value[i], 1.0});
+  if (!weights.is_none()) {
+    const channel_numbers weight(weights, "weights", count);
+    for (py::ssize_t i = 0; i < count; ++i) samples[static_cast<std::size_t>(i)].weight = weight[i];
+  }
+  gonio::require_usable(samples);
+  return samples;
+}
+
+gonio::sample_set chosen(const gonio::sample_set& samples, const std::vector<py::ssize_t>& rows) {
+  const auto count = static_cast<py::ssize_t>(samples.size());
+  gonio::sample_set some;
+  for (const py::ssize_t row : rows) {
+    if (row < 0 || row >= count)
+      gonio::refuse({"there is no sample in row ", row, ": expected rows from 0 to ", count - 1});
+    some.push_back(samples[static_cast<std::size_t>(row)]);
+  }
+  return some;
+}
+
+constexpr py::ssize_t from_sample_to_sample = sizeof(gonio::sample), from_number_to_number = sizeof(double);
+
+/// Numbers that stand at the same place in each sample, without their data if there is no sample.
+template <class Place>
+py::array_t<double> column_view(const py::object& self, py::ssize_t columns, bool writable, const Place& place) {
+  auto& samples = self.cast<gonio::sample_set&>();
+  const extents shape{static_cast<py::ssize_t>(samples.size()), columns};
+  if (samples.empty()) return py::array_t<double>(shape);
+  const double* data = place(samples.front());
+  const extents strides{from_sample_to_sample, from_number_to_number};
+  return writable ? view_of(const_cast<double*>(data), shape, strides, self) : read_only(data, shape, strides, self);
+}
+
+void add_columns(py::class_<gonio::sample_set>& type) {
+  static_assert(sizeof(gonio::direction_pair) == 6 * sizeof(double));
+  static_assert(sizeof(gonio::half_difference) == 3 * sizeof(double));
+  type.def_property_readonly(
+      "directions",
+      [](const py::object& self) {
+        return column_view(self, 6, false, [](const gonio::sample& s) { return s.directions.pair().wi.data(); });
+      },
+      "Unit vectors to light and viewer, wi and wo: a view of shape (n, 6), to be read.");
+  type.def_property_readonly(
+      "angles",
+      [](const py::object& self) {
+        return column_view(self, 3, false, [](const gonio::sample& s) { return &s.angles().theta_h; });
+      },
+      "theta_h, theta_d and phi_d in radians: a view of shape (n, 3), to be read.");
+  type.def_property_readonly(
+      "values",
+      [](const py::object& self) {
+        return column_view(self, 3, true, [](const gonio::sample& s) { return s.value.data(); });
+      },
+      "Reflectance in sr^-1: a view of shape (n, 3). What is written there is in the samples.");
+  type.def_property_readonly(
+      "weights",
+      [](const py::object& self) {
+        return column_view(self, 3, true, [](const gonio::sample& s) { return s.weight.of_each().data(); });
+      },
+      "How much each sample counts in each channel: a view of shape (n, 3), which may be written to.");
+}
+
+}  // namespace
+
+void add_samples(py::module_& m) {
+  py::class_<gonio::sample_set> type(
+      m, "Samples", "Measurements: directions, reflectance in sr^-1 without the cosine, and how much each counts.");
+  type.def(
+      py::init(&samples_from_arrays), py::arg("directions"), py::arg("values"), py::arg("weights") = py::none(),
+      "From arrays. directions: shape (n, 6), unit vectors wi and wo, normal +z, or (n, 3), theta_h, theta_d and\n"
+      "phi_d in radians. values: (n, 3), or (n,) for grey. weights: (n, 3), (n,) or none. The samples keep copies.");
+  type.def("__len__", [](const gonio::sample_set& samples) { return samples.size(); });
+  add_columns(type);
+  type.def("subset", &chosen, py::arg("rows"), "Copies of some of the samples, in the order of their rows.");
+  m.def("read_samples", &cli::read_measurements, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
+        "Reads samples as the tool does: CSV, or Cornell's text format if the name ends in .brdf.");
+  m.def(
+      "write_samples",
+      [](const std::filesystem::path& path, const gonio::sample_set& samples) {
+        gonio::io::write_samples(path, samples);
+      },
+      py::arg("path"), py::arg("samples"), py::call_guard<py::gil_scoped_release>(),
+      "Writes samples as CSV. An existing file is replaced once the new one is complete.");
+}
+
+}  // namespace python

@@ -1,0 +1,91 @@
+import pathlib
+import tempfile
+import unittest
+
+import numpy as np
+
+import gonio
+from surroundings import MEASUREMENTS, unit
+
+DIRECTIONS = np.hstack([unit(np.array([0.2, 0.5]), np.array([0.0, 1.0])), unit(np.array([0.7, 0.1]), np.array([2.0, 3.0]))])
+
+
+class SamplesTest(unittest.TestCase):
+    def test_columns_are_views_of_the_same_memory(self):
+        samples = gonio.read_samples(MEASUREMENTS)
+        address = samples.values.__array_interface__["data"][0]
+        self.assertEqual(address, samples.values.__array_interface__["data"][0])
+        # The columns of one sample stand beside each other, those of the next one stride further.
+        stride = samples.values.strides[0]
+        start = samples.directions.__array_interface__["data"][0]
+        for column in (samples.angles, samples.values, samples.weights):
+            self.assertEqual(column.strides[0], stride)
+            self.assertLess(column.__array_interface__["data"][0] - start, stride)
+
+    def test_what_is_written_is_in_the_samples(self):
+        samples = gonio.Samples(DIRECTIONS, [0.1, 0.2])
+        samples.values[1] = [1, 2, 3]
+        samples.weights[0] = 0.5
+        np.testing.assert_array_equal(samples.values, [[0.1] * 3, [1, 2, 3]])
+        np.testing.assert_array_equal(samples.weights, [[0.5] * 3, [1] * 3])
+
+    def test_directions_cannot_be_written(self):
+        samples = gonio.Samples(DIRECTIONS, [0.1, 0.2])
+        for column in (samples.directions, samples.angles):
+            with self.assertRaises(ValueError):
+                column[0] = 0
+
+    def test_directions_are_kept(self):
+        np.testing.assert_allclose(gonio.Samples(DIRECTIONS, [0.1, 0.2]).directions, DIRECTIONS, atol=1e-15)
+
+    def test_angles_and_vectors_say_the_same(self):
+        by_vectors = gonio.Samples(DIRECTIONS, [0.1, 0.2])
+        by_angles = gonio.Samples(by_vectors.angles, [0.1, 0.2])
+        np.testing.assert_array_equal(by_angles.angles, by_vectors.angles)
+
+    def test_a_file_keeps_them(self):
+        samples = gonio.read_samples(MEASUREMENTS)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "samples.csv"
+            gonio.write_samples(path, samples)
+            again = gonio.read_samples(path)
+        self.assertEqual(len(again), len(samples))
+        np.testing.assert_array_equal(again.values, samples.values)
+        np.testing.assert_allclose(again.angles, samples.angles, atol=1e-12)
+
+    def test_subset(self):
+        samples = gonio.read_samples(MEASUREMENTS)
+        np.testing.assert_array_equal(samples.subset([3, 1]).values, samples.values[[3, 1]])
+
+    def test_none(self):
+        with self.assertRaisesRegex(gonio.Error, "there are no samples"):
+            gonio.Samples(np.zeros((0, 6)), [])
+
+    def test_refusals(self):
+        values = [0.1, 0.2]
+        tilted = DIRECTIONS.copy()
+        tilted[1, 5] *= -1
+        long = DIRECTIONS.copy()
+        long[1, :3] = [0, 0, 2]
+        for directions, given, weights, sentence in [
+            (DIRECTIONS[:, :5], values, None, "directions has shape (2, 5): expected (n, 6) or (n, 3)"),
+            (DIRECTIONS, [[1, 2]] * 2, None, "values has shape (2, 2): expected (n, 3) or (n,)"),
+            (DIRECTIONS, [1, 2, 3], None, "values has 3 rows, directions has 2: expected the same number"),
+            (DIRECTIONS, [1, np.nan], None, "values[1] is nan: expected finite numbers"),
+            (DIRECTIONS, values, [1, -1], "sample 2: the weight must be finite and not negative"),
+            (long, values, None, "directions[1]: wi has length 2.0, expected 1"),
+            ([[12.5, 20, 0]], [1], None,
+             "directions[0] has theta_h 12.5: expected radians of at least 0 and less than pi/2"),
+            ([[0.1, 0.2, 90]], [1], None, "directions[0] has phi_d 90.0: expected radians from -2 pi to 2 pi"),
+        ]:
+            with self.subTest(sentence=sentence), self.assertRaises(gonio.Error) as raised:
+                gonio.Samples(directions, given, weights)
+            self.assertEqual(str(raised.exception), sentence)
+        with self.assertRaisesRegex(gonio.Error, r"directions\[1\]: a direction is at or below the horizon"):
+            gonio.Samples(tilted, values)
+        with self.assertRaisesRegex(gonio.Error, "there is no sample in row 2"):
+            gonio.Samples(DIRECTIONS, values).subset([2])
+
+
+if __name__ == "__main__":
+    unittest.main()
