@@ -1,16 +1,16 @@
-# cmake [-D ONLY=format|weight|others|python|sanitize] -P cmake/checks.cmake: what CI does besides cmake/test.cmake,
-# or one part of it.
+# cmake [-D ONLY=format|weight|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
+# cmake/test.cmake, or one part of it. Two parts are for releases: a Python wheel, which asks PyPI, and Debian packages.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
-set(parts format weight others python sanitize)
+set(parts format weight others libcxx sanitize)
 if(ONLY)
-  if(NOT ONLY IN_LIST parts)
-    message(FATAL_ERROR "ONLY is one of ${parts}")
+  if(NOT ONLY IN_LIST parts AND NOT ONLY MATCHES "^(wheel|debian)$")
+    message(FATAL_ERROR "ONLY is one of ${parts};wheel;debian")
   endif()
   set(parts ${ONLY})
 endif()
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} ${gonio_test_packages} ${gonio_python_packages}
-             clang-19 libclang-rt-19-dev clang-format-14 time)
+             clang-19 libclang-rt-19-dev libc++-19-dev libc++abi-19-dev clang-format-14 time)
 
 if("format" IN_LIST parts)
   set(sources)
@@ -27,22 +27,24 @@ if("weight" IN_LIST parts)
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
-# quick runs of the papers' experiments, and 50 kills of each long command.
+# quick runs of the papers' experiments, 50 kills of each long command, and the Python module.
 if("others" IN_LIST parts)
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
-       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON)
+       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON
+       -D GONIO_BUILD_PYTHON=ON -D Python_EXECUTABLE=/usr/bin/python3)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
-  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills")
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python")
 endif()
 
-# The Python module and its wheel, whose build asks PyPI. All code of a module can be placed anywhere: a folder apart.
-if("python" IN_LIST parts)
-  step("python: configure" ${cmake} -S . -B build/python -G Ninja -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release
-       -D Python_EXECUTABLE=/usr/bin/python3 -D GONIO_BUILD_PYTHON=ON
-       -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=OFF -D GONIO_BUILD_LEARN=OFF -D GONIO_TEST_CONSUMERS=OFF)
-  step("python: build" ${cmake} --build build/python --parallel ${cores} --target gonio_python gonio_tool)
-  step("python: test" ${ctest} --test-dir build/python --label-regex python)
+# Clang with another standard library: the library, the tool and the tests of what differs, numbers and threads.
+if("libcxx" IN_LIST parts)
+  set(tested core table io)
+  list(TRANSFORM tested PREPEND test_ OUTPUT_VARIABLE targets)
+  step("libc++: configure" ${cmake} --preset libcxx)
+  step("libc++: build" ${cmake} --build build/libcxx --parallel ${cores} --target gonio_tool ${targets})
+  list(JOIN tested "|" tested)
+  step("libc++: test" ${ctest} --test-dir build/libcxx --tests-regex "^(${tested})$")
 endif()
 
 if("sanitize" IN_LIST parts)
@@ -51,4 +53,13 @@ if("sanitize" IN_LIST parts)
        -D GONIO_BUILD_PAPERS=OFF -D GONIO_BUILD_LEARN=OFF -D GONIO_TEST_CONSUMERS=OFF)
   step("clang, sanitized: build" ${cmake} --build ${dir} --parallel ${cores})
   step("clang, sanitized: test" ${ctest} --preset sanitize --test-dir ${dir})
+endif()
+
+if("wheel" IN_LIST parts)
+  step("wheel" ${cmake} -D PYTHON=/usr/bin/python3 -D SOURCE=${source} -D SCRATCH=${source}/build/wheel
+       -P tests/python/wheel.cmake)
+endif()
+
+if("debian" IN_LIST parts)
+  step("debian" ${cmake} -D CHECK=ON -P cmake/debian.cmake)
 endif()

@@ -17,6 +17,8 @@ set(gonio_packages
   "clang-19            program clang++-19"
   "clang-format-14     program clang-format-14"
   "libclang-rt-19-dev  header  sanitizer/asan_interface.h"
+  "libc++-19-dev       header  c++/v1/vector"
+  "libc++abi-19-dev    header  c++/v1/cxxabi.h"
   "libeigen3-dev       header  eigen3/Eigen/Core"
   "libxtensor-dev      header  xtensor/xtensor.hpp"
   "zlib1g-dev          header  zlib.h"
@@ -54,7 +56,7 @@ function(gonio_find_missing result)
     else()
       find_path(found NAMES ${name} NO_CACHE
                 PATHS /usr/include /usr/include/x86_64-linux-gnu /usr/include/aarch64-linux-gnu /usr/local/include /usr/lib
-                      /usr/lib/llvm-19/lib/clang/19/include)
+                      /usr/lib/llvm-19/include /usr/lib/llvm-19/lib/clang/19/include)
     endif()
     if(NOT found)
       list(APPEND missing ${package})

@@ -94,7 +94,7 @@ std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
 }
 
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
-  if (extension_of(path) == ".npy")
+  if (lower_extension(path) == ".npy")
     gonio::io::write_table_npy(path, table);
   else
     gonio::io::write_merl(path, table);
