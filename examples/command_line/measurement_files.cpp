@@ -1,9 +1,8 @@
 #include "measurement_files.hpp"
 
+#include "file_kinds.hpp"
 #include <gonio/io/cornell.hpp>
-#include <gonio/io/merl.hpp>
 #include <gonio/io/samples.hpp>
-#include <gonio/io/table_npy.hpp>
 
 namespace cli {
 
@@ -18,11 +17,6 @@ std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
   return numbers;
 }
 
-void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
-  if (path.extension() == ".npy" || path.extension() == ".NPY")
-    gonio::io::write_table_npy(path, table);
-  else
-    gonio::io::write_merl(path, table);
-}
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) { write_file(path, table); }
 
 }  // namespace cli
