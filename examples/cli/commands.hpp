@@ -15,6 +15,7 @@ void add_sphere(command& app);
 void add_reconstruct(command& app);
 void add_fit(command& app);
 void add_compare(command& app);
+void add_convert(command& app);
 void add_check(command& app);
 void add_render(command& app);
 void add_info(command& app);

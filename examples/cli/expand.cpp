@@ -114,7 +114,9 @@ void add_expand(command& app) {
   command.add_option("--formula", options->formula, "Name of a material given by a formula: " + known)
       .excludes(networks)
       .excludes(weights);
-  command.add_output("-o,--output", options->output, {".binary", ".npy"}, "Table to write (.binary, or .npy)")
+  command
+      .add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf"},
+                  "Table to write (.binary, .npy, or .bsdf for renderers)")
       .required();
   add_threads_option(command, options->threads);
   command.callback([options] {

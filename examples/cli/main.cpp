@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   cli::add_reconstruct(app);
   cli::add_fit(app);
   cli::add_compare(app);
+  cli::add_convert(app);
   cli::add_check(app);
   cli::add_render(app);
   cli::add_info(app);

@@ -1,12 +1,11 @@
 #include "measurement_files.hpp"
 
+#include "file_kinds.hpp"
 #include "file_start.hpp"
 #include "measurement_kinds.hpp"
 #include "sample_warnings.hpp"
 #include "warning.hpp"
 #include <gonio/core/error.hpp>
-#include <gonio/io/merl.hpp>
-#include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
 
 #include <algorithm>
@@ -93,11 +92,6 @@ std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples) {
   return numbers;
 }
 
-void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) {
-  if (lower_extension(path) == ".npy")
-    gonio::io::write_table_npy(path, table);
-  else
-    gonio::io::write_merl(path, table);
-}
+void write_table(const std::filesystem::path& path, const gonio::brdf_table& table) { write_file(path, table); }
 
 }  // namespace cli

@@ -49,7 +49,7 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 /// Which samples of a file count, by their positions.
 [[nodiscard]] std::vector<Eigen::Index> counting_samples(const gonio::sample_set& samples);
 
-/// Writes a table in the format that the name asks for: an array if it ends in .npy, otherwise MERL's.
+/// Writes a table in the format that the name asks for: see `written_kind`.
 void write_table(const std::filesystem::path& path, const gonio::brdf_table& table);
 
 }  // namespace cli

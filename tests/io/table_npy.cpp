@@ -1,6 +1,9 @@
 #include "scratch.hpp"
 #include <gonio/io/table_npy.hpp>
 
+#include <algorithm>
+#include <limits>
+
 using gonio::io::read_npy;
 
 TEST_CASE("a table as an array: the values of its cells in the grid's order, and no hole below the horizon") {
@@ -25,4 +28,27 @@ TEST_CASE("a table as an array: the values of its cells in the grid's order, and
   }
   CHECK(other == 0u);
   CHECK(below > 0u);
+}
+
+TEST_CASE("an array is read as the table that it was written of") {
+  const scratch::folder folder;
+  gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));
+  for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.25f * static_cast<float>(i);
+  gonio::io::write_table_npy(folder / "t.npy", table);
+  const auto parse = [](const auto& path) {
+    return gonio::io::parse_table_npy(gonio::io::read_bytes(path), path.string());
+  };
+  const gonio::brdf_table again = parse(folder / "t.npy");
+  CHECK(again.cells() == table.cells());
+  CHECK(std::ranges::equal(again.values(), table.values()));
+  gonio::io::write_npy(folder / "flat.npy", xt::xtensor<float, 2>({4, 3}, 1.0f));
+  scratch::check_refused([&] { return parse(folder / "flat.npy"); }, {"flat.npy", "(4, 3)", "4 dimensions"});
+  gonio::io::write_npy(folder / "two.npy", xt::xtensor<float, 4>({4, 3, 2, 2}, 1.0f));
+  scratch::check_refused([&] { return parse(folder / "two.npy"); }, {"two.npy", "(4, 3, 2, 2)", "phi_d, 3"});
+  gonio::io::write_npy(folder / "none.npy", xt::xtensor<float, 4>({0, 3, 2, 3}, 1.0f));
+  scratch::check_refused([&] { return parse(folder / "none.npy"); }, {"none.npy", "at most 4096"});
+  xt::xtensor<float, 4> wrong({4, 3, 2, 3}, 1.0f);
+  wrong(0, 0, 0, 1) = std::numeric_limits<float>::infinity();
+  gonio::io::write_npy(folder / "wrong.npy", wrong);
+  scratch::check_refused([&] { return parse(folder / "wrong.npy"); }, {"wrong.npy", "cell 0", "not finite"});
 }

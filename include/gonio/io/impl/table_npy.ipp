@@ -6,7 +6,11 @@
 #include <gonio/io/table_npy.hpp>
 #include <gonio/table/brdf_table.hpp>
 
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 
 namespace gonio::io {
 
@@ -21,6 +25,26 @@ GONIO_INLINE void write_table_npy(const std::filesystem::path& path, const brdf_
       array.data()[3 * cell + channel] = static_cast<float>(value[channel]);
   }
   write_npy(path, array);
+}
+
+GONIO_INLINE brdf_table parse_table_npy(std::span<const std::byte> bytes, const std::string& name) {
+  const xt::xtensor<float, 4> array = parse_npy<float, 4>(bytes, name);
+  const auto& shape = array.shape();
+  const auto fits = [](std::size_t extent) { return extent >= 1 && extent <= 4096; };
+  if (!fits(shape[0]) || !fits(shape[1]) || !fits(shape[2]) || shape[3] != 3)
+    refuse({name, ": has shape ", detail::npy_shape_text(shape),
+            ", expected (theta_h, theta_d, phi_d, 3) of at most 4096 cells along each axis"});
+  const auto extent = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
+  brdf_table table(valid_cells(grid({extent(0), extent(1), extent(2)})));
+  const valid_cells& cells = table.cells();
+  for (Eigen::Index linear = 0; linear < cells.grid().size(); ++linear) {
+    if (!cells.contains(linear)) continue;
+    const float* value = array.data() + 3 * linear;
+    if (!std::isfinite(value[0]) || !std::isfinite(value[1]) || !std::isfinite(value[2]))
+      refuse({name, ": cell ", linear, " has a value that is not finite"});
+    table.set(cells.representative(linear), {value[0], value[1], value[2]});
+  }
+  return table;
 }
 
 }  // namespace gonio::io

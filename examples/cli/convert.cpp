@@ -1,0 +1,46 @@
+/// gonio convert: a file of one kind as one of another.
+
+#include "command_line/file_kinds.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
+
+#include <memory>
+
+namespace cli {
+
+namespace {
+
+struct convert_options {
+  std::filesystem::path input, output;
+  measurement_options reading;
+  writing how;
+};
+
+void convert(const convert_options& options) {
+  // Refused before hours of reading.
+  static_cast<void>(written_kind(options.output));
+  write_file(options.output, read_file(options.input, options.reading), options.how);
+}
+
+}  // namespace
+
+void add_convert(command& app) {
+  auto command = app.add_subcommand(
+      "convert", "Write what a file holds as a file of another kind: tables, materials for renderers, samples");
+  const auto options = std::make_shared<convert_options>();
+  command
+      .add_input("input", options->input,
+                 "Table (.binary, .binary.gz or .npy), RGL material (.bsdf) or samples (.csv, or a format of "
+                 "instruments), told by its first bytes or else by its name")
+      .required();
+  add_measurement_options(command, options->reading);
+  command
+      .add_output("output", options->output, {},
+                  "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), or samples (.csv)")
+      .required();
+  add_threads_option(command, options->how.threads);
+  command.callback([options] { convert(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,130 @@
+#include "file_kinds.hpp"
+
+#include "file_start.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/table_npy.hpp>
+#include <gonio/io/text.hpp>
+
+#include <algorithm>
+
+namespace cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+namespace io = gonio::io;
+
+using bytes = std::span<const std::byte>;
+
+[[noreturn]] void refuse_samples(const fs::path& path) {
+  gonio::refuse({path.native(), ": is a whole material, and samples are not one: 'gonio reconstruct' completes them"});
+}
+
+gonio::brdf_table as_table(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+  if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
+  if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return *table;
+  return gonio::tabulate(std::get<io::rgl_material>(content).material, gonio::valid_cells(), threads);
+}
+
+io::rgl_material as_rgl(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+  if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
+  const auto& table = std::get<gonio::brdf_table>(content);
+  return {gonio::model::tabulate_adaptively(table, {}, threads), path.stem().string(), {}};
+}
+
+void write_merl(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_merl(path, as_table(path, content, how.threads));
+}
+
+void write_array(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_table_npy(path, as_table(path, content, how.threads));
+}
+
+void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_rgl(path, as_rgl(path, content, how.threads));
+}
+
+void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {
+  const auto* samples = std::get_if<gonio::sample_set>(&content);
+  if (samples == nullptr)
+    gonio::refuse({path.native(), ": holds samples, and a whole material is none: 'gonio sample' takes some of it"});
+  io::write_samples(path, *samples);
+}
+
+bool ends_as(const fs::path& path, const file_kind& kind) {
+  return std::ranges::find(kind.extensions, lower_extension(path)) != kind.extensions.end();
+}
+
+bool begins_as(bytes content, const file_kind& kind) {
+  return !kind.magic.empty() && io::detail::as_text(content).starts_with(kind.magic);
+}
+
+/// "MERL table (.binary, .gz), ..." of those that are written, or of all.
+std::string listed(bool only_written) {
+  std::string all;
+  for (const file_kind& kind : file_kinds()) {
+    if (only_written && kind.write == nullptr) continue;
+    all += (all.empty() ? "" : ", ") + std::string(kind.name) + " (";
+    for (const std::string_view extension : kind.extensions)
+      all += (extension == kind.extensions.front() ? "" : " ") + std::string(extension);
+    all += ")";
+  }
+  return all;
+}
+
+}  // namespace
+
+const std::vector<file_kind>& file_kinds() {
+  static const std::vector<file_kind> kinds{
+      {"RGL material",
+       {".bsdf"},
+       {"tensor_file\0", 12},
+       [](bytes content, const std::string& name) -> file_content { return io::parse_rgl(content, name); },
+       &write_rgl},
+      {"table as an array",
+       {".npy"},
+       "\x93NUMPY",
+       [](bytes content, const std::string& name) -> file_content { return io::parse_table_npy(content, name); },
+       &write_array},
+      {"MERL table, compressed",
+       {".gz"},
+       "\x1f\x8b",
+       [](bytes content, const std::string& name) -> file_content { return io::parse_merl_any(content, name); }},
+      {"MERL table",
+       {".binary"},
+       "",
+       [](bytes content, const std::string& name) -> file_content { return io::parse_merl(content, name); },
+       &write_merl},
+      {"samples", {".csv"}, "", nullptr, &write_samples},
+  };
+  return kinds;
+}
+
+file_content read_file(const fs::path& path, const measurement_options& reading) {
+  if (holds_measurements(path)) return read_measurements(path, reading);
+  require_unused(reading, path);
+  const std::vector<std::byte> content = io::read_bytes(path);
+  const auto begins = [&](const file_kind& kind) { return begins_as(content, kind); };
+  const auto ends = [&](const file_kind& kind) { return ends_as(path, kind); };
+  const std::vector<file_kind>& kinds = file_kinds();
+  auto found = std::ranges::find_if(kinds, begins);
+  if (found == kinds.end()) found = std::ranges::find_if(kinds, ends);
+  if (found == kinds.end())
+    gonio::refuse({path.native(), ": is of no kind that is known, expected one of: ", listed(false)});
+  return found->parse(content, path.string());
+}
+
+const file_kind& written_kind(const fs::path& path) {
+  for (const file_kind& kind : file_kinds())
+    if (kind.write != nullptr && ends_as(path, kind)) return kind;
+  gonio::refuse({path.native(), ": is of no kind that is written, expected one of: ", listed(true)});
+}
+
+void write_file(const fs::path& path, const file_content& content, const writing& how) {
+  written_kind(path).write(path, content, how);
+}
+
+}  // namespace cli

@@ -1,0 +1,91 @@
+/// gonio convert: between all kinds of files, and what is no kind.
+
+#include "../io/scratch.hpp"
+#include "tool.hpp"
+#include <gonio/io/merl.hpp>
+#include <gonio/io/rgl.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/table_npy.hpp>
+#include <gonio/model/ggx.hpp>
+#include <gonio/table/brdf_table.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace {
+
+/// A folder with a small table, the material that it is of.
+struct small_files {
+  scratch::folder here;
+  gonio::model::ggx metal{.alpha = 0.3, .f0 = gonio::rgb(0.9, 0.6, 0.3)};
+
+  small_files() {
+    gonio::io::write_merl(path("t.binary"), gonio::tabulate(metal, gonio::valid_cells(gonio::grid({30, 15, 30}))));
+  }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (here / name).string(); }
+  void convert(const std::string& from, const std::string& to) const { run("convert " + path(from) + " " + path(to)); }
+};
+
+}  // namespace
+
+TEST_CASE("convert: a table becomes a material for renderers, and that a table again") {
+  const small_files files;
+  files.convert("t.binary", "t.bsdf");
+  const auto [material, description, spectra] = gonio::io::read_rgl(files.path("t.bsdf"));
+  CHECK(description == "t");
+  const gonio::direction wi(0.6, 0, 0.8), wo(-0.48, 0.2, std::sqrt(1.0 - 0.48 * 0.48 - 0.04));
+  CHECK((material(wi, wo) / files.metal(wi, wo) - 1.0).abs().maxCoeff() < 0.03);
+  files.convert("t.bsdf", "again.bsdf");
+  CHECK(scratch::get(files.here / "again.bsdf") == scratch::get(files.here / "t.bsdf"));
+  files.convert("t.bsdf", "table.binary");
+  const gonio::brdf_table table = gonio::io::read_merl(files.path("table.binary"));
+  CHECK(table.cells().grid().extents() == gonio::grid_extents{});
+  CHECK((table(wi, wo) / material(wi, wo) - 1.0).abs().maxCoeff() < 0.01);
+}
+
+TEST_CASE("convert: tables and arrays of numpy become one another, by their first bytes") {
+  const small_files files;
+  files.convert("t.binary", "t.npy");
+  files.convert("t.npy", "again.binary");
+  CHECK(scratch::get(files.here / "again.binary") == scratch::get(files.here / "t.binary"));
+  std::filesystem::rename(files.here / "t.npy", files.here / "misnamed.binary");
+  files.convert("misnamed.binary", "third.binary");
+  CHECK(scratch::get(files.here / "third.binary") == scratch::get(files.here / "t.binary"));
+}
+
+TEST_CASE("convert: spectral samples become samples in RGB") {
+  const small_files files;
+  scratch::put(files.here / "s.brdf", std::string("3\n450 550 650\n0.1 0 0.2 1 0.5 0.5 0.5\n"));
+  files.convert("s.brdf", "s.csv");
+  const gonio::sample_set samples = gonio::io::read_samples(files.path("s.csv"));
+  REQUIRE(samples.size() == 1);
+  CHECK((samples[0].value - 0.5).abs().maxCoeff() < 1e-6);
+}
+
+TEST_CASE("convert: what cannot be is refused in one sentence, and nothing is written") {
+  const small_files files;
+  const auto refused = [&](const std::string& from, const std::string& to, std::initializer_list<const char*> words) {
+    refuses("convert " + files.path(from) + " " + files.path(to), words);
+    CHECK(!std::filesystem::exists(files.here / to));
+  };
+  scratch::put(files.here / "notes.txt", std::string("root:x:0:0"));
+  scratch::put(files.here / "s.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
+  refused("notes.txt", "new.bsdf",
+          {"notes.txt: is of no kind that is known", "RGL material (.bsdf)", "samples (.csv)"});
+  refused("t.binary", "new.txt", {"new.txt: is of no kind that is written", "MERL table (.binary)"});
+  refused("t.binary", "new.brdf", {"new.brdf: is of no kind that is written"});
+  refused("s.csv", "new.bsdf", {"new.bsdf", "'gonio reconstruct' completes them"});
+  refused("t.binary", "new.csv", {"new.csv", "'gonio sample'"});
+  refused("absent.binary", "new.bsdf", {"absent.binary", "No such file"});
+  refuses("convert " + files.path("t.binary") + " " + files.path("t.binary"), {"would overwrite what is read"});
+}
+
+TEST_CASE("what completes samples writes materials for renderers, too") {
+  const small_files files;
+  run("fit " + files.path("t.binary") + " --model ggx -o " + files.path("fit.bsdf"));
+  const auto material = gonio::io::read_rgl(files.path("fit.bsdf")).material;
+  const gonio::direction up(0, 0, 1);
+  CHECK((material(up, up) / files.metal(up, up) - 1.0).abs().maxCoeff() < 0.1);
+}
