@@ -11,6 +11,7 @@
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/renderer_material.hpp>
 
+#include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -19,9 +20,25 @@ namespace cli {
 
 namespace {
 
+/// How a fitted model is written for renderers.
+struct renderer_format {
+  const char* option;
+  const char* extension;
+  const char* description;
+  std::string (*text)(const gonio::model::analytic_brdf& model);
+};
+
+constexpr std::array renderer_formats{
+    renderer_format{"--pbrt", ".pbrt", "Material of pbrt-v4 to write (.pbrt)", gonio::io::pbrt_material},
+    renderer_format{"--mitsuba", ".xml", "Material of Mitsuba 3 to write (.xml)", gonio::io::mitsuba_material},
+    renderer_format{"--materialx", ".mtlx", "Surface of OpenPBR to write, in MaterialX (.mtlx)",
+                    [](const gonio::model::analytic_brdf& model) { return gonio::io::materialx_material(model); }},
+    renderer_format{"--gltf", ".gltf", "Material of glTF 2.0 to write (.gltf)", gonio::io::gltf_material}};
+
 struct fit_command_options {
   measurement_options reading;
-  std::filesystem::path measurements, output, image, pbrt, mitsuba;
+  std::filesystem::path measurements, output, image;
+  std::array<std::filesystem::path, renderer_formats.size()> for_renderers;
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false, no_cosine_weight = false;
   image_options how;
@@ -60,10 +77,11 @@ void fit(const fit_command_options& options) {
   const gonio::model::model_fit found = fit_chosen(options.choice, observations);
 
   // Describe the material before a file is written: what a renderer cannot have leaves nothing behind.
-  const std::string pbrt = options.pbrt.empty() ? "" : gonio::io::pbrt_material(found.model);
-  const std::string mitsuba = options.mitsuba.empty() ? "" : gonio::io::mitsuba_material(found.model);
-  if (!pbrt.empty()) gonio::io::write_renderer_material(options.pbrt, pbrt);
-  if (!mitsuba.empty()) gonio::io::write_renderer_material(options.mitsuba, mitsuba);
+  std::array<std::string, renderer_formats.size()> materials;
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (!options.for_renderers[i].empty()) materials[i] = renderer_formats[i].text(found.model);
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (!materials[i].empty()) gonio::io::write_renderer_material(options.for_renderers[i], materials[i]);
   // Tabulate the fit, and draw it beside the table that was measured.
   if (!options.output.empty() || !options.image.empty()) {
     const gonio::valid_cells cells = table ? table->cells() : gonio::valid_cells();
@@ -122,8 +140,10 @@ void add_fit(command& app) {
   auto image = command.add_output("--image", options->image, {".png"},
                                   "Spheres of measurement (if it is a table) and model to write (.png)");
   add_image_options(command, options->how, image);
-  command.add_output("--pbrt", options->pbrt, {".pbrt"}, "Material of pbrt-v4 to write (.pbrt)");
-  command.add_output("--mitsuba", options->mitsuba, {".xml"}, "Material of Mitsuba 3 to write (.xml)");
+  for (std::size_t i = 0; i < renderer_formats.size(); ++i) {
+    const auto& [option, extension, description, text] = renderer_formats[i];
+    command.add_output(option, options->for_renderers[i], {extension}, description);
+  }
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->choice.fit.threads);
   command.callback([command, options] {

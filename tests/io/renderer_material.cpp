@@ -1,3 +1,4 @@
+#include "../json.hpp"
 #include "scratch.hpp"
 #include <gonio/io/renderer_material.hpp>
 
@@ -56,7 +57,62 @@ TEST_CASE("the same of Mitsuba") {
         "</bsdf>\n");
 }
 
+TEST_CASE("the same of OpenPBR, in MaterialX") {
+  CHECK(gonio::io::materialx_material(paint("ggx"), "red_paint") ==
+        "<?xml version=\"1.0\"?>\n"
+        "<materialx version=\"1.39\" colorspace=\"lin_rec709\">\n"
+        "  <open_pbr_surface name=\"red_paint_surface\" type=\"surfaceshader\">\n"
+        "    <input name=\"base_weight\" type=\"float\" value=\"1\"/>\n"
+        "    <input name=\"base_color\" type=\"color3\" value=\"0.5, 0.25, 0.125\"/>\n"
+        "    <input name=\"base_metalness\" type=\"float\" value=\"0\"/>\n"
+        "    <input name=\"specular_roughness\" type=\"float\" value=\"0.5\"/>\n"
+        "    <input name=\"specular_color\" type=\"color3\" value=\"1, 0.75, 0.5\"/>\n"
+        "    <input name=\"specular_ior\" type=\"float\" value=\"3\"/>\n"
+        "  </open_pbr_surface>\n"
+        "  <surfacematerial name=\"red_paint\" type=\"material\">\n"
+        "    <input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"red_paint_surface\"/>\n"
+        "  </surfacematerial>\n"
+        "</materialx>\n");
+  const std::string of_metal = gonio::io::materialx_material(metal());
+  CHECK(of_metal.find("\"base_metalness\" type=\"float\" value=\"1\"") != std::string::npos);
+  CHECK(of_metal.find("\"base_color\" type=\"color3\" value=\"0.5, 0.25, 0.125\"") != std::string::npos);
+  CHECK(of_metal.find("specular_ior") == std::string::npos);
+  for (const char* wrong : {"", "red paint", "a\"b"})
+    CHECK_THROWS_WITH_AS(gonio::io::materialx_material(metal(), wrong), doctest::Contains("letters, digits"),
+                         gonio::error);
+}
+
+TEST_CASE("the same of glTF") {
+  CHECK(gonio::io::gltf_material(metal()) ==
+        "{\n"
+        "  \"asset\": {\"version\": \"2.0\", \"generator\": \"gonio\"},\n"
+        "  \"materials\": [\n"
+        "    {\n"
+        "      \"pbrMetallicRoughness\": {\n"
+        "        \"baseColorFactor\": [0.5, 0.25, 0.125, 1],\n"
+        "        \"metallicFactor\": 1,\n"
+        "        \"roughnessFactor\": 0.5\n"
+        "      }\n"
+        "    }\n"
+        "  ]\n"
+        "}\n");
+  // A highlight brighter than all light: the factor is 1, the colour has the rest.
+  analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
+                        {lobe_kind::of<gonio::model::ggx_shape>(), {2.0, 1.0, 0.5}, {0.25, 0.25}}});
+  const auto document = parse_json(gonio::io::gltf_material(bright));
+  const auto& material = document["materials"][0];
+  CHECK(document["extensionsUsed"].size() == 2);
+  CHECK(material["pbrMetallicRoughness"]["metallicFactor"] == 0);
+  CHECK(material["extensions"]["KHR_materials_ior"]["ior"] == 3);
+  CHECK(material["extensions"]["KHR_materials_specular"]["specularFactor"] == 1);
+  CHECK(material["extensions"]["KHR_materials_specular"]["specularColorFactor"][0] == 2.0);
+  CHECK(material["extensions"]["KHR_materials_specular"]["specularColorFactor"][2] == 0.5);
+}
+
 TEST_CASE("models that renderers do not have are refused") {
+  for (const auto material :
+       {gonio::io::gltf_material, +[](const analytic_brdf& model) { return gonio::io::materialx_material(model); }})
+    CHECK_THROWS_WITH_AS(material(paint("torrance-sparrow")), doctest::Contains("fit ggx instead"), gonio::error);
   CHECK_THROWS_WITH_AS(gonio::io::pbrt_material(paint("torrance-sparrow")), doctest::Contains("fit ggx instead"),
                        gonio::error);
   const analytic_brdf two({metal().lobes()[0], metal().lobes()[0]}), none;

@@ -1,5 +1,5 @@
 #pragma once
-/// Fitted models as materials of renderers: pbrt-v4 and Mitsuba 3, text.
+/// Fitted models as materials of renderers, text: pbrt-v4, Mitsuba 3, OpenPBR in MaterialX, and glTF 2.0.
 
 #include <gonio/io/file.hpp>
 #include <gonio/io/text.hpp>
@@ -29,6 +29,9 @@ struct rough_surface {
 /// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, beside a Lambertian one or not.
 [[nodiscard]] rough_surface as_rough_surface(const model::analytic_brdf& model);
 
+/// The same, and throws for Beckmann's distribution, naming who has none.
+[[nodiscard]] rough_surface as_ggx_surface(const model::analytic_brdf& model, const char* renderer);
+
 [[nodiscard]] inline std::string three_numbers(const rgb& colour, const std::string& between) {
   return shortest(colour[0]) + between + shortest(colour[1]) + between + shortest(colour[2]);
 }
@@ -46,6 +49,19 @@ struct rough_surface {
 /// the interface lets through, which the sum of lobes does not. A rough lobe by itself becomes `roughconductor` of 100
 /// % reflectance (material `none`) in the colour times f0: the rise towards grazing angles is not carried over.
 [[nodiscard]] std::string mitsuba_material(const model::analytic_brdf& model);
+
+/// A MaterialX 1.39 document (.mtlx) with an `open_pbr_surface`, linear Rec. 709: OpenPBR 1.1, whose roughness is the
+/// root of GGX's. GGX beside Lambert carries over albedo, roughness, refractive index and, as `specular_color`, the
+/// colour of the highlight at normal incidence; the base has only the light that the interface lets through. GGX by
+/// itself becomes a metal in the colour times f0. Throws gonio::error for other models, and for a name that is not
+/// letters, digits and underscores.
+[[nodiscard]] std::string materialx_material(const model::analytic_brdf& model, const std::string& name = "material");
+
+/// A glTF 2.0 document with one material: metallic-roughness, whose roughness is the root of GGX's, with
+/// KHR_materials_ior and KHR_materials_specular where there is a base. There the highlight has its colour at normal
+/// incidence, and its largest channel, at most 1, at grazing angles. Throws gonio::error for models but GGX, beside
+/// Lambert or by itself.
+[[nodiscard]] std::string gltf_material(const model::analytic_brdf& model);
 
 /// Writes such a text; whole, or not at all.
 inline void write_renderer_material(const std::filesystem::path& path, const std::string& material) {
