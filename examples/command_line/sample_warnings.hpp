@@ -13,4 +13,7 @@ namespace cli {
 /// numbered from 1. O(n log n).
 [[nodiscard]] std::vector<std::string> warnings_of(const gonio::sample_set& samples, double noise);
 
+/// How many samples that count have the directions of one before, to a thousandth of a degree. O(n log n).
+[[nodiscard]] Eigen::Index repeated_samples(const gonio::sample_set& samples);
+
 }  // namespace cli
