@@ -2,21 +2,15 @@
 
 #include "command_line/component_figure.hpp"
 #include "command_line/json.hpp"
-#include "command_line/measurement_files.hpp"
-#include "command_line/measurement_kinds.hpp"
-#include "command_line/measures_as_json.hpp"
 #include "command_line/prior_material.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include "described_files.hpp"
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/io/image.hpp>
-#include <gonio/io/merl_gzip.hpp>
-#include <gonio/io/networks.hpp>
 #include <gonio/io/prior.hpp>
-#include <gonio/io/soft_specular_prior.hpp>
-#include <gonio/model/measured_properties.hpp>
 
 #include <iostream>
 #include <memory>
@@ -39,64 +33,6 @@ struct info_options {
     return !components.empty() || !component_spheres.empty() || !weights_of.empty();
   }
 };
-
-json describe(const gonio::valid_cells& cells) {
-  const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
-  return {{"grid", {theta_h, theta_d, phi_d}},
-          {"anchor", cells.grid().anchor() == gonio::cell_anchor::centre ? "centre" : "lower corner"},
-          {"minimum_cosine", cells.minimum_cosine()},
-          {"valid_cells", cells.size()}};
-}
-
-json describe(const gonio::brdf_table& table) {
-  const gonio::model::table_values values = gonio::model::summarise(table);
-  json result{{"kind", "MERL table"}};
-  result.update(describe(table.cells()));
-  result["minimum"] = per_channel(values.minimum);
-  result["mean"] = per_channel(values.mean);
-  result["maximum"] = per_channel(values.maximum);
-  result["cells_with_negative_values"] = values.negative_cells;
-  return result;
-}
-
-json describe(const gonio::log_relative_pca& prior) {
-  json result{{"kind", "prior"},
-              {"source", prior.source()},
-              {"materials", prior.names().size()},
-              {"components", prior.size()},
-              {"explained_variance", prior.explained_variance()},
-              {"cosine_weight", prior.metric().weighting() == gonio::cosine_weighting::larger ? "larger" : "product"}};
-  result.update(describe(prior.cells()));
-  result["names"] = prior.names();
-  return result;
-}
-
-json describe(const gonio::soft_specular_prior& prior) {
-  const auto half = [](const gonio::log_relative_pca& one) {
-    return json{{"materials", one.names().size()},
-                {"components", one.size()},
-                {"explained_variance", one.explained_variance()},
-                {"names", one.names()}};
-  };
-  json result{{"kind", "soft and specular prior"}, {"source", prior.soft().source()}, {"threshold", prior.threshold()}};
-  result.update(describe(prior.cells()));
-  result["soft"] = half(prior.soft());
-  result["specular"] = half(prior.specular());
-  return result;
-}
-
-json describe(const gonio::io::sample_file& measured) {
-  const gonio::sample_set& samples = measured.samples;
-  gonio::rgb low = samples.front().value, high = low;
-  for (const gonio::sample& s : samples) {
-    low = low.min(s.value);
-    high = high.max(s.value);
-  }
-  json result{
-      {"kind", "samples"}, {"samples", samples.size()}, {"minimum", per_channel(low)}, {"maximum", per_channel(high)}};
-  result.update(facts_of(measured));
-  return result;
-}
 
 json array_of(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
 
@@ -136,23 +72,10 @@ json describe_prior(const info_options& options) {
   return facts;
 }
 
-/// By what the file starts with or how its name ends.
-json describe_file(const info_options& options) {
-  const std::filesystem::path& path = options.file;
-  if (options.asks_for_prior()) {
-    require_unused(options.reading, path);
-    return describe_prior(options);
-  }
-  const std::string name = path.filename().string();
-  if (holds_measurements(path)) return describe(read_measurement_file(path, options.reading));
-  require_unused(options.reading, path);
-  if (name.ends_with(".npy")) {
-    const auto networks = gonio::io::read_networks(path);
-    return {{"kind", "networks"}, {"materials", networks.names.size()}, {"names", networks.names}};
-  }
-  if (gonio::io::is_prior(path)) return describe_prior(options);
-  if (gonio::io::is_soft_specular_prior(path)) return describe(gonio::io::read_soft_specular_prior(path));
-  return describe(gonio::io::read_merl_any(path));
+json describe_asked(const info_options& options) {
+  if (!options.asks_for_prior()) return describe_file(options.file, options.reading);
+  require_unused(options.reading, options.file);
+  return describe_prior(options);
 }
 
 void print(const json& facts) {
@@ -163,7 +86,9 @@ void print(const json& facts) {
 }  // namespace
 
 void add_info(command& app) {
-  auto command = app.add_subcommand("info", "Say what a file holds: a table, a prior, samples, networks");
+  auto command = app.add_subcommand("info",
+                                    "Say what a file holds, of any kind that gonio reads or writes: how many samples "
+                                    "or cells, ranges of angles, repeats, what is suspicious");
   const auto options = std::make_shared<info_options>();
   command.add_input("file", options->file, "The file").required();
   add_measurement_options(command, options->reading);
@@ -190,7 +115,7 @@ void add_info(command& app) {
     const bool draws = !options->components.empty() || !options->component_spheres.empty();
     if (!draws && command.count("--count") + command.count("--size") > 0)
       gonio::refuse("--count and --size need --components or --component-spheres");
-    const json facts = describe_file(*options);
+    const json facts = describe_asked(*options);
     if (options->print_json)
       std::cout << facts.dump(2) << '\n';
     else

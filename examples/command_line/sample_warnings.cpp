@@ -164,4 +164,10 @@ std::vector<std::string> warnings_of(const gonio::sample_set& samples, double no
   return sentences;
 }
 
+Eigen::Index repeated_samples(const gonio::sample_set& samples) {
+  Eigen::Index repeats = 0;
+  for (const auto& [angles, numbers] : grouped(samples)) repeats += std::ssize(numbers) - 1;
+  return repeats;
+}
+
 }  // namespace cli

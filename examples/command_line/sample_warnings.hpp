@@ -21,4 +21,7 @@ namespace cli {
 /// docs/results/implausible-samples.md. O(n).
 [[nodiscard]] std::vector<std::string> doubts_of(const gonio::io::sample_file& file);
 
+/// How many samples that count have the directions of one before, to a thousandth of a degree. O(n log n).
+[[nodiscard]] Eigen::Index repeated_samples(const gonio::sample_set& samples);
+
 }  // namespace cli

@@ -1,0 +1,102 @@
+#include "sample_facts.hpp"
+
+#include "measures_as_json.hpp"
+#include "sample_warnings.hpp"
+#include <gonio/core/direction.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+/// The least and the greatest of some numbers.
+class range {
+ public:
+  void include(double number) {
+    low_ = std::min(low_, number);
+    high_ = std::max(high_, number);
+  }
+  [[nodiscard]] json degrees() const { return {rounded_degrees(low_), rounded_degrees(high_)}; }
+  [[nodiscard]] json numbers() const { return {low_, high_}; }
+
+ private:
+  double low_ = std::numeric_limits<double>::infinity(), high_ = -low_;
+};
+
+/// The repeats that the samples' weights hide are counted, too.
+Eigen::Index count_repeats(gonio::sample_set samples) {
+  for (gonio::sample& s : samples) s.weight = 1.0;
+  return repeated_samples(samples);
+}
+
+json angles_of(const gonio::sample_set& samples) {
+  range theta_i, theta_o, theta_h, theta_d;
+  for (const gonio::sample& s : samples) {
+    const auto& [wi, wo] = s.directions.pair();
+    theta_i.include(gonio::polar_angle(wi));
+    theta_o.include(gonio::polar_angle(wo));
+    theta_h.include(s.angles().theta_h);
+    theta_d.include(s.angles().theta_d);
+  }
+  return {{"theta_i", theta_i.degrees()},
+          {"theta_o", theta_o.degrees()},
+          {"theta_h", theta_h.degrees()},
+          {"theta_d", theta_d.degrees()},
+          {"repeated_directions", count_repeats(samples)}};
+}
+
+std::vector<std::string> suspicions_of(const gonio::sample_set& samples, Eigen::Index negative) {
+  constexpr double usual_noise = 0.02;
+  std::vector<std::string> sentences = warnings_of(samples, usual_noise);
+  if (10 * negative > std::ssize(samples))
+    sentences.push_back(std::to_string(negative) + " of " + std::to_string(samples.size()) +
+                        " samples have a negative value");
+  const auto grazes = [](const gonio::sample& s) {
+    const auto& [wi, wo] = s.directions.pair();
+    return std::min(wi.z(), wo.z()) < std::cos(gonio::radians(85.0));
+  };
+  if (const auto grazing = std::ranges::count_if(samples, grazes); grazing > 0)
+    sentences.push_back(std::to_string(grazing) +
+                        " samples are beyond 85 degrees, where instruments seldom reach: is anything measured there?");
+  return sentences;
+}
+
+}  // namespace
+
+double rounded_degrees(double radians) { return std::round(1e3 * gonio::degrees(radians)) / 1e3; }
+
+json facts_of(const gonio::sample_set& samples) {
+  gonio::rgb low = samples.front().value, high = low;
+  range weights;
+  Eigen::Index negative = 0;
+  for (const gonio::sample& s : samples) {
+    low = low.min(s.value);
+    high = high.max(s.value);
+    negative += (s.value < 0.0).any() ? 1 : 0;
+    for (const double weight : s.weight.of_each()) weights.include(weight);
+  }
+  json facts{{"samples", samples.size()}};
+  facts.update(angles_of(samples));
+  facts["minimum"] = per_channel(low);
+  facts["maximum"] = per_channel(high);
+  facts["samples_with_negative_values"] = negative;
+  facts["weights"] = weights.numbers();
+  facts["suspicious"] = suspicions_of(samples, negative);
+  return facts;
+}
+
+json facts_of(std::span<const gonio::direction_pair> pairs) {
+  gonio::sample_set samples;
+  for (const gonio::direction_pair& pair : pairs) samples.push_back({pair, gonio::rgb::Zero(), 1.0});
+  json facts{{"directions", pairs.size()}};
+  facts.update(angles_of(samples));
+  return facts;
+}
+
+}  // namespace cli

@@ -1,0 +1,135 @@
+/// gonio info: of which kind a file is, and what is said of it; files of other programs wherever samples are read.
+
+#include "../io/scratch.hpp"
+#include "../json.hpp"
+#include "tool.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+
+namespace {
+
+struct folder_of_files {
+  scratch::folder folder;
+
+  [[nodiscard]] std::string put(const std::string& name, const std::string& content) const {
+    scratch::put(folder / name, content);
+    return (folder / name).string();
+  }
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder / name).string(); }
+};
+
+auto facts_of_file(const std::string& path) {
+  const auto result = gonio_tool("info --json " + path);
+  CAPTURE(result.output);
+  REQUIRE(result.exit_code == 0);
+  return parse_json(result.output);
+}
+
+const std::string zemax_file =
+    "# made up\nSource Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\nScatterType BRDF\n"
+    "SampleRotation 1\n0\nAngleOfIncidence 2\n20 40\nScatterAzimuth 3\n0 90 180\nScatterRadial 3\n0 20 30\n\n"
+    "Monochrome\nDataBegin\nTIS 0.5\n.5 .4 .3\n.5 .4 .3\n.5 .4 .3\nTIS 0.5\n.6 .5 .4\n.6 .5 .4\n.6 .5 .4\nDataEnd\n";
+const std::string astm_file =
+    "NUM_POINTS 3\nVARS theta_i,phi_i,theta_s,phi_s,R,G,B\n0.5,0,0.25,3.1,.1,.2,.3\n0.5,0,0.75,1,.1,.2,.3\n"
+    "0.1,0,0.75,2,.1,.2,.4\n";
+const std::string ssdd_file =
+    "VERSION 0.3\nDATA_TYPE brdf\nCOLOR_MODEL monochrome\nPARAM_TYPE spherical_coordinate_system\nPARAM0_LIST 10 40\n"
+    "PARAM2_LIST 20\nPARAM3_LIST 0 90 180\nDATA ascii\n.1\n.2\n.3\n.4\n.5\n.6\n";
+const std::string bird_json =
+    "{\"metadata\":{},\"data\":{\"theta_i\":{\"unit\":\"deg\",\"values\":[10,20,30]},\"phi_i\":{\"unit\":\"deg\","
+    "\"values\":[0,0,0]},\"theta_r\":{\"unit\":\"deg\",\"values\":[40,50,60]},\"phi_r\":{\"unit\":\"deg\",\"values\":"
+    "[180,90,45]},\"BRDF\":{\"unit\":\"sr^-1\",\"values\":[0.1,0.2,0.3]}}}";
+
+}  // namespace
+
+TEST_CASE("info knows the files of other programs by how they begin, and reconstruct and fit read them") {
+  const folder_of_files given;
+  const auto check = [&](const std::string& name, const std::string& content, const std::string& format, int samples) {
+    const std::string path = given.put(name, content);
+    const auto facts = facts_of_file(path);
+    CHECK(facts["kind"] == "samples");
+    CHECK(facts["format"] == format);
+    CHECK(facts["samples"] == samples);
+    const auto fitted = gonio_tool("reconstruct " + path + " -o " + given.at("out.binary"));
+    CAPTURE(fitted.output);
+    CHECK(fitted.exit_code == 0);
+    CHECK(fitted.output.find(std::to_string(samples) + " samples") != std::string::npos);
+    CHECK(gonio_tool("fit " + path + " --model lambert").exit_code == 0);
+  };
+  check("vinyl.bsdf", zemax_file, "Zemax BSDF", 14);
+  check("vinyl.measured", zemax_file, "Zemax BSDF", 14);
+  check("paint.astm", astm_file, "ASTM E1392", 3);
+  check("metal.ssdd", ssdd_file, "SSDD", 6);
+  check("tile.brdf", bird_json, "BiRD", 3);
+  check("tile.json", bird_json, "BiRD", 3);
+  check("spectra.brdf", "2\n450 650\n0.5 0 0.4 3 .1 .2\n0.1 0 0.4 2 .1 .2\n0.2 0 0.5 1 .1 .3\n",
+        "spectral samples of Cornell", 3);
+}
+
+TEST_CASE("info says ranges of angles, repeats, weights, and what is suspicious") {
+  const folder_of_files given;
+  const auto facts = facts_of_file(given.put("s.csv",
+                                             "theta_i,phi_i,theta_o,phi_o,r,g,b,weight\n10,0,20,180,1,1,1,1\n"
+                                             "10,0,20,180,4,4,4,0\n30,0,88,180,-1,1,1,2\n30,0,10,180,4,4,4,1\n"));
+  CHECK(facts["samples"] == 4);
+  CHECK(facts["theta_i"][0] == 10.0);
+  CHECK(facts["theta_i"][1] == 30.0);
+  CHECK(facts["theta_o"][1] == 88.0);
+  CHECK(facts["theta_h"][0] == 5.0);
+  CHECK(facts["theta_d"][1] == 59.0);
+  CHECK(facts["repeated_directions"] == 1);
+  CHECK(facts["samples_with_negative_values"] == 1);
+  CHECK(facts["weights"][0] == 0.0);
+  CHECK(facts["weights"][1] == 2.0);
+  const std::string suspicions = facts["suspicious"].dump();
+  CHECK(suspicions.find("plane of incidence") != std::string::npos);
+  CHECK(suspicions.find("1 of 4 samples have a negative value") != std::string::npos);
+  CHECK(suspicions.find("1 samples are beyond 85 degrees") != std::string::npos);
+  CHECK(facts_of_file(GONIO_SOURCE_DIR "/examples/data/measurements.csv")["suspicious"].empty());
+}
+
+TEST_CASE("info knows each other kind of file that gonio reads or writes") {
+  const folder_of_files given;
+  const auto kind = [](const std::string& path) { return facts_of_file(path)["kind"]; };
+  const std::string table = given.at("t.binary"), spheres = given.at("s.png");
+  REQUIRE(gonio_tool("expand --formula red-paint -o " + table).exit_code == 0);
+  CHECK(kind(table) == "MERL table");
+  std::filesystem::copy_file(table, given.at("nameless"));
+  CHECK(kind(given.at("nameless")) == "MERL table");
+  REQUIRE(gonio_tool("render --size 16 " + table + " -o " + spheres).exit_code == 0);
+  CHECK(kind(spheres) == "PNG image");
+  REQUIRE(gonio_tool("expand --formula red-paint -o " + given.at("t.npy")).exit_code == 0);
+  CHECK(kind(given.at("t.npy")) == "table as an array");
+  const auto plan = facts_of_file(GONIO_SOURCE_DIR "/examples/data/nielsen-20.csv");
+  CHECK(plan["kind"] == "directions");
+  CHECK(plan["directions"] == 20);
+  CHECK(kind(given.put("e.csv", "file,seconds\na.png,1/250\nb.png,2\n")) == "exposure times");
+  CHECK(kind(given.put("w.csv", "theta_i,factor\n0,0.99\n45,0.98\n")) == "reflectance of a white reference");
+  CHECK(kind(given.put("a.txt", "light 0 70\nforbid 0 10 0 10\n")) == "constraint of an apparatus");
+  CHECK(kind(given.put("n.txt", "size 4 4\nposition 0 0 1\n")) == "set-up of an image");
+  CHECK(kind(given.put("p.pgm", std::string("P5 2 1 255\n\x01\xFF", 13))) == "Netpbm image");
+  CHECK(kind(given.put("m.ply", "ply\nformat ascii 1.0\n")) == "mesh (PLY)");
+  CHECK(kind(given.put("m.obj", "v 0 0 0\n")) == "mesh (OBJ)");
+  CHECK(kind(given.put("m.json",
+                       "{\"largest_count\":255,\"frames\":[{\"theta_i\":10,\"phi_i\":0,\"theta_o\":20,\"phi_o\":0,"
+                       "\"seconds\":1,\"file\":\"a.png\"}]}")) == "recorded frames");
+}
+
+TEST_CASE("info does not guess: what it does not know it says so") {
+  const folder_of_files given;
+  const auto refuses = [](const std::string& path, const char* why) {
+    const auto result = gonio_tool("info " + path);
+    CAPTURE(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find(why) != std::string::npos);
+  };
+  refuses("/etc/passwd", "I do not know this kind of file");
+  refuses(GONIO_SOURCE_DIR "/README.md", "I do not know this kind of file");
+  refuses(given.put("noise", std::string(5000, '\x07')), "I do not know this kind of file");
+  refuses(given.put("empty.dat", ""), "I do not know this kind of file");
+  refuses(given.put("damaged.bsdf", zemax_file.substr(0, zemax_file.size() - 30)), "ends before BRDF");
+  refuses(given.put("cut.binary", std::string("\x5A\0\0\0\x5A\0\0\0\xB4\0\0\0", 12)), "cut.binary");
+  refuses(given.put("other.bsdf", "tensor_file"), "other.bsdf");
+}
