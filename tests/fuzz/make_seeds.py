@@ -166,6 +166,9 @@ put("rgl", "two.bsdf", rgl(2))
 put("samples", "half.csv", "theta_h,theta_d,phi_d,r,g,b,weight\n1,2,3,0.1,0.2,0.3,1\n# a comment\n40, 30, -170, 1e-3,+2,-0.5,0\n")
 put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1,1\n-45,0,45,360,.5,.5,.5\n")
 put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")
+put("samples", "german.csv", "# Instrument: GON\n# quantity: percent\n\"Theta In [deg]\";Phi In;theta_out;phi_s;value;wavelength [nm];\"a \"\"b\"\"\"\n1,5;0;\"2,5\";180;31,4;633;x\n;;;;;;\n45;0;45;180;1,25e1;633;\n")
+put("samples", "in-plane.tsv", "theta_i_rad\ttheta_o (rad)\tvalue\tquantity\r\n0.5\t-0.5\t12%\tpercent\r\n0.5\t0.25\t1,5 %\tpercent\t\r\n")
+put("samples", "blanks.txt", "theta_h theta_d  phi_d brdf\n 1 2.5\t3 0.1 \n\"1\" 2 3 0.2\n")
 put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
 put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")
 put("cornell", "two.brdf", "2\n400\n700\n0 0 0 0 0.5 0.25\n")
@@ -221,7 +224,7 @@ words = {
     "shape_model": ['gonio-shapes', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x00\\x80', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F'],
     "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
     "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],
-    "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF'],
+    "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF', 'value', 'brdf', 'quantity', 'wavelength', 'percent', 'reflectance-factor', '# quantity: ', '# instrument: ', '[rad]', '[%]', '%', ';', '\\x09', '"', '0,5', ' '],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
     "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
     "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'field_of_view', 'distortion', 'white_reflectance', 'white_plane', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],
