@@ -34,14 +34,26 @@ void require_same(const answer& one, const answer& other) {
   std::abort();
 }
 
+const std::optional<gonio::io::sample_quantity> none, percent = gonio::io::sample_quantity::percent;
+
+/// It begins with the file's name.
+void check_note(const std::string& sentence) {
+  if (!sentence.starts_with("/proc/self/fd/")) std::abort();
+}
+
 void read(fuzz::input bytes) {
   const fuzz::memory_file file(bytes);
   const answer angles = ask([&] { return gonio::io::read_directions(file.path()); });
   require_same(angles, ask([&] { return gonio::io::read_direction_pairs(file.path()); }));
   if (angles.refusal) throw *angles.refusal;
-  const auto samples = gonio::io::read_samples(file.path());
-  const std::string text = gonio::io::format_samples(samples);
-  require_same({samples.size(), {}}, ask([&] { return gonio::io::parse_samples(text, fuzz::bytes_name); }));
+  // A file that does not say what its numbers are is read as percent.
+  const answer plain = ask([&] { return gonio::io::read_samples(file.path()); });
+  const auto given = gonio::io::read_sample_file(
+      file.path(), {.columns = {}, .quantity = plain.refusal ? percent : none, .note = check_note});
+  const std::string text = gonio::io::format_samples(given.samples, given.provenance);
+  const auto again = gonio::io::parse_sample_file(text, fuzz::bytes_name);
+  if (again.samples.size() != given.samples.size()) std::abort();
+  if (comment_lines(again.provenance) != comment_lines(given.provenance)) std::abort();
 }
 
 const fuzz::registered harness("samples", &read);
