@@ -92,11 +92,11 @@ def print_copies():
     print("\n| array | MB | same address each time | owns no data of its own |\n|---|---|---|---|")
     for name, read in arrays.items():
         one, other = read(), read()
-        print(f"| {name} | {one.nbytes / 1e6:.3f} | {'yes' if address(one) == address(other) else 'no'} | "
+        print(f"| {name} | {one.nbytes / 1e6:.3g} | {'yes' if address(one) == address(other) else 'no'} | "
               f"{'no' if one.flags.owndata else 'yes'} |")
     table.values[:] = 0.25
     written = (table([0, 0, 1], [0, 0, 1]) == 0.25).all()
-    print(f"| what is written to `Table.values` is what the table returns: {'yes' if written else 'no'} | | | |")
+    print(f"\nIs what is written to `Table.values` what the table returns? {'Yes' if written else 'No'}.")
 
 
 def print_speed(count=1_000_000):

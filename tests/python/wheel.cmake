@@ -1,6 +1,6 @@
 # cmake -D PYTHON=/usr/bin/python3 -D SOURCE=. -D SCRATCH=build/wheel -P tests/python/wheel.cmake: builds the wheel of
-# examples/python by `pip install` in a bare virtual environment, and passes the module's tests there. Build tools, numpy
-# and mypy come from PyPI; where that cannot be reached, it says so and nothing is tested.
+# examples/python by `pip install` in a bare virtual environment, and passes the module's tests there. Build tools, numpy,
+# mypy and Mitsuba come from PyPI; where that cannot be reached, it says so and nothing is tested.
 cmake_minimum_required(VERSION 3.25)
 
 function(run what)
@@ -13,7 +13,7 @@ endfunction()
 file(REMOVE_RECURSE "${SCRATCH}/environment")
 run("making a virtual environment" "${PYTHON}" -m venv "${SCRATCH}/environment")
 set(python "${SCRATCH}/environment/bin/python")
-execute_process(COMMAND "${python}" -m pip install --quiet numpy mypy RESULT_VARIABLE unreachable)
+execute_process(COMMAND "${python}" -m pip install --quiet numpy mypy mitsuba RESULT_VARIABLE unreachable)
 if(unreachable)
   message(STATUS "wheel: PyPI cannot be reached, nothing is tested")
   return()

@@ -22,7 +22,7 @@ namespace python {
 
 namespace {
 
-/// The literature's and the searches' sets, and what they are worth.
+/// Directions to measure, and what they are worth.
 struct found_design {
   std::vector<gonio::direction_pair> directions;
   double value = 0.0;

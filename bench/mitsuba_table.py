@@ -1,0 +1,121 @@
+#!/usr/bin/env python3
+"""The plug-in for Mitsuba 3 beside Mitsuba's own `measured`, on materials of the RGL database, for docs/results/python.md:
+
+  gonio-papers run --markdown docs/results/python.md -- bench/mitsuba_table.py satin_purple.bsdf paper_white.bsdf ...
+
+in an environment that has the module and Mitsuba (`pip install mitsuba`).
+"""
+import argparse
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+import drjit as dr
+import mitsuba as mi
+
+mi.set_variant("llvm_ad_rgb")
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "examples" / "python"))
+
+import gonio  # noqa: E402
+import mitsuba_table  # noqa: E402, F401
+from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain  # noqa: E402
+
+PAIRS = 1 << 20
+
+
+def smallest_p(file):
+    """Of Mitsuba's chi-square test of samples against the density, over four directions."""
+    p = []
+    for degrees in (0, 30, 60, 80):
+        wi = [float(np.sin(np.radians(degrees))), 0.0, float(np.cos(np.radians(degrees)))]
+        sample, density = BSDFAdapter("gonio_table", f'<string name="filename" value="{file}"/>', wi=wi)
+        test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=density, sample_dim=3,
+                             sample_count=1000000, res=101, ires=8)
+        with contextlib.redirect_stdout(io.StringIO()):
+            test.run()
+        p.append(test.p_value)
+    return min(p)
+
+
+def seconds_of(work, runs=5):
+    work()  # compiles the kernel
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def evaluate_and_sample(bsdf):
+    """Millions a second: of pairs that are evaluated, and of directions that are drawn."""
+    sampler = mi.load_dict({"type": "independent"})
+    sampler.seed(1, PAIRS)
+    si = dr.zeros(mi.SurfaceInteraction3f, PAIRS)
+    si.wi = mi.warp.square_to_cosine_hemisphere(sampler.next_2d())
+    wo, one, two = mi.warp.square_to_cosine_hemisphere(sampler.next_2d()), sampler.next_1d(), sampler.next_2d()
+    dr.eval(si, wo, one, two)
+    context = mi.BSDFContext()
+
+    def evaluate():
+        dr.eval(bsdf.eval(context, si, wo))
+        dr.sync_thread()
+
+    def sample():
+        drawn, weight = bsdf.sample(context, si, one, two)
+        dr.eval(drawn.wo, drawn.pdf, weight)
+        dr.sync_thread()
+
+    return PAIRS / seconds_of(evaluate) / 1e6, PAIRS / seconds_of(sample) / 1e6
+
+
+def sphere(bsdf):
+    """A sphere under a sky with a bright disc, 64 samples a pixel: the image and the seconds."""
+    scene = mi.load_dict({
+        "type": "scene",
+        "integrator": {"type": "direct", "emitter_samples": 1, "bsdf_samples": 1},
+        "sensor": {"type": "orthographic", "to_world": mi.ScalarTransform4f().look_at([0, 0, 4], [0, 0, 0], [0, 1, 0]),
+                   "film": {"type": "hdrfilm", "width": 128, "height": 128, "rfilter": {"type": "box"}}},
+        "sky": {"type": "constant", "radiance": 0.5},
+        "lamp": {"type": "sphere", "center": [6, 6, 8], "radius": 1.5,
+                 "emitter": {"type": "area", "radiance": {"type": "rgb", "value": 20}}},
+        "ball": {"type": "sphere", "bsdf": bsdf},
+    })
+    image = np.array(mi.render(scene, spp=256, seed=7))
+
+    def draw():
+        dr.eval(mi.render(scene, spp=64, seed=1))
+        dr.sync_thread()
+
+    return image, seconds_of(draw, 3)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("materials", nargs="+", type=pathlib.Path, help="files of the RGL database (.bsdf)")
+    given = parser.parse_args()
+    print(f"Mitsuba {mi.__version__}, {mi.variant()}.\n")
+    print("| material | smallest p of the chi-square test | evaluated, million a second | `measured` | drawn, million a "
+          "second | `measured` | sphere, s | `measured` | pixels differ by, mean |\n|---|---|---|---|---|---|---|---|---|")
+    y, x = np.mgrid[:128, :128]
+    disc = np.hypot(x - 63.5, y - 63.5) < 60
+    with tempfile.TemporaryDirectory() as folder:
+        for file in given.materials:
+            table = str(pathlib.Path(folder) / (file.stem + ".binary"))
+            gonio.write_merl(table, gonio.read_rgl(file))
+            ours = mi.load_dict({"type": "gonio_table", "filename": table})
+            theirs = mi.load_dict({"type": "measured", "filename": str(file)})
+            (our_image, our_time), (their_image, their_time) = sphere(ours), sphere(theirs)
+            difference = np.abs(our_image - their_image)[disc].mean() / their_image[disc].mean()
+            (evaluated, drawn), (evaluated_by_it, drawn_by_it) = evaluate_and_sample(ours), evaluate_and_sample(theirs)
+            print(f"| {file.stem} | {smallest_p(table):.2f} | {evaluated:.1f} | {evaluated_by_it:.1f} | {drawn:.1f} | "
+                  f"{drawn_by_it:.1f} | {our_time:.2f} | {their_time:.2f} | {100 * difference:.1f} % |", flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,80 @@
+"""The plug-in for Mitsuba 3, where Mitsuba is installed and finds LLVM."""
+
+import contextlib
+import io
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import gonio
+from surroundings import SOURCE, unit
+
+try:
+    import drjit as dr
+    import mitsuba as mi
+
+    mi.set_variant("llvm_ad_rgb")
+    dr.eval(mi.Float(1) + 1)  # fails without LLVM
+    sys.path.insert(0, str(SOURCE / "examples" / "python"))
+    import mitsuba_table  # noqa: F401
+    from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain
+except (ImportError, RuntimeError) as unavailable:
+    raise unittest.SkipTest(f"Mitsuba's variant llvm_ad_rgb is not there: {unavailable}")
+
+
+class PlugInTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.file = str(pathlib.Path(cls.folder.name) / "paint.binary")
+        cls.table = gonio.formula_material("red-paint").tabulate()
+        gonio.write_merl(cls.file, cls.table)
+
+    def surface(self, wi):
+        si = dr.zeros(mi.SurfaceInteraction3f, len(wi))
+        si.wi = mi.Vector3f(np.ascontiguousarray(wi.T, dtype=np.float32))
+        return si
+
+    def test_values_are_those_of_the_table(self):
+        generator = np.random.default_rng(1)
+        # The last half a degree above the horizon is left out: there single precision decides what is above it.
+        wi, wo = (unit(np.arccos(generator.uniform(0.01, 1, 20000)), generator.uniform(0, 6, 20000)) for _ in range(2))
+        bsdf = mi.load_dict({"type": "gonio_table", "filename": self.file})
+        value = bsdf.eval(mi.BSDFContext(), self.surface(wi), mi.Vector3f(np.ascontiguousarray(wo.T, np.float32)))
+        expected = np.maximum(self.table(wi, wo), 0) * wo[:, 2:]
+        np.testing.assert_allclose(np.array(value).T, expected, rtol=1e-4, atol=1e-9)
+
+    def test_black_below_the_horizon(self):
+        bsdf = mi.load_dict({"type": "gonio_table", "filename": self.file})
+        up, down = np.array([[0, 0, 1.0]]), np.array([[0, 0, -1.0]])
+        for wi, wo in ((up, down), (down, up)):
+            value, density = bsdf.eval_pdf(mi.BSDFContext(), self.surface(wi), mi.Vector3f(wo[0].tolist()))
+            self.assertEqual((np.abs(np.array(value)).max(), np.array(density).max()), (0, 0))
+
+    def test_samples_follow_the_density(self):
+        for degrees in (0.0, 40.0, 75.0):
+            wi = unit(np.radians(degrees), 0.3).tolist()
+            sample, density = BSDFAdapter("gonio_table", f'<string name="filename" value="{self.file}"/>', wi=wi)
+            test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=density, sample_dim=3,
+                                 sample_count=200000, res=51, ires=8)
+            with contextlib.redirect_stdout(io.StringIO()):
+                accepted = test.run()
+            self.assertTrue(accepted, f"{degrees} degrees: p is {test.p_value}")
+
+    def test_white_reflects_all_light(self):
+        gonio.write_merl(self.file + "-white", gonio.Table(np.full((90, 90, 180, 3), 1 / np.pi)))
+        bsdf = mi.load_dict({"type": "gonio_table", "filename": self.file + "-white"})
+        count = 100000
+        sampler = mi.load_dict({"type": "independent"})
+        sampler.seed(1, count)
+        si = self.surface(np.repeat([unit(np.radians(30.0), 0.0)], count, axis=0))
+        _, weight = bsdf.sample(mi.BSDFContext(), si, sampler.next_1d(), sampler.next_2d())
+        np.testing.assert_allclose(np.array(weight).mean(axis=1), 1, atol=0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()
