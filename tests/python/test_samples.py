@@ -29,6 +29,15 @@ class SamplesTest(unittest.TestCase):
         np.testing.assert_array_equal(samples.values, [[0.1] * 3, [1, 2, 3]])
         np.testing.assert_array_equal(samples.weights, [[0.5] * 3, [1] * 3])
 
+    def test_files_of_other_columns_and_quantities(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "paint.csv"
+            path.write_text("theta_i;phi_i;Winkel;phi_o;value\n30;0;45;180;62,8\n")
+            samples = gonio.read_samples(path, quantity="percent", columns={"theta_o": "Winkel"})
+            np.testing.assert_allclose(samples.values, [[0.628 / np.pi] * 3], rtol=1e-6)
+            with self.assertRaisesRegex(gonio.Error, "quantity"):
+                gonio.read_samples(path, columns={"theta_o": "Winkel"})
+
     def test_directions_cannot_be_written(self):
         samples = gonio.Samples(DIRECTIONS, [0.1, 0.2])
         for column in (samples.directions, samples.angles):

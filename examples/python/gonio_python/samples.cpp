@@ -9,6 +9,9 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 
 namespace python {
@@ -104,6 +107,13 @@ void add_columns(py::class_<gonio::sample_set>& type) {
       "How much each sample counts in each channel: a view of shape (n, 3), which may be written to.");
 }
 
+gonio::sample_set read_samples(const std::filesystem::path& path, const std::optional<std::string>& quantity,
+                               const std::map<std::string, std::string>& columns) {
+  cli::measurement_options options{quantity.value_or(""), {}};
+  for (const auto& [ours, in_file] : columns) options.columns.push_back(ours + '=' + in_file);
+  return cli::read_measurements(path, options);
+}
+
 }  // namespace
 
 void add_samples(py::module_& m) {
@@ -116,8 +126,12 @@ void add_samples(py::module_& m) {
   type.def("__len__", [](const gonio::sample_set& samples) { return samples.size(); });
   add_columns(type);
   type.def("subset", &chosen, py::arg("rows"), "Copies of some of the samples, in the order of their rows.");
-  m.def("read_samples", &cli::read_measurements, py::arg("path"), py::call_guard<py::gil_scoped_release>(),
-        "Reads samples as the tool does: CSV, or Cornell's text format if the name ends in .brdf.");
+  m.def(
+      "read_samples", &read_samples, py::arg("path"), py::arg("quantity") = py::none(),
+      py::arg("columns") = std::map<std::string, std::string>(), py::call_guard<py::gil_scoped_release>(),
+      "Reads samples as the tool does: CSV, or a format of instruments. quantity: what the values of a CSV file are,\n"
+      "'brdf', 'brdf-cosine', 'reflectance-factor' or 'percent', if it does not say so. columns: what it calls its\n"
+      "columns, {'theta_o': 'Winkel'}.");
   m.def(
       "write_samples",
       [](const std::filesystem::path& path, const gonio::sample_set& samples) {

@@ -1,7 +1,7 @@
 """What the compiled module has, for type checkers; tests/python/test_stub.py compares the two."""
 
 import os
-from typing import Any, Optional, Sequence, Tuple, TypedDict, Union, overload
+from typing import Any, Mapping, Optional, Sequence, Tuple, TypedDict, Union, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -56,7 +56,7 @@ class Samples:
     def weights(self) -> _Doubles: ...
     def subset(self, rows: Sequence[int]) -> Samples: ...
 
-def read_samples(path: _Path) -> Samples: ...
+def read_samples(path: _Path, quantity: Optional[str] = None, columns: Mapping[str, str] = {}) -> Samples: ...
 def write_samples(path: _Path, samples: Samples) -> None: ...
 
 class Prior:
