@@ -175,8 +175,8 @@ zemax = "# made up\nSource Measured\nSymmetry PlaneSymmetrical\nSpectralContent 
 blocks = "%s\nDataBegin\nTIS 0.5\n1 2\n3 4\nTIS 0.5\n5 6\n7 8.5e-1\nDataEnd\n"
 put("zemax_bsdf", "grey.bsdf", zemax % "Monochrome" + blocks % "Monochrome")
 put("zemax_bsdf", "colour.bsdf", zemax % "XYZ" + "".join(blocks % f"Tristimulus{axis}" for axis in "XYZ"))
-for columns, row in (("R,G,B", "1,2,-3"), ("450nm,550nm,650nm", ".1,.2,.4"), ("BRDF", "1e-3")):
-    put("astm_e1392", columns[:3] + ".astm", f"SAMPLE made up\nNUM_POINTS 1\nVARS theta_i,phi_i,theta_s,phi_s,{columns}\n0.5,0,0.25,3.1,{row}\n")
+for name, columns, row in (("rgb", "R,G,B", "1,2,-3"), ("spectrum", "450nm,550nm,650nm", ".1,.2,.4"), ("grey", "BRDF", "1e-3")):
+    put("astm_e1392", name + ".astm", f"SAMPLE made up\nNUM_POINTS 1\nVARS theta_i,phi_i,theta_s,phi_s,{columns}\n0.5,0,0.25,3.1,{row}\n")
 ssdd = "VERSION 0.3\nSOFTWARE made up\n\nDATA_TYPE brdf\nCOLOR_MODEL %s\nPARAM_TYPE %s_coordinate_system\nPARAM0_LIST 0 40\nPARAM2_LIST 0 30\nPARAM3_LIST 0 180 360\nDATA %s\n"
 for kind in ("spherical", "specular", "half_difference"):
     put("ssdd", kind + ".ssdd", ssdd % ("monochrome", kind, "ascii") + "# numbers\n" + "1\n" * 12 + "DATA_TYPE specular_reflectance\nCOLOR_MODEL monochrome\nPARAM0_LIST 0\nDATA ascii\n.5\n")

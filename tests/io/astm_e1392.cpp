@@ -51,6 +51,13 @@ TEST_CASE("ASTM: what the columns are is read from their names") {
   CHECK(gonio::polar_angle(other_order.directions.pair().wi) == doctest::Approx(0.5));
 }
 
+TEST_CASE("ASTM: such a file is told by its line of names") {
+  CHECK(gonio::io::looks_like_astm_e1392(astm_start + "BRDF\n"));
+  CHECK(gonio::io::looks_like_astm_e1392("VARS\ttheta_i,phi_i,theta_s,phi_s,BRDF\n"));
+  CHECK_FALSE(gonio::io::looks_like_astm_e1392("theta_i,phi_i,theta_o,phi_o,r,g,b\n"));
+  CHECK_FALSE(gonio::io::looks_like_astm_e1392(std::string(5000, ' ') + astm_start));
+}
+
 TEST_CASE("ASTM: grazing directions are no samples") {
   CHECK(parse_astm_e1392(astm_start + "BRDF\n0.5,0,1.5708,3,.1\n0.5,0,1.5,3,.1\n", "x").size() == 1);
 }

@@ -168,3 +168,17 @@ TEST_CASE("BiRD: a damaged file is read or refused") {
     }
   }));
 }
+
+TEST_CASE("BiRD: the consortium's own example has one direction in four wavelengths, of s and p") {
+  // "Test BRDF data files/example.brdf" of github.com/BiRD-project/BiRD_view
+  const scratch::fs::path path = GONIO_SHARED_DATA "/field-formats/bird_example.brdf";
+  if (!scratch::fs::exists(path)) {
+    MESSAGE("skipped: there is no " << path.string());
+    return;
+  }
+  const auto samples = gonio::io::read_bird(path);
+  REQUIRE(samples.size() == 1);
+  CHECK(gonio::degrees(gonio::polar_angle(samples[0].directions.pair().wo)) == doctest::Approx(10.0));
+  const std::array wavelengths{550.0, 650.0, 750.0, 850.0}, values{0.2585, 0.27, 0.288, 0.2985};
+  CHECK((samples[0].value - gonio::spectral_colour(wavelengths)(values)).abs().maxCoeff() < 1e-9);
+}

@@ -3,6 +3,9 @@
 
 #include <rapidcheck.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <numbers>
 
 using gonio::degrees;
@@ -134,4 +137,29 @@ TEST_CASE("Zemax: radial angle and azimuth of a direction come back") {
     const double nearest = gonio::io::detail::about_specular(theta, phi, radial, 0.0).z();
     if (radial < theta) RC_ASSERT(wo.z() <= nearest + 1e-12);
   }));
+}
+
+TEST_CASE("Zemax: a measured vinyl shows signal up to one polar angle, whatever the angle of incidence") {
+  // tests/workflows/example_models/test_13_planesymmetric_brdf_zemax.bsdf of github.com/ansys/optical-automation
+  const scratch::fs::path path = GONIO_SHARED_DATA "/field-formats/brown_vinyl.bsdf";
+  if (!scratch::fs::exists(path)) {
+    MESSAGE("skipped: there is no " << path.string());
+    return;
+  }
+  const auto samples = gonio::io::read_zemax_bsdf(path);
+  REQUIRE(samples.size() == 2131);
+  std::map<double, double> largest;
+  for (const gonio::sample& s : samples) {
+    const auto& [wi, wo] = s.directions.pair();
+    double& theta = largest[std::round(degrees(gonio::polar_angle(wi)))];
+    if (s.value.y() > 0.02) theta = std::max(theta, degrees(gonio::polar_angle(wo)));
+  }
+  CHECK(largest.size() == 13);
+  for (const auto& [theta_i, theta_o] : largest) {
+    CAPTURE(theta_i);
+    // The instrument sees to 84 degrees, the grid has a direction at most a few degrees before. If azimuth 0 led away
+    // from the normal, there would be signal far below the horizon.
+    CHECK(theta_o > 82.0);
+    CHECK(theta_o < 86.0);
+  }
 }

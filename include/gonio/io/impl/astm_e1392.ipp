@@ -152,7 +152,8 @@ GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
   text = detail::without_byte_order_mark(text).substr(0, 4096);
   detail::text_place place;
   for (std::string_view line; detail::next_line(text, place, line);)
-    if (line.starts_with("VARS ") && line.find("theta_i") != std::string_view::npos) return true;
+    if ((line.starts_with("VARS ") || line.starts_with("VARS\t")) && line.find("theta_i") != std::string_view::npos)
+      return true;
   return false;
 }
 
