@@ -61,9 +61,10 @@ std::string dull_scan(const std::string& columns, const Value& value) {
 TEST_CASE("the likely mistakes get the right sentences") {
   const one_file file;
   // A misspelt column.
-  file.refuses("theta_i;phi_i;tetha_o;phi_o;r;g;b\n10;0;20;0;1;1;1\n",
-               {"line 1: column 'theta_o' is missing: is it 'tetha_o'?; the header line looks semicolon-separated",
-                "--columns"});
+  file.refuses(
+      "theta_i;phi_i;tetha_o;phi_o;r;g;b\n10;0;20;0;1;1;1\n",
+      {"line 1: column 'theta_o' is missing: perhaps it is 'tetha_o'; the header line looks semicolon-separated",
+       "--columns"});
   // No header line, or one behind #.
   file.refuses("# theta_i,phi_i,theta_o,phi_o,r,g,b\n10,0,20,0,1,1,1\n",
                {"line 2: there is no header line above the numbers", "behind # is a comment"});

@@ -16,7 +16,7 @@ TEST_CASE("angles in radians, if their columns say so") {
   CHECK(samples[0].angles().theta_d == doctest::Approx(0.25));
   CHECK(samples[0].angles().phi_d == doctest::Approx(1.0));
   check_text_refused("theta_h [mrad],theta_d,phi_d,r,g,b\n1,1,1,1,1,1\n",
-                     {"line 1", "'theta_h' is missing", "is it 'theta_h [mrad]'?"});
+                     {"line 1", "'theta_h' is missing", "perhaps it is 'theta_h [mrad]'"});
 }
 
 TEST_CASE("what is ignored or assumed is noted") {

@@ -76,6 +76,10 @@ TEST_CASE("every quantity becomes a BRDF, as option, comment, column, name, unit
   CHECK(read(angles + "value\n" + row + "14.59%\n") == doctest::Approx(0.1459 / pi));
   CHECK(read("# quantity: reflectance-factor\n" + angles + "value\n" + row + "14.59 %\n") ==
         doctest::Approx(0.1459 / pi));
+  CHECK(read(angles + "value [%],quantity\n" + row + "14.59,reflectance-factor\n" + row + "14.59,percent\n") ==
+        doctest::Approx(0.1459 / pi));
+  CHECK(read("# quantity: reflectance-factor\n" + angles + "value [%]\n" + row + "14.59\n") ==
+        doctest::Approx(0.1459 / pi));
   CHECK(read("theta_i;phi_i;theta_o;phi_o;r;g;b\n10;0;60;0;14,5%;14,5%;14,5%\n") == doctest::Approx(0.145 / pi));
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("without azimuths the signs of an in-plane scan tell the sides apart")
   CHECK(parse_samples("theta_i,theta_o,r,g,b\n0,45,1,1,1\n30,0,1,1,1\n", "x").size() == 2);  // no sides to tell apart
   check_text_refused("theta_i,theta_o,r,g,b\n0,45,1,1,1\n45,20,1,1,1\n45,45,1,1,1\n",
                      {"line 3", "which sides", "phi_i and phi_o"});
-  check_text_refused("theta_i,theta_o,phi_0,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "is it 'phi_0'"});
+  check_text_refused("theta_i,theta_o,phi_0,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "perhaps it is 'phi_0'"});
   check_text_refused("theta_i,theta_o,azimuth,r,g,b\n45,-45,0,1,1,1\n", {"'phi_i' is missing", "'azimuth'"});
   check_text_refused("theta_i,r,g,b\n45,1,1,1\n", {"'theta_o' is missing"});
 }
@@ -92,9 +92,16 @@ TEST_CASE("one wavelength, and what a file says of its measurements") {
   check_text_refused("theta_h,theta_d,phi_d,wavelength,r,g,b\n1,2,3,550,1,1,1\n", {"r,g,b have no wavelength"});
 }
 
+TEST_CASE("a number sign in quotes begins a comment only above the header line") {
+  const auto samples = parse_samples(
+      "\"# measured\";;\n\"#\";theta_h;theta_d;phi_d;brdf\n\"#1\";1;2;3;4\n\"# 2\";1;2;3;5\n#3;1;2;3;6\n", "x");
+  REQUIRE(samples.size() == 2);
+  CHECK(samples[1].value[0] == 5.0);
+}
+
 TEST_CASE("refusals say what the file looks like") {
   check_text_refused("theta_i;phi_i;tetha_o;phi_o;r;g;b\n1;2;3;4;5;6;7\n",
-                     {"line 1", "'theta_o' is missing: is it 'tetha_o'?", "looks semicolon-separated"});
+                     {"line 1", "'theta_o' is missing: perhaps it is 'tetha_o'", "looks semicolon-separated"});
   check_text_refused("Einfall;Ausfall;Y\n1;2;3\n",
                      {"no columns of directions", "looks semicolon-separated", "'Einfall', 'Ausfall', 'Y'"});
   check_text_refused(half_header + "1;2;3;4;5;6\n",

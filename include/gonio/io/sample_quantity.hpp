@@ -30,12 +30,13 @@ inline constexpr std::array<std::string_view, 4> sample_quantity_names{"brdf", "
 
 namespace detail {
 
-/// What has been said of a file's numbers, and by whom. Who speaks second must agree.
+/// What has been said of a file's numbers, and by whom. Who speaks second must agree; reflectance factors with percent
+/// signs are percent.
 class stated_quantity {
  public:
   /// Throws gonio::error if another quantity has been stated; `by` is what the sentence calls who says so.
   void state(sample_quantity quantity, const std::string& by, const text_place& place);
-  /// The numbers have percent signs: they are percent, also if reflectance factors have been stated.
+  /// The numbers have percent signs, each or in the unit of their column.
   void state_percent_signs(const std::string& by, const text_place& place);
   /// All that another has stated.
   void state(const stated_quantity& other, const text_place& place);
@@ -45,6 +46,7 @@ class stated_quantity {
  private:
   std::optional<sample_quantity> quantity_;
   std::string by_;
+  bool has_percent_signs_ = false;
 };
 
 }  // namespace detail

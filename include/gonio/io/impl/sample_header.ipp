@@ -282,11 +282,11 @@ GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_p
   std::string sentence = "column '" + name + "' is missing";
   if (const auto near = nearest_word(name, names)) {
     const std::string& text = std::ranges::find(extra_, *near, &written_column::name)->text;
-    sentence += ": is it " + detail::quoted(text) + "?";
+    sentence += ": perhaps it is " + detail::quoted(text);
   } else if (colour_group.has(column)) {
     sentence += ", expected r,g,b, or value for one channel";
   }
-  place.refuse({sentence, "; ", as_it_looks(), extra_.empty() ? "" : " (--columns NAME=THEIRS names columns)"});
+  place.refuse({sentence, "; ", as_it_looks()});
 }
 
 /// The first names of a list, which may be long.
@@ -300,8 +300,9 @@ GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_p
 GONIO_INLINE std::string sample_header::as_it_looks() const {
   std::vector<std::string> unknown;
   for (const written_column& each : extra_) unknown.push_back(detail::quoted(each.text));
-  return "the header line looks " + description(dialect_) +
-         (unknown.empty() ? "" : ", and not known in it: " + quoted_list(unknown));
+  const std::string looks = "the header line looks " + description(dialect_);
+  if (unknown.empty()) return looks;
+  return looks + ", and not known in it: " + quoted_list(unknown) + " (--columns NAME=THEIRS says what they are)";
 }
 
 GONIO_INLINE std::string sample_header::note_of_ignored() const {

@@ -46,6 +46,7 @@ GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) n
 namespace gonio::io::detail {
 
 GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::string& by, const text_place& place) {
+  if (has_percent_signs_ && quantity == sample_quantity::reflectance_factor) return;
   if (quantity_ && *quantity_ != quantity)
     place.refuse({"the values are ", name_of(*quantity_), " by ", by_, ", but ", name_of(quantity), " by ", by,
                   ", expected one quantity"});
@@ -56,10 +57,15 @@ GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::st
 GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by, const text_place& place) {
   if (quantity_ == sample_quantity::reflectance_factor) quantity_ = sample_quantity::percent;
   state(sample_quantity::percent, by, place);
+  has_percent_signs_ = true;
 }
 
 GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_place& place) {
-  if (other.quantity_) state(*other.quantity_, other.by_, place);
+  if (!other.quantity_) return;
+  if (other.has_percent_signs_)
+    state_percent_signs(other.by_, place);
+  else
+    state(*other.quantity_, other.by_, place);
 }
 
 }  // namespace gonio::io::detail

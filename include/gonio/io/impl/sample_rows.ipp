@@ -41,13 +41,14 @@ GONIO_INLINE bool row_reader::next() {
   return false;
 }
 
-/// The next line that is neither empty, nor a comment, nor separators alone. A spreadsheet puts a comment in quotes.
+/// The next line that is neither empty, nor a comment, nor separators alone. A spreadsheet puts a comment in quotes;
+/// below the header line that is a field.
 GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   while (next_whole_line(left_, place_, line)) {
     const std::size_t first = line.find_first_not_of(blanks);
-    const std::size_t hash = first + (line[first] == '"' ? 1 : 0);
-    if (hash < line.size() && line[hash] == '#') {
-      read_comment(line.substr(hash + 1));
+    const bool in_quotes = header_.columns().empty() && line.substr(first).starts_with("\"# ");
+    if (in_quotes || line[first] == '#') {
+      read_comment(line.substr(first + (in_quotes ? 2 : 1)));
       continue;
     }
     if ((line[first] != ',' && line[first] != ';') || line.find_first_not_of(",; \t\r") != std::string_view::npos)
@@ -65,8 +66,7 @@ GONIO_INLINE void row_reader::read_comment(std::string_view comment) {
   const auto quantity = quantity_named(entry.value);
   if (!quantity)
     place_.refuse({"the quantity ", quoted(entry.value),
-                   " is unknown, expected brdf, brdf-cosine, reflectance-factor "
-                   "or percent"});
+                   " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
   quantity_.state(*quantity, "the comment in line " + std::to_string(place_.line), place_);
 }
 
