@@ -39,8 +39,12 @@ void write_merl(const fs::path& path, const file_content& content, const writing
   io::write_merl(path, as_table(path, content, how.threads));
 }
 
+/// Such an array has the values at the cells' centres.
 void write_array(const fs::path& path, const file_content& content, const writing& how) {
-  io::write_table_npy(path, as_table(path, content, how.threads));
+  const gonio::brdf_table table = as_table(path, content, how.threads);
+  const gonio::grid& cells = table.cells().grid();
+  if (cells.anchor() == gonio::cell_anchor::centre) return io::write_table_npy(path, table);
+  io::write_table_npy(path, gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads));
 }
 
 void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
