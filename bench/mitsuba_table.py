@@ -29,13 +29,14 @@ PAIRS = 1 << 20
 
 
 def smallest_p(file):
-    """Of Mitsuba's chi-square test of samples against the density, over four directions."""
+    """Of Mitsuba's chi-square test of samples against the density, over four directions. At 0 degrees its cells, in equal
+    steps of the cosine, are wider than the narrowest highlights: there it tests its own integration of the density."""
     p = []
-    for degrees in (0, 30, 60, 80):
+    for degrees in (20, 40, 60, 80):
         wi = [float(np.sin(np.radians(degrees))), 0.0, float(np.cos(np.radians(degrees)))]
         sample, density = BSDFAdapter("gonio_table", f'<string name="filename" value="{file}"/>', wi=wi)
         test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=density, sample_dim=3,
-                             sample_count=1000000, res=101, ires=8)
+                             sample_count=1000000, res=101, ires=32)
         with contextlib.redirect_stdout(io.StringIO()):
             test.run()
         p.append(test.p_value)
@@ -43,17 +44,18 @@ def smallest_p(file):
 
 
 def seconds_of(work, runs=5):
+    """Of all cores together, which other programs on the machine change least."""
     work()  # compiles the kernel
     times = []
     for _ in range(runs):
-        start = time.perf_counter()
+        start = time.process_time()
         work()
-        times.append(time.perf_counter() - start)
+        times.append(time.process_time() - start)
     return min(times)
 
 
 def evaluate_and_sample(bsdf):
-    """Millions a second: of pairs that are evaluated, and of directions that are drawn."""
+    """Millions a CPU second: of pairs that are evaluated, and of directions that are drawn."""
     sampler = mi.load_dict({"type": "independent"})
     sampler.seed(1, PAIRS)
     si = dr.zeros(mi.SurfaceInteraction3f, PAIRS)
@@ -86,7 +88,7 @@ def sphere(bsdf):
                  "emitter": {"type": "area", "radiance": {"type": "rgb", "value": 20}}},
         "ball": {"type": "sphere", "bsdf": bsdf},
     })
-    image = np.array(mi.render(scene, spp=256, seed=7))
+    image = np.array(mi.render(scene, spp=128, seed=7))
 
     def draw():
         dr.eval(mi.render(scene, spp=64, seed=1))
@@ -100,8 +102,8 @@ def main():
     parser.add_argument("materials", nargs="+", type=pathlib.Path, help="files of the RGL database (.bsdf)")
     given = parser.parse_args()
     print(f"Mitsuba {mi.__version__}, {mi.variant()}.\n")
-    print("| material | smallest p of the chi-square test | evaluated, million a second | `measured` | drawn, million a "
-          "second | `measured` | sphere, s | `measured` | pixels differ by, mean |\n|---|---|---|---|---|---|---|---|---|")
+    print("| material | smallest p of the chi-square test | evaluated, million a CPU second | `measured` | drawn, million "
+          "a CPU second | `measured` | sphere, CPU s | `measured` | pixels differ by, mean |\n|---|---|---|---|---|---|---|---|---|")
     y, x = np.mgrid[:128, :128]
     disc = np.hypot(x - 63.5, y - 63.5) < 60
     with tempfile.TemporaryDirectory() as folder:
