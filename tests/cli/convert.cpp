@@ -70,10 +70,10 @@ TEST_CASE("convert: what cannot be is refused in one sentence, and nothing is wr
     refuses("convert " + files.path(from) + " " + files.path(to), words);
     CHECK(!std::filesystem::exists(files.here / to));
   };
-  scratch::put(files.here / "notes.txt", std::string("root:x:0:0"));
+  scratch::put(files.here / "notes.doc", std::string("root:x:0:0"));
   scratch::put(files.here / "s.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
-  refused("notes.txt", "new.bsdf",
-          {"notes.txt: is of no kind that is known", "RGL material (.bsdf)", "samples (.csv)"});
+  refused("notes.doc", "new.bsdf",
+          {"notes.doc: is of no kind that is known", "RGL material (.bsdf)", "samples (.csv)"});
   refused("t.binary", "new.txt", {"new.txt: is of no kind that is written", "MERL table (.binary)"});
   refused("t.binary", "new.brdf", {"new.brdf: is of no kind that is written"});
   refused("s.csv", "new.bsdf", {"new.bsdf", "'gonio reconstruct' completes them"});

@@ -142,7 +142,7 @@ TEST_CASE("a message does not steer the terminal") {
   refuses("npy", npy("{'\x1b[2J': 1}"), "\\x1b[2J");
   refuses("networks", "a\x1b[2J\na\x1b[2J\n", "\\x1b[2J");
   refuses("recorded_frames", "{\"largest_count\":9,\"frames\":[\"\\u007f\\u009b\"]}", "\\x7f\\xc2\\x9b");
-  refuses("samples", "theta_h,\x1b[2J\n", "column '?[2J' is unknown");
+  refuses("samples", "theta_h,\x1b[2J\n", "not known in it: '?[2J'");
 }
 
 TEST_CASE("a direction that grazes the surface is refused in every way of reading it") {

@@ -167,7 +167,7 @@ put("samples", "half.csv", "theta_h,theta_d,phi_d,r,g,b,weight\n1,2,3,0.1,0.2,0.
 put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1,1\n-45,0,45,360,.5,.5,.5\n")
 put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")
 put("samples", "german.csv", "# Instrument: GON\n# quantity: percent\n\"Theta In [deg]\";Phi In;theta_out;phi_s;value;wavelength [nm];\"a \"\"b\"\"\"\n1,5;0;\"2,5\";180;31,4;633;x\n;;;;;;\n45;0;45;180;1,25e1;633;\n")
-put("samples", "in-plane.tsv", "theta_i_rad\ttheta_o (rad)\tvalue\tquantity\r\n0.5\t-0.5\t12%\tpercent\r\n0.5\t0.25\t1,5 %\tpercent\t\r\n")
+put("samples", "in-plane.tsv", "theta_i_rad\ttheta_o (rad)\tvalue\tquantity\r\n0.5\t-0.5\t12%\tpercent\r\n0.5\t0.25\t1.5 %\tpercent\t\r\n")
 put("samples", "blanks.txt", "theta_h theta_d  phi_d brdf\n 1 2.5\t3 0.1 \n\"1\" 2 3 0.2\n")
 put("samples", "directions.csv", "\ufefftheta_i,phi_i,theta_o,phi_o\r\n89.9999999,0,-89.9999989,0\r\n")
 put("cornell", "small.brdf", "# paint\n3\n400 550\n700\n0.1 0.2 0.3 0.4 1 2 3\n1.5 -6.28 0 0 0.1 0.1 0.1\n")

@@ -99,8 +99,7 @@ GONIO_INLINE std::errc read_by_strtod(std::string_view digits, double& value) {
 [[nodiscard]] GONIO_INLINE std::errc read_whole(std::string_view digits, double& value) {
 #if defined(__cpp_lib_to_chars)
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (failed != std::errc()) return failed;
-  return end == digits.data() + digits.size() ? std::errc() : std::errc::invalid_argument;
+  return end == digits.data() + digits.size() ? failed : std::errc::invalid_argument;
 #else
   return read_by_strtod(digits, value);
 #endif
