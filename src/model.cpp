@@ -12,6 +12,7 @@
 #include <gonio/model/impl/network_brdf.ipp>
 #include <gonio/model/impl/physical_properties.ipp>
 #include <gonio/model/impl/sampling_techniques.ipp>
+#include <gonio/model/impl/smooth_spectra.ipp>
 #include <gonio/model/impl/tabulate_adaptively.ipp>
 
 namespace gonio {

@@ -4,6 +4,7 @@
 #include "command_line/measurement_files.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include <gonio/core/error.hpp>
 
 #include <memory>
 
@@ -19,7 +20,9 @@ struct convert_options {
 
 void convert(const convert_options& options) {
   // Refused before hours of reading.
-  static_cast<void>(written_kind(options.output));
+  const file_kind& kind = written_kind(options.output);
+  if (options.how.as_spectra && kind.extensions.front() != ".bsdf")
+    gonio::refuse({"--spectra needs an output that ends in .bsdf, not ", options.output.native()});
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
 
@@ -39,6 +42,9 @@ void add_convert(command& app) {
       .add_output("output", options->output, {},
                   "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), or samples (.csv)")
       .required();
+  command.add_flag("--spectra", options->how.as_spectra,
+                   "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "
+                   "of RGB; of a material in RGB, smooth ones of the same colour");
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });
 }

@@ -48,7 +48,9 @@ void write_array(const fs::path& path, const file_content& content, const writin
 }
 
 void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
-  io::write_rgl(path, as_rgl(path, content, how.threads));
+  io::rgl_material material = as_rgl(path, content, how.threads);
+  if (how.as_spectra && !material.spectra) material.spectra = io::upsampled_spectra(material.material);
+  io::write_rgl(path, material);
 }
 
 void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {

@@ -19,6 +19,7 @@
 #include <gonio/model/phong.hpp>
 #include <gonio/model/physical_properties.hpp>
 #include <gonio/model/sampling_techniques.hpp>
+#include <gonio/model/smooth_spectra.hpp>
 #include <gonio/model/sum_of_lobes.hpp>
 #include <gonio/model/tabulate_adaptively.hpp>
 #include <gonio/model/torrance_sparrow.hpp>

@@ -39,6 +39,10 @@ TEST_CASE("convert: a table becomes a material for renderers, and that a table a
   CHECK((material(wi, wo) / files.metal(wi, wo) - 1.0).abs().maxCoeff() < 0.03);
   files.convert("t.bsdf", "again.bsdf");
   CHECK(scratch::get(files.here / "again.bsdf") == scratch::get(files.here / "t.bsdf"));
+  run("convert --spectra " + files.path("t.bsdf") + " " + files.path("spectral.bsdf"));
+  const auto spectral = gonio::io::read_rgl(files.path("spectral.bsdf"));
+  REQUIRE(spectral.spectra);
+  CHECK((spectral.material(wi, wo) / material(wi, wo) - 1.0).abs().maxCoeff() < 1e-4);
   files.convert("t.bsdf", "table.binary");
   const gonio::brdf_table table = gonio::io::read_merl(files.path("table.binary"));
   CHECK(table.cells().grid().extents() == gonio::grid_extents{});
@@ -79,6 +83,7 @@ TEST_CASE("convert: what cannot be is refused in one sentence, and nothing is wr
   refused("s.csv", "new.bsdf", {"new.bsdf", "'gonio reconstruct' completes them"});
   refused("t.binary", "new.csv", {"new.csv", "'gonio sample'"});
   refused("absent.binary", "new.bsdf", {"absent.binary", "No such file"});
+  refuses("convert --spectra " + files.path("t.binary") + " " + files.path("new.npy"), {"--spectra needs", ".bsdf"});
   refuses("convert " + files.path("t.binary") + " " + files.path("t.binary"), {"would overwrite what is read"});
 }
 

@@ -5,6 +5,7 @@
 #include <gonio/model/ggx.hpp>
 #include <gonio/model/lambert.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -99,8 +100,8 @@ TEST_CASE("a material of spectra is read as its colours, and the spectra are kep
   const gonio::model::unit_square_tables& colours = material.parts().reflectance;
   CHECK(colours.tables == 9);
   for (std::size_t i = 0; i < 12; ++i) CHECK(colours.values[i] == doctest::Approx(1.0).epsilon(1e-6));
-  const std::vector<double> wavelengths{400.0, 500.0, 600.0, 700.0}, rising{0.0, 0.1, 0.2, 0.3};
-  const gonio::rgb expected = gonio::spectral_colour(wavelengths)(rising);
+  const std::vector<double> wavelengths{400.0, 500.0, 600.0, 700.0};
+  const gonio::rgb expected = gonio::interpolated_colour(wavelengths) * Eigen::Vector4d(0.0, 0.1, 0.2, 0.3);
   for (std::size_t c = 0; c < 3; ++c)
     CHECK(colours.values[12 + 4 * c] == doctest::Approx(expected[static_cast<Eigen::Index>(c)]).epsilon(1e-5));
   REQUIRE(spectra);
@@ -173,6 +174,19 @@ TEST_CASE("a BRDF is written and read again within half a per cent of its peak")
   const gonio::rgb golden =
       material.as_measured(gonio::spherical_direction(0.5, 0.0), gonio::spherical_direction(0.6, 3.0));
   CHECK((golden - gonio::rgb(2.01104543, 1.34074924, 0.67045305)).abs().maxCoeff() < 1e-4);
+}
+
+TEST_CASE("a material in RGB is written in spectra of the same colours") {
+  gonio::io::rgl_material material = parsed(container(small_material()));
+  material.spectra = gonio::io::upsampled_spectra(material.material);
+  const gonio::io::rgl_material again = parse_rgl(gonio::io::serialise_rgl(material), "again");
+  REQUIRE(again.spectra);
+  CHECK(again.spectra->wavelengths.size() == 20);
+  CHECK(*std::ranges::min_element(again.spectra->values.values) > -1e-6f);
+  const std::vector<float>& before = material.material.parts().reflectance.values;
+  const std::vector<float>& after = again.material.parts().reflectance.values;
+  REQUIRE(before.size() == after.size());
+  for (std::size_t i = 0; i < before.size(); ++i) CHECK(std::abs(before[i] - after[i]) < 1e-5f);
 }
 
 TEST_CASE("materials that no renderer reads are not written") {
@@ -352,10 +366,10 @@ TEST_CASE("the files of the database are evaluated as by an evaluation of their 
   std::mt19937 random(11);
   std::uniform_real_distribution<double> uniform(0.05, 1.0);
   std::size_t files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const auto material = read_rgl(entry.path()).material;
-    const plain_evaluation plain(gonio::io::read_bytes(entry.path()));
-    CAPTURE(entry.path().filename().string());
+  for (const auto& [name, path] : gonio::io::list_rgl_directory(folder)) {
+    const auto material = read_rgl(path).material;
+    const plain_evaluation plain(gonio::io::read_bytes(path));
+    CAPTURE(name);
     for (int i = 0; i < 5; ++i) {
       const auto draw = [&] { return gonio::spherical_direction(std::acos(uniform(random)), 6.0 * uniform(random)); };
       const gonio::direction wi = draw(), wo = draw();
@@ -363,7 +377,7 @@ TEST_CASE("the files of the database are evaluated as by an evaluation of their 
       CHECK(((material.as_measured(wi, wo) - expected).abs() < 1e-4 * (expected.abs() + 0.01)).all());
     }
     // Written and read again it is the same.
-    const gonio::io::rgl_material whole = read_rgl(entry.path());
+    const gonio::io::rgl_material whole = read_rgl(path);
     const auto again = parse_rgl(gonio::io::serialise_rgl(whole), "again").material;
     CHECK(again.parts().reflectance.values == whole.material.parts().reflectance.values);
     const gonio::direction up(0, 0, 1), side(0.6, 0, 0.8);
@@ -381,11 +395,11 @@ TEST_CASE("what is read equals the same materials as others resampled them to ME
   }
   std::size_t compared = 0;
   for (const auto& entry : std::filesystem::directory_iterator(shared / "rgl-bsdf")) {
-    const auto material = read_rgl(entry.path()).material;
-    const auto table_path = shared / "rgl-measured" / (entry.path().stem().string() + ".binary.gz");
+    const auto material = read_rgl(path).material;
+    const auto table_path = shared / "rgl-measured" / (path.stem().string() + ".binary.gz");
     if (!std::filesystem::exists(table_path)) continue;
     ++compared;
-    CAPTURE(entry.path().filename().string());
+    CAPTURE(name);
     const gonio::brdf_table table = gonio::io::read_merl_any(table_path);
     // Their file has 12 bits of each value, and its angles are those of the cells' lower corners.
     double largest = 0.0;

@@ -2,6 +2,7 @@
 """What Mitsuba 3 makes of the .bsdf files that gonio writes, beside what gonio makes of the same materials:
   gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_measured.py \\
     grace_probe_latlong.hdr rgl-bsdf cardboard.binary.gz satin_purple.binary.gz
+  gonio-papers run --markdown docs/results/renderers.md -- examples/papers/our_own/mitsuba_measured.py --spectra
 An environment, a folder of RGL materials, and tables; two materials by formulas come with gonio. GONIO is the tool
 (default: gonio). Needs Python with `pip install mitsuba numpy`, and LLVM's library for Mitsuba's variants on arrays."""
 
@@ -21,7 +22,7 @@ try:
     import mitsuba as mi
     import numpy as np
 
-    mi.set_variant("llvm_ad_rgb")
+    mi.set_variant("llvm_ad_spectral" if "--spectra" in sys.argv else "llvm_ad_rgb")
     import drjit as dr
     from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain
 except ImportError as reason:
@@ -53,9 +54,11 @@ def directions_of(theta_h, theta_d, phi_d):
     return towards(x, y, z), towards(-x, -y, z)
 
 
-def evaluate(bsdf, viewer, light):
-    """f in sr^-1 of many pairs, (pairs, 3)."""
+def evaluate(bsdf, viewer, light, wavelengths=None):
+    """f in sr^-1 of many pairs, (pairs, channels)."""
     si = dr.zeros(mi.SurfaceInteraction3f, len(viewer[0]))
+    if wavelengths is not None:
+        si.wavelengths = mi.Spectrum(mi.Float(wavelengths))
     si.wi = mi.Vector3f(*(mi.Float(c.astype(np.float32)) for c in viewer))
     towards = mi.Vector3f(*(mi.Float(c.astype(np.float32)) for c in light))
     return np.array(bsdf.eval(mi.BSDFContext(), si, towards)).T / light[2][:, None]
@@ -127,7 +130,8 @@ def chi_square(material):
         sample, pdf = BSDFAdapter("measured", file, wi=one_direction(angle))
         test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=pdf, sample_dim=3,
                              sample_count=1_000_000, res=201, ires=16)
-        with contextlib.redirect_stdout(io.StringIO()):
+        # A test that fails leaves a file where it runs.
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.chdir(material["bsdf"].parent):
             passed += bool(test.run(significance_level=0.01, test_count=3))
     return passed
 
@@ -186,7 +190,40 @@ def prepare(name, source, scratch):
     return material
 
 
+def compare_spectra(scratch):
+    """Files with spectra: the colours that Mitsuba's observer has of them under D65 beside the tables in RGB."""
+    wavelengths = np.arange(360, 831, dtype=np.float32)
+    observer = np.array(mi.cie1931_xyz(mi.Float(wavelengths)))
+    daylight = mi.load_dict({"type": "d65"})
+    si = dr.zeros(mi.SurfaceInteraction3f, len(wavelengths))
+    si.wavelengths = mi.Spectrum(mi.Float(wavelengths))
+    weights = observer * np.array(daylight.eval(si))[0]
+    to_rgb = np.array([[3.2404542, -1.5371385, -0.4985314], [-0.9692660, 1.8760108, 0.0415560],
+                       [0.0556434, -0.2040259, 1.0572252]])
+    weights = to_rgb @ (weights / weights.sum(axis=1, keepdims=True) * np.array([[0.95047], [1], [1.08883]]))
+    print("| material, in spectra | largest difference of a channel, % of the brightest | in the mean |")
+    print("|---|---|---|")
+    for name in ("red-paint", "gold-metal", "blue-rubber"):
+        run(TOOL, "expand", "--formula", name, "-o", scratch / "rgb.bsdf")
+        run(TOOL, "convert", "--spectra", scratch / "rgb.bsdf", scratch / "spectral.bsdf")
+        run(TOOL, "convert", scratch / "rgb.bsdf", scratch / "own.npy")
+        viewer, light, ours = drawn_cells(np.load(scratch / "own.npy"), 200, 0.05)
+        bsdf = measured(scratch / "spectral.bsdf")
+        # All wavelengths of the first pair first.
+        repeated = lambda w: tuple(np.repeat(c, len(wavelengths)) for c in w)
+        at = np.tile(wavelengths, len(ours))
+        spectra = 0.5 * (evaluate(bsdf, repeated(viewer), repeated(light), at)
+                         + evaluate(bsdf, repeated(light), repeated(viewer), at))
+        found = spectra[:, 0].reshape(len(ours), -1) @ weights.T
+        off = np.abs(found - ours).max(axis=1) / ours.max(axis=1)
+        print(f"| {name} | {100 * off.max():.2f} | {100 * off.mean():.2f} |", flush=True)
+
+
 def main():
+    if "--spectra" in sys.argv:
+        with tempfile.TemporaryDirectory() as name:
+            print(f"Mitsuba {mi.__version__}, variant {mi.variant()}.\n")
+            return compare_spectra(pathlib.Path(name))
     environment, folder, *tables = sys.argv[1:]
     sources = [(name, ("expand", "--formula", name, "-o")) for name in ("red-paint", "gold-metal", "blue-rubber")]
     sources += [(pathlib.Path(table).name.split(".")[0], ("convert", table)) for table in tables]

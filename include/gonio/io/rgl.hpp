@@ -11,6 +11,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/named_files.hpp>
 #include <gonio/model/adaptive_brdf.hpp>
+#include <gonio/model/smooth_spectra.hpp>
 #include <gonio/model/tabulate_adaptively.hpp>
 
 #include <concepts>
@@ -61,6 +62,10 @@ struct rgl_material {
 [[nodiscard]] inline rgl_material read_rgl(const std::filesystem::path& path) {
   return parse_rgl(read_bytes(path), path.string());
 }
+
+/// Spectra for a material that is known in RGB, for pbrt-v4 and spectral variants of Mitsuba.
+[[nodiscard]] rgl_spectra upsampled_spectra(const model::adaptive_brdf& material,
+                                            const model::smooth_spectra& spectra = {});
 
 /// The bytes of a file. Of spectra, if there are any, the spectral variant, which pbrt-v4 and Mitsuba's spectral
 /// variants want; otherwise that of Mitsuba's RGB variants. Throws gonio::error for spectra that do not fit the

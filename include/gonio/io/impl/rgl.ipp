@@ -121,17 +121,18 @@ class rgl_arrays {
 
 /// Red, green and blue of spectra.
 [[nodiscard]] inline model::unit_square_tables rgb_of(const rgl_spectra& spectra) {
-  const spectral_colour colour(spectra.wavelengths);
+  const Eigen::MatrixXd weights = interpolated_colour(spectra.wavelengths);
   const model::unit_square_tables& all = spectra.values;
-  const Eigen::Index size = all.rows * all.columns, bands = colour.size(), angles = all.tables / bands;
+  const Eigen::Index size = all.rows * all.columns, bands = weights.cols(), angles = all.tables / bands;
   model::unit_square_tables colours{3 * angles, all.rows, all.columns, std::vector<float>(3 * angles * size)};
-  std::vector<double> spectrum(spectra.wavelengths.size());
   for (Eigen::Index angle = 0; angle < angles; ++angle)
-    for (Eigen::Index i = 0; i < size; ++i) {
-      for (Eigen::Index band = 0; band < bands; ++band) spectrum[band] = all.values[(angle * bands + band) * size + i];
-      const rgb value = colour(spectrum);
-      for (Eigen::Index c = 0; c < 3; ++c) colours.values[(3 * angle + c) * size + i] = static_cast<float>(value[c]);
-    }
+    for (Eigen::Index c = 0; c < 3; ++c)
+      for (Eigen::Index i = 0; i < size; ++i) {
+        double sum = 0.0;
+        for (Eigen::Index band = 0; band < bands; ++band)
+          sum += weights(c, band) * double{all.values[(angle * bands + band) * size + i]};
+        colours.values[(3 * angle + c) * size + i] = static_cast<float>(sum);
+      }
   return colours;
 }
 
@@ -225,6 +226,23 @@ class tensor_writer {
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
+
+GONIO_INLINE rgl_spectra upsampled_spectra(const model::adaptive_brdf& material, const model::smooth_spectra& spectra) {
+  const model::unit_square_tables& colours = material.parts().reflectance;
+  const Eigen::Index size = colours.rows * colours.columns, bands = std::ssize(spectra.wavelengths());
+  const Eigen::Index angles = colours.tables / 3;
+  rgl_spectra all{spectra.wavelengths(),
+                  {bands * angles, colours.rows, colours.columns, std::vector<float>(bands * angles * size)}};
+  for (Eigen::Index angle = 0; angle < angles; ++angle) {
+    const float* red = colours.row(3 * angle, 0);
+    float* first = all.values.values.data() + angle * bands * size;
+    for (Eigen::Index i = 0; i < size; ++i) {
+      const Eigen::ArrayXd values = spectra({red[i], red[size + i], red[2 * size + i]});
+      for (Eigen::Index band = 0; band < bands; ++band) first[band * size + i] = static_cast<float>(values[band]);
+    }
+  }
+  return all;
+}
 
 GONIO_INLINE std::vector<std::byte> serialise_rgl(const rgl_material& material) {
   const model::adaptive_brdf_parts& parts = material.material.parts();
