@@ -15,8 +15,8 @@ namespace gonio::io {
 /// is not: no hole for an interpolation to fall into. Which cells these are is geometry: see `valid_cells`.
 void write_table_npy(const std::filesystem::path& path, const brdf_table& table);
 
-/// A table from the bytes of such an array, whose values are those at the cells' centres; `name` is what errors call it.
-/// Throws gonio::error for another shape and values that are not finite.
+/// A table from the bytes of such an array, whose values are those at the cells' centres; `name` is what errors call
+/// it. Throws gonio::error for another shape and values that are not finite.
 [[nodiscard]] brdf_table parse_table_npy(std::span<const std::byte> bytes, const std::string& name);
 
 }  // namespace gonio::io
