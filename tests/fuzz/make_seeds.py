@@ -79,14 +79,18 @@ def tensor_file(arrays):
     return head + body
 
 
-def rgl(azimuths):
+def rgl(azimuths, wavelengths=0):
     def numbers(*shape):
         return 10, shape, struct.pack(f"<{math.prod(shape)}f", *(0.1 * (i % 7 + 1) for i in range(math.prod(shape))))
 
     angles = 10, (2,), struct.pack("<2f", 0.0, 1.5707964)
-    return tensor_file({"description": (1, (5,), b"paint"), "phi_i": numbers(azimuths), "theta_i": angles,
-                        "ndf": numbers(2, 3), "sigma": numbers(2, 3), "vndf": numbers(azimuths, 2, 3, 4),
-                        "rgb": numbers(azimuths, 2, 3, 2, 2)})
+    arrays = {"description": (1, (5,), b"paint"), "phi_i": numbers(azimuths), "theta_i": angles, "ndf": numbers(2, 3),
+              "sigma": numbers(2, 3), "vndf": numbers(azimuths, 2, 3, 4)}
+    if not wavelengths:
+        return tensor_file({**arrays, "rgb": numbers(azimuths, 2, 3, 2, 2)})
+    bands = 10, (wavelengths,), struct.pack(f"<{wavelengths}f", *(400.0 + 50.0 * i for i in range(wavelengths)))
+    return tensor_file({**arrays, "wavelengths": bands, "spectra": numbers(azimuths, 2, wavelengths, 2, 2),
+                        "jacobian": (1, (1,), b"\1")})
 
 
 def chunk(kind, data):
@@ -163,6 +167,7 @@ put("networks", "one", b"red paint\n\0" + npy([0.01 * (i % 50) for i in range(67
 put("networks", "two", b"red\n blue \n\0" + npy([0.0] * 1350, "(2, 675)", "<f8"))
 put("rgl", "one.bsdf", rgl(1))
 put("rgl", "two.bsdf", rgl(2))
+put("rgl", "spectra.bsdf", rgl(1, 4))
 put("samples", "half.csv", "theta_h,theta_d,phi_d,r,g,b,weight\n1,2,3,0.1,0.2,0.3,1\n# a comment\n40, 30, -170, 1e-3,+2,-0.5,0\n")
 put("samples", "angles.csv", "theta_i,phi_i,theta_o,phi_o,r,g,b\n10,20,30,40,1,1,1\n-45,0,45,360,.5,.5,.5\n")
 put("samples", "vectors.csv", "r,g,b,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n1,1,1,0,0,1,0.6,0,0.8\n")

@@ -223,6 +223,7 @@ TEST_CASE("bad files of the RGL database are refused") {
     all["spectra"] = floats(std::move(shape), [](std::uint64_t) { return 1.0; });
   };
   refused([&](fields& all) { spectral(all, {1, 3, 3, 2, 2}, 500.0); }, {"file: ", "need 6 tables", "not 9"});
+  refused([&](fields& all) { spectral(all, {1, 3, 2, 0, 0}, 500.0); }, {"file: ", "at least 2 x 2", "0 x 0"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 9000.0); }, {"file: ", "no visible wavelength"});
   refused([&](fields& all) { spectral(all, {1, 3, 2, 2, 2}, 500.0), all.erase("wavelengths"); }, {"'wavelengths'"});
   refused([](fields& all) { all["jacobian"] = {1, {1}, std::string("\0", 1)}; }, {"'jacobian' is not 1"});
@@ -394,9 +395,9 @@ TEST_CASE("what is read equals the same materials as others resampled them to ME
     return;
   }
   std::size_t compared = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(shared / "rgl-bsdf")) {
+  for (const auto& [name, path] : gonio::io::list_rgl_directory(shared / "rgl-bsdf")) {
     const auto material = read_rgl(path).material;
-    const auto table_path = shared / "rgl-measured" / (path.stem().string() + ".binary.gz");
+    const auto table_path = shared / "rgl-measured" / (name + ".binary.gz");
     if (!std::filesystem::exists(table_path)) continue;
     ++compared;
     CAPTURE(name);

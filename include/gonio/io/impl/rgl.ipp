@@ -140,6 +140,8 @@ class rgl_arrays {
 inline void require_spectra(const rgl_spectra& spectra, std::size_t angles) {
   const model::unit_square_tables& all = spectra.values;
   const auto tables = std::ssize(spectra.wavelengths) * static_cast<Eigen::Index>(angles);
+  if (all.rows < 2 || all.columns < 2)
+    refuse({"the spectra need tables of at least 2 x 2 numbers, not ", all.rows, " x ", all.columns});
   if (all.tables != tables || std::ssize(all.values) != tables * all.rows * all.columns)
     refuse({"the spectra need ", tables, " tables, for ", spectra.wavelengths.size(), " wavelengths and ", angles,
             " angles, not ", all.tables});
