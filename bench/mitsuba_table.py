@@ -28,19 +28,21 @@ from mitsuba.chi2 import BSDFAdapter, ChiSquareTest, SphericalDomain  # noqa: E4
 PAIRS = 1 << 20
 
 
-def smallest_p(file):
-    """Of Mitsuba's chi-square test of samples against the density, over four directions. At 0 degrees its cells, in equal
-    steps of the cosine, are wider than the narrowest highlights: there it tests its own integration of the density."""
-    p = []
+def refused(file):
+    """How many of Mitsuba's chi-square tests of samples against the density fail at 1 %, of four directions and three
+    seeds. At 0 degrees the test's cells, in equal steps of the cosine, are wider than the narrowest highlights: there it
+    would test its own integration of the density."""
+    count = 0
     for degrees in (20, 40, 60, 80):
         wi = [float(np.sin(np.radians(degrees))), 0.0, float(np.cos(np.radians(degrees)))]
         sample, density = BSDFAdapter("gonio_table", f'<string name="filename" value="{file}"/>', wi=wi)
-        test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=density, sample_dim=3,
-                             sample_count=1000000, res=101, ires=32)
-        with contextlib.redirect_stdout(io.StringIO()):
-            test.run()
-        p.append(test.p_value)
-    return min(p)
+        for seed in range(3):
+            test = ChiSquareTest(domain=SphericalDomain(), sample_func=sample, pdf_func=density, sample_dim=3,
+                                 sample_count=1000000, res=101, ires=16, seed=seed)
+            with contextlib.redirect_stdout(io.StringIO()):
+                test.run()
+            count += test.p_value < 0.01
+    return count
 
 
 def seconds_of(work, runs=5):
@@ -88,7 +90,7 @@ def sphere(bsdf):
                  "emitter": {"type": "area", "radiance": {"type": "rgb", "value": 20}}},
         "ball": {"type": "sphere", "bsdf": bsdf},
     })
-    image = np.array(mi.render(scene, spp=128, seed=7))
+    image = np.array(mi.render(scene, spp=256, seed=7))
 
     def draw():
         dr.eval(mi.render(scene, spp=64, seed=1))
@@ -102,7 +104,7 @@ def main():
     parser.add_argument("materials", nargs="+", type=pathlib.Path, help="files of the RGL database (.bsdf)")
     given = parser.parse_args()
     print(f"Mitsuba {mi.__version__}, {mi.variant()}.\n")
-    print("| material | smallest p of the chi-square test | evaluated, million a CPU second | `measured` | drawn, million "
+    print("| material | chi-square tests refused, of 12 | evaluated, million a CPU second | `measured` | drawn, million "
           "a CPU second | `measured` | sphere, CPU s | `measured` | pixels differ by, mean |\n|---|---|---|---|---|---|---|---|---|")
     y, x = np.mgrid[:128, :128]
     disc = np.hypot(x - 63.5, y - 63.5) < 60
@@ -115,7 +117,7 @@ def main():
             (our_image, our_time), (their_image, their_time) = sphere(ours), sphere(theirs)
             difference = np.abs(our_image - their_image)[disc].mean() / their_image[disc].mean()
             (evaluated, drawn), (evaluated_by_it, drawn_by_it) = evaluate_and_sample(ours), evaluate_and_sample(theirs)
-            print(f"| {file.stem} | {smallest_p(table):.2f} | {evaluated:.1f} | {evaluated_by_it:.1f} | {drawn:.1f} | "
+            print(f"| {file.stem} | {refused(table)} | {evaluated:.1f} | {evaluated_by_it:.1f} | {drawn:.1f} | "
                   f"{drawn_by_it:.1f} | {our_time:.2f} | {their_time:.2f} | {100 * difference:.1f} % |", flush=True)
 
 
