@@ -21,22 +21,25 @@ endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --config "${CONFIG}" --prefix "${SCRATCH}/prefix")
 
+function(ask_pkg_config result)
+  execute_process(COMMAND pkg-config ${ARGN} OUTPUT_VARIABLE answer OUTPUT_STRIP_TRAILING_WHITESPACE
+                  COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(answer)
+  set(${result} ${answer} PARENT_SCOPE)
+endfunction()
+
 # Headers alone by their one command: nothing is compiled, and README's program finds what it needs by pkg-config.
 function(build_with_pkg_config package prefix)
   file(GLOB folders "${prefix}/lib/pkgconfig" "${prefix}/lib/*/pkgconfig" "${prefix}/share/pkgconfig")
   list(JOIN folders ":" path)
   set(ENV{PKG_CONFIG_PATH} "${path}")
-  foreach(option IN ITEMS --cflags --libs --variable=prior)
-    execute_process(COMMAND pkg-config ${option} ${package} OUTPUT_VARIABLE found OUTPUT_STRIP_TRAILING_WHITESPACE
-                    COMMAND_ERROR_IS_FATAL ANY)
-    separate_arguments(found)
-    set(answer_${option} ${found})
-  endforeach()
+  ask_pkg_config(cflags --cflags ${package})
+  ask_pkg_config(libs --libs ${package})
+  ask_pkg_config(prior --variable=prior gonio)
   set(program "${SCRATCH}/${package}")
   set(examples "${CMAKE_CURRENT_LIST_DIR}/../../examples")
-  run("${COMPILER}" -std=c++20 -O1 ${answer_--cflags} "${examples}/learn/first_program.cpp" -o "${program}.out"
-      ${answer_--libs})
-  file(COPY "${examples}/data/measurements.csv" ${answer_--variable=prior} DESTINATION "${program}")
+  run("${COMPILER}" -std=c++20 -O1 ${cflags} "${examples}/learn/first_program.cpp" -o "${program}.out" ${libs})
+  file(COPY "${examples}/data/measurements.csv" "${prior}" DESTINATION "${program}")
   run("${CMAKE_COMMAND}" -E chdir "${program}" "${program}.out")
 endfunction()
 
