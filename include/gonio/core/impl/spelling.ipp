@@ -13,7 +13,7 @@
 
 namespace gonio {
 
-GONIO_INLINE std::size_t spelling_distance(std::string_view one, std::string_view other) {
+[[gnu::cold]] GONIO_INLINE std::size_t spelling_distance(std::string_view one, std::string_view other) {
   // Row i of the table is that of the first i letters of `one`; three rows are kept.
   std::vector<std::size_t> before_last, last(other.size() + 1), now(other.size() + 1);
   for (std::size_t j = 0; j <= other.size(); ++j) last[j] = j;
@@ -31,7 +31,8 @@ GONIO_INLINE std::size_t spelling_distance(std::string_view one, std::string_vie
   return last.back();
 }
 
-GONIO_INLINE std::optional<std::string> nearest_word(std::string_view misspelt, const std::vector<std::string>& words) {
+[[gnu::cold]] GONIO_INLINE std::optional<std::string> nearest_word(std::string_view misspelt,
+                                                                   const std::vector<std::string>& words) {
   const auto distance = [&](const std::string& word) { return spelling_distance(misspelt, word); };
   const auto nearest = std::ranges::min_element(words, {}, distance);
   if (nearest == words.end() || 3 * distance(*nearest) > std::max(misspelt.size(), nearest->size())) return {};

@@ -15,7 +15,7 @@
 
 namespace gonio::io {
 
-GONIO_INLINE csv_dialect dialect_of(std::string_view header) {
+[[gnu::cold]] GONIO_INLINE csv_dialect dialect_of(std::string_view header) {
   constexpr std::string_view separators = ",;\t";
   std::array<std::size_t, separators.size()> counts{};
   bool in_quotes = false;
@@ -28,7 +28,7 @@ GONIO_INLINE csv_dialect dialect_of(std::string_view header) {
   return {*most == 0 ? ' ' : separators[static_cast<std::size_t>(most - counts.begin())]};
 }
 
-GONIO_INLINE std::string description(const csv_dialect& dialect) {
+[[gnu::cold]] GONIO_INLINE std::string description(const csv_dialect& dialect) {
   const char* separated = dialect.separator == ','    ? "comma-separated"
                           : dialect.separator == ';'  ? "semicolon-separated"
                           : dialect.separator == '\t' ? "tab-separated"

@@ -1,5 +1,6 @@
 #pragma once
-/// Bodies of io/sample_header.hpp.
+/// Bodies of io/sample_header.hpp. What is done once for a file is cold: compilers then do not spend seconds on making
+/// it fast.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/spelling.hpp>
@@ -69,7 +70,7 @@ inline constexpr std::array known_names{known_name{"thetah", 0},
 
 enum class column_unit { none, degrees, radians, nanometres, percent, per_steradian, unknown };
 
-[[nodiscard]] GONIO_INLINE column_unit unit_named(std::string_view name) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE column_unit unit_named(std::string_view name) {
   constexpr std::array<std::pair<std::string_view, column_unit>, 18> known{
       {{"", column_unit::none},
        {"-", column_unit::none},
@@ -94,7 +95,7 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
 }
 
 /// Is it a unit that a column may have?
-[[nodiscard]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool fits(column_unit unit, std::size_t column) {
   if (unit == column_unit::none) return true;
   if (column < vector_group.first) return unit == column_unit::degrees || unit == column_unit::radians;
   if (colour_group.has(column) || grey_group.has(column))
@@ -103,7 +104,7 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
 }
 
 /// A name's unit is in brackets behind it, or its last word if that is a word for a unit: theta_i_deg.
-[[nodiscard]] GONIO_INLINE written_column written(std::string_view field) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE written_column written(std::string_view field) {
   std::string text;
   for (std::size_t i = 0; i < field.size(); ++i) {
     text += field[i];
@@ -130,7 +131,7 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
   return {std::move(text), std::move(lower), std::move(unit)};
 }
 
-[[nodiscard]] GONIO_INLINE const known_name* find_known(std::string_view name) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const known_name* find_known(std::string_view name) {
   std::string letters;
   for (const char c : name)
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) letters += c;
@@ -138,13 +139,13 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
   return found == known_names.end() ? nullptr : found;
 }
 
-[[nodiscard]] GONIO_INLINE std::size_t column_named(std::string_view name) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t column_named(std::string_view name) {
   return static_cast<std::size_t>(std::ranges::find(sample_columns, name) - sample_columns.begin());
 }
 
 /// The column that is called otherwise in this file, if this is it.
-[[nodiscard]] GONIO_INLINE const column_name* find_renamed(const written_column& written,
-                                                           const std::vector<column_name>& names) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const column_name* find_renamed(const written_column& written,
+                                                                         const std::vector<column_name>& names) {
   const std::string text = lower_case(written.text);
   for (const column_name& each : names) {
     const std::string wanted = lower_case(trimmed(each.in_file));
@@ -158,8 +159,9 @@ inline constexpr std::size_t longest_name = 40;
 
 // ---- the header line -----------------------------------------------------------------------------------------------
 
-GONIO_INLINE void sample_header::read(std::string_view line, const csv_dialect& dialect, const sample_reading& reading,
-                                      bool needs_value, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::read(std::string_view line, const csv_dialect& dialect,
+                                                    const sample_reading& reading, bool needs_value,
+                                                    const text_place& place) {
   dialect_ = dialect;
   std::vector<std::string_view> fields;
   if (const char* wrong = split_fields(line, dialect, fields)) place.refuse(wrong);
@@ -182,8 +184,8 @@ GONIO_INLINE void sample_header::read(std::string_view line, const csv_dialect& 
   find_weights(place);
 }
 
-GONIO_INLINE void sample_header::add(const written_column& written, const sample_reading& reading,
-                                     const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::add(const written_column& written, const sample_reading& reading,
+                                                   const text_place& place) {
   if (const column_name* renamed = find_renamed(written, reading.columns)) {
     written_column named = written;
     const std::size_t column = column_named(renamed->column);
@@ -199,8 +201,8 @@ GONIO_INLINE void sample_header::add(const written_column& written, const sample
 }
 
 /// False if it has a unit that the column cannot have.
-GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
-                                           const text_place& place) {
+[[gnu::cold]] GONIO_INLINE bool sample_header::add_known(const written_column& written, const known_name& known,
+                                                         const text_place& place) {
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
@@ -215,13 +217,14 @@ GONIO_INLINE bool sample_header::add_known(const written_column& written, const 
 }
 
 /// Refuses a file that has not all columns that the caller named.
-GONIO_INLINE void sample_header::require_named(const sample_reading& reading, const text_place& place) const {
+[[gnu::cold]] GONIO_INLINE void sample_header::require_named(const sample_reading& reading,
+                                                             const text_place& place) const {
   for (const column_name& each : reading.columns)
     if (!has(column_named(each.column)))
       place.refuse({"there is no column ", detail::quoted(each.in_file), " to be ", each.column, "; ", as_it_looks()});
 }
 
-GONIO_INLINE void sample_header::find_directions(const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_directions(const text_place& place) {
   int groups = 0;
   for (const column_group& group : {half_difference_group, angle_group, vector_group}) {
     if (!has_any(group)) continue;
@@ -244,7 +247,7 @@ GONIO_INLINE void sample_header::find_directions(const text_place& place) {
         refuse_missing(azimuth, place);
 }
 
-GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
   const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group);
   if (is_grey && is_colour) place.refuse("reflectance is given in two ways, expected r,g,b or value");
   if (is_grey) values_ = grey_group;
@@ -257,7 +260,7 @@ GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place&
     place.refuse("r,g,b have no wavelength, expected value");
 }
 
-GONIO_INLINE void sample_header::find_weights(const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_place& place) {
   if (!has_any(channel_weight_group)) return;
   if (has_any(weight_group))
     place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
@@ -265,16 +268,16 @@ GONIO_INLINE void sample_header::find_weights(const text_place& place) {
   weights_ = channel_weight_group;
 }
 
-GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
+[[gnu::cold]] GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
   return std::ranges::any_of(columns_, [&](std::size_t column) { return group.has(column); });
 }
 
-GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
+[[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
   for (std::size_t column = group.first; column < group.first + group.count; ++column)
     if (!has(column)) refuse_missing(column, place);
 }
 
-GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_place& place) const {
+[[gnu::cold]] GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_place& place) const {
   std::vector<std::string> names;
   for (const written_column& each : extra_)
     if (each.name.size() <= longest_name) names.push_back(each.name);
@@ -290,14 +293,14 @@ GONIO_INLINE void sample_header::refuse_missing(std::size_t column, const text_p
 }
 
 /// The first names of a list, which may be long.
-[[nodiscard]] GONIO_INLINE std::string quoted_list(const std::vector<std::string>& names) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string quoted_list(const std::vector<std::string>& names) {
   constexpr std::size_t most = 6;
   std::string text;
   for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
   return names.size() <= most ? text : text + " and " + std::to_string(names.size() - most) + " more";
 }
 
-GONIO_INLINE std::string sample_header::as_it_looks() const {
+[[gnu::cold]] GONIO_INLINE std::string sample_header::as_it_looks() const {
   std::vector<std::string> unknown;
   for (const written_column& each : extra_) unknown.push_back(detail::quoted(each.text));
   const std::string looks = "the header line looks " + description(dialect_);
@@ -305,7 +308,7 @@ GONIO_INLINE std::string sample_header::as_it_looks() const {
   return looks + ", and not known in it: " + quoted_list(unknown) + " (--columns NAME=THEIRS says what they are)";
 }
 
-GONIO_INLINE std::string sample_header::note_of_ignored() const {
+[[gnu::cold]] GONIO_INLINE std::string sample_header::note_of_ignored() const {
   if (extra_.empty()) return "";
   std::vector<std::string> optional, names;
   for (const std::size_t column : {weight_group.first, channel_weight_group.first, channel_weight_group.first + 1,

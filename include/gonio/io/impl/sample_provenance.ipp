@@ -13,13 +13,13 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE comment_entry entry_of(std::string_view comment) {
+[[gnu::cold]] GONIO_INLINE comment_entry entry_of(std::string_view comment) {
   const std::size_t colon = comment.find(':');
   if (colon == std::string_view::npos) return {};
   return {lower_case(trimmed(comment.substr(0, colon))), trimmed(comment.substr(colon + 1))};
 }
 
-GONIO_INLINE void keep(sample_provenance& provenance, const comment_entry& entry) {
+[[gnu::cold]] GONIO_INLINE void keep(sample_provenance& provenance, const comment_entry& entry) {
   for (const auto& [key, text] : {std::pair{"instrument", &provenance.instrument}, std::pair{"date", &provenance.date},
                                   std::pair{"conditions", &provenance.conditions}}) {
     if (entry.key != key || entry.value.empty()) continue;
@@ -32,7 +32,7 @@ GONIO_INLINE void keep(sample_provenance& provenance, const comment_entry& entry
 
 namespace gonio::io {
 
-GONIO_INLINE std::string comment_lines(const sample_provenance& provenance) {
+[[gnu::cold]] GONIO_INLINE std::string comment_lines(const sample_provenance& provenance) {
   std::string text;
   const auto append = [&](std::string_view key, const std::string& value) {
     if (!value.empty()) text += "# " + std::string(key) + ": " + printable(value) + "\n";

@@ -14,11 +14,11 @@
 
 namespace gonio::io {
 
-GONIO_INLINE std::string_view name_of(sample_quantity quantity) noexcept {
+[[gnu::cold]] GONIO_INLINE std::string_view name_of(sample_quantity quantity) noexcept {
   return sample_quantity_names[static_cast<std::size_t>(quantity)];
 }
 
-GONIO_INLINE std::optional<sample_quantity> quantity_named(std::string_view name) {
+[[gnu::cold]] GONIO_INLINE std::optional<sample_quantity> quantity_named(std::string_view name) {
   std::string word = detail::lower_case(detail::trimmed(name));
   for (char& c : word)
     if (c == ' ' || c == '_') c = '-';
@@ -27,7 +27,7 @@ GONIO_INLINE std::optional<sample_quantity> quantity_named(std::string_view name
   return static_cast<sample_quantity>(found - sample_quantity_names.begin());
 }
 
-GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) noexcept {
+[[gnu::cold]] GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) noexcept {
   switch (quantity) {
     case sample_quantity::brdf:
       return 1.0;
@@ -45,7 +45,8 @@ GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) n
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::string& by, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::string& by,
+                                                       const text_place& place) {
   if (has_percent_signs_ && quantity == sample_quantity::reflectance_factor) return;
   if (quantity_ && *quantity_ != quantity)
     place.refuse({"the values are ", name_of(*quantity_), " by ", by_, ", but ", name_of(quantity), " by ", by,
@@ -54,13 +55,13 @@ GONIO_INLINE void stated_quantity::state(sample_quantity quantity, const std::st
   quantity_ = quantity;
 }
 
-GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void stated_quantity::state_percent_signs(const std::string& by, const text_place& place) {
   if (quantity_ == sample_quantity::reflectance_factor) quantity_ = sample_quantity::percent;
   state(sample_quantity::percent, by, place);
   has_percent_signs_ = true;
 }
 
-GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_place& place) {
+[[gnu::cold]] GONIO_INLINE void stated_quantity::state(const stated_quantity& other, const text_place& place) {
   if (!other.quantity_) return;
   if (other.has_percent_signs_)
     state_percent_signs(other.by_, place);

@@ -1,5 +1,6 @@
 #pragma once
-/// Bodies of io/sample_rows.hpp.
+/// Bodies of io/sample_rows.hpp. What is done once for a file is cold: compilers then do not spend seconds on making it
+/// fast.
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/direction.hpp>
@@ -18,8 +19,8 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE row_reader::row_reader(std::string_view text, const std::string& name, bool needs_value,
-                                    const sample_reading& reading)
+[[gnu::cold]] GONIO_INLINE row_reader::row_reader(std::string_view text, const std::string& name, bool needs_value,
+                                                  const sample_reading& reading)
     : left_(without_byte_order_mark(text)), place_{name, 0}, needs_value_(needs_value), reading_(reading) {
   require_plain_text(text, name);
   numbers_[weight_group.first] = 1.0;
@@ -57,7 +58,7 @@ GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   return false;
 }
 
-GONIO_INLINE void row_reader::read_comment(std::string_view comment) {
+[[gnu::cold]] GONIO_INLINE void row_reader::read_comment(std::string_view comment) {
   const std::size_t last = comment.find_last_not_of(",;\" \t\r");  // what a spreadsheet puts behind
   const comment_entry entry = entry_of(comment.substr(0, last == std::string_view::npos ? 0 : last + 1));
   keep(provenance_, entry);
@@ -70,7 +71,7 @@ GONIO_INLINE void row_reader::read_comment(std::string_view comment) {
   quantity_.state(*quantity, "the comment in line " + std::to_string(place_.line), place_);
 }
 
-GONIO_INLINE void row_reader::read_header(std::string_view line) {
+[[gnu::cold]] GONIO_INLINE void row_reader::read_header(std::string_view line) {
   dialect_ = dialect_of(line);
   header_.read(line, dialect_, reading_, needs_value_, place_);
   quantity_.state(header_.quantity(), place_);
@@ -112,7 +113,7 @@ GONIO_INLINE void row_reader::read_number_of(std::size_t column, std::string_vie
 }
 
 /// The file may say in each line what its numbers are, if it is the same in all.
-GONIO_INLINE void row_reader::read_quantity(std::string_view field) {
+[[gnu::cold]] GONIO_INLINE void row_reader::read_quantity(std::string_view field) {
   const auto quantity = quantity_named(field);
   if (!quantity)
     place_.refuse({"column quantity: ", quoted(field),
@@ -122,7 +123,7 @@ GONIO_INLINE void row_reader::read_quantity(std::string_view field) {
 }
 
 /// Values have percent signs everywhere or nowhere.
-GONIO_INLINE void row_reader::check_percent_signs(std::size_t signs) {
+[[gnu::cold]] GONIO_INLINE void row_reader::check_percent_signs(std::size_t signs) {
   const std::size_t count = header_.values().count;
   if (rows_ == 0) has_percent_signs_ = signs > 0;
   if (signs != (has_percent_signs_ ? count : 0))
@@ -130,7 +131,7 @@ GONIO_INLINE void row_reader::check_percent_signs(std::size_t signs) {
   if (rows_ == 0 && has_percent_signs_) quantity_.state_percent_signs("their percent signs", place_);
 }
 
-GONIO_INLINE void row_reader::check_wavelength() {
+[[gnu::cold]] GONIO_INLINE void row_reader::check_wavelength() {
   const double given = numbers_[wavelength_column];
   if (!(given > 0.0)) place_.refuse({"column wavelength: ", shortest(given), " nm, expected more than 0"});
   if (!wavelength_) wavelength_ = given;
@@ -154,7 +155,7 @@ GONIO_INLINE void row_reader::look_at_sides() {
   if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = place_.line;
 }
 
-GONIO_INLINE void row_reader::finish() const {
+[[gnu::cold]] GONIO_INLINE void row_reader::finish() const {
   if (rows_ == 0) gonio::refuse({place_.name, ": has a header line but no samples, expected at least one"});
   if (line_of_unknown_side_ > 0 && !has_signed_angle_)
     text_place{place_.name, line_of_unknown_side_}.refuse(
@@ -169,7 +170,7 @@ GONIO_INLINE void row_reader::finish() const {
                   "normal where theta_i and theta_o have the same sign");
 }
 
-GONIO_INLINE void row_reader::refuse_size(std::string_view line) const {
+[[gnu::cold]] GONIO_INLINE void row_reader::refuse_size(std::string_view line) const {
   const csv_dialect of_line = dialect_of(line);
   const std::size_t found = fields_.size(), expected = header_.columns().size();
   std::string looks = "the header line looks " + description({dialect_.separator});

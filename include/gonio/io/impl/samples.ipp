@@ -131,7 +131,7 @@ GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_
   text += '\n';
 }
 
-GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view text) {
+[[gnu::cold]] GONIO_INLINE void write_text(const std::filesystem::path& path, std::string_view text) {
   write_atomically(path, {reinterpret_cast<const std::byte*>(text.data()), text.size()});
 }
 
@@ -158,7 +158,8 @@ GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& 
   return parse_sample_file(text, name, reading).samples;
 }
 
-GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path, const sample_reading& reading) {
+[[gnu::cold]] GONIO_INLINE sample_file read_sample_file(const std::filesystem::path& path,
+                                                        const sample_reading& reading) {
   const auto bytes = read_bytes(path);
   return parse_sample_file(detail::as_text(bytes), path.native(), reading);
 }
@@ -167,8 +168,8 @@ GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sa
   return read_sample_file(path, reading).samples;
 }
 
-GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
-                                                          const sample_reading& reading) {
+[[gnu::cold]] GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem::path& path,
+                                                                        const sample_reading& reading) {
   const auto bytes = read_bytes(path);
   detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
   std::vector<half_difference> all;
@@ -176,8 +177,8 @@ GONIO_INLINE std::vector<half_difference> read_directions(const std::filesystem:
   return all;
 }
 
-GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
-                                                              const sample_reading& reading) {
+[[gnu::cold]] GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesystem::path& path,
+                                                                            const sample_reading& reading) {
   const auto bytes = read_bytes(path);
   detail::row_reader rows(detail::as_text(bytes), path.native(), false, reading);
   std::vector<direction_pair> all;
@@ -185,7 +186,8 @@ GONIO_INLINE std::vector<direction_pair> read_direction_pairs(const std::filesys
   return all;
 }
 
-GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path, std::span<const direction_pair> pairs) {
+[[gnu::cold]] GONIO_INLINE void write_direction_pairs(const std::filesystem::path& path,
+                                                      std::span<const direction_pair> pairs) {
   const auto rounded = [](double angle) { return detail::shortest(std::round(degrees(angle) * 1e9) / 1e9 + 0.0); };
   std::string text = "theta_i,phi_i,theta_o,phi_o\n";
   for (const auto& [wi, wo] : pairs)

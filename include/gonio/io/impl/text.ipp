@@ -22,11 +22,11 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
+[[gnu::cold]] GONIO_INLINE void text_place::refuse(std::initializer_list<message_part> what) const {
   gonio::refuse({name, ", line ", line, ": ", message_of(what)});
 }
 
-GONIO_INLINE std::string quoted(std::string_view field) {
+[[gnu::cold]] GONIO_INLINE std::string quoted(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
   for (char& c : text)
