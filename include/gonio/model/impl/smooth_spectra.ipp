@@ -21,6 +21,7 @@ namespace gonio::model::detail {
 /// Columns: the smoothest spectra that are not negative and have the colours that the columns of `colours` are.
 [[nodiscard]] inline Eigen::ArrayXXd smoothest_spectra(const std::vector<double>& wavelengths,
                                                        const Eigen::Matrix3d& colours) {
+  const Eigen::MatrixXd weights = interpolated_colour(wavelengths);  // which refuses a single one
   const auto count = std::ssize(wavelengths);
   // Second differences, and with little weight first ones.
   constexpr double slope_weight = 0.05;
@@ -31,7 +32,6 @@ namespace gonio::model::detail {
     if (i + 2 < count) rows.row(count - 1 + i).segment(i, 3) << 1.0, -2.0, 1.0;
   }
   const least_squares_problem problem(std::move(rows), Eigen::VectorXd::Zero(2 * count - 3));
-  const Eigen::MatrixXd weights = interpolated_colour(wavelengths);
   Eigen::ArrayXXd spectra(count, 3);
   for (Eigen::Index c = 0; c < 3; ++c) {
     const linear_constraints has_colour{.E = weights, .e = colours.col(c), .non_negative = true};
