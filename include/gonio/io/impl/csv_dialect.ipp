@@ -43,7 +43,7 @@ namespace gonio::io {
 
 namespace gonio::io::detail {
 
-GONIO_INLINE void require_plain_text(std::string_view text, const std::string& name) {
+[[gnu::cold]] GONIO_INLINE void require_plain_text(std::string_view text, const std::string& name) {
   const bool is_archive = text.starts_with("PK\x03\x04"), is_old_workbook = text.starts_with("\xD0\xCF\x11\xE0");
   if (is_archive || is_old_workbook)
     gonio::refuse({name, ": looks like a workbook of a spreadsheet, expected text: save its sheet as CSV"});
@@ -51,7 +51,7 @@ GONIO_INLINE void require_plain_text(std::string_view text, const std::string& n
     gonio::refuse({name, ": looks like UTF-16 text, expected UTF-8: save it as CSV UTF-8"});
 }
 
-GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
+[[gnu::cold]] GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
   fields.clear();
   for (std::size_t begin = line.find_first_not_of(blanks); begin != std::string_view::npos;
        begin = line.find_first_not_of(blanks)) {
@@ -64,7 +64,7 @@ GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string
 
 /// Takes a field that begins with a double quote off the front of a line, with both its quotes. False if there is no
 /// second one.
-[[nodiscard]] GONIO_INLINE bool take_quoted(std::string_view& line, std::string_view& field) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE bool take_quoted(std::string_view& line, std::string_view& field) {
   std::size_t end = line.find('"', 1);
   while (end != std::string_view::npos && line.substr(end + 1).starts_with('"')) end = line.find('"', end + 2);
   if (end == std::string_view::npos) return false;
@@ -73,7 +73,8 @@ GONIO_INLINE void split_at_blanks(std::string_view line, std::vector<std::string
   return true;
 }
 
-GONIO_INLINE const char* split_quoted(std::string_view line, char separator, std::vector<std::string_view>& fields) {
+[[gnu::cold]] GONIO_INLINE const char* split_quoted(std::string_view line, char separator,
+                                                    std::vector<std::string_view>& fields) {
   const std::string_view ends = separator == ' ' ? blanks : std::string_view(&separator, 1);
   if (separator == ' ') line = trimmed(line);
   fields.clear();
@@ -91,8 +92,8 @@ GONIO_INLINE const char* split_quoted(std::string_view line, char separator, std
   }
 }
 
-GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
-                                      std::vector<std::string_view>& fields) {
+[[gnu::cold]] GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
+                                                    std::vector<std::string_view>& fields) {
   if (line.find('"') != std::string_view::npos) return split_quoted(line, dialect.separator, fields);
   if (dialect.separator == ' ')
     split_at_blanks(line, fields);
@@ -102,7 +103,8 @@ GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& 
 }
 
 /// Numbers of files with decimal commas, and of those that have shown no decimal mark yet.
-[[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect, double& value) {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE const char* read_marked_number(std::string_view field, csv_dialect& dialect,
+                                                                        double& value) {
   const std::size_t comma = field.find(',');
   const bool has_comma = comma != std::string_view::npos, has_point = field.find('.') != std::string_view::npos;
   if (!has_comma && !has_point) return read_number(field, value);
@@ -123,7 +125,7 @@ GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& 
   return wrong;
 }
 
-GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
+[[gnu::cold]] GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
   if (dialect.decimal_mark != '.') return read_marked_number(field, dialect, value);
   const char* wrong = read_number(field, value);
   const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;

@@ -32,9 +32,10 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE std::string system_reason(int code) { return std::generic_category().message(code); }
+[[gnu::cold]] GONIO_INLINE std::string system_reason(int code) { return std::generic_category().message(code); }
 
-GONIO_INLINE void refuse_file(const std::filesystem::path& path, std::initializer_list<message_part> what) {
+[[gnu::cold]] GONIO_INLINE void refuse_file(const std::filesystem::path& path,
+                                            std::initializer_list<message_part> what) {
   gonio::refuse({path.native(), ": ", message_of(what)});
 }
 
@@ -55,7 +56,7 @@ class machine_name {
   utsname system_{};
 };
 
-GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
+[[gnu::cold]] GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& path) {
   std::filesystem::path target = path;
   for (int hop = 0; hop < 40; ++hop) {
     std::error_code failed;
@@ -66,7 +67,7 @@ GONIO_INLINE std::filesystem::path follow_links(const std::filesystem::path& pat
   refuse_file(path, {"cannot be written: ", system_reason(ELOOP)});
 }
 
-GONIO_INLINE temporary_name::temporary_name(std::uint32_t given) noexcept : number(given) {
+[[gnu::cold]] GONIO_INLINE temporary_name::temporary_name(std::uint32_t given) noexcept : number(given) {
   char* at = text.data();
   char* const last = text.data() + text.size() - 1;
   const auto append = [&](std::string_view part) {
@@ -82,7 +83,7 @@ GONIO_INLINE temporary_name::temporary_name(std::uint32_t given) noexcept : numb
   append(temporary_suffix);
 }
 
-GONIO_INLINE bool may_be_abandoned(std::string_view name) {
+[[gnu::cold]] GONIO_INLINE bool may_be_abandoned(std::string_view name) {
   if (!name.starts_with(temporary_prefix) || !name.ends_with(temporary_suffix)) return false;
   name.remove_prefix(temporary_prefix.size());
   name.remove_suffix(temporary_suffix.size());
@@ -106,7 +107,7 @@ GONIO_INLINE bool may_be_abandoned(std::string_view name) {
   });
 }
 
-GONIO_INLINE void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened) {
+[[gnu::cold]] GONIO_INLINE void remove_abandoned(const std::filesystem::path& folder, const descriptor& opened) {
   std::error_code failed;
   std::filesystem::directory_iterator entry(folder, failed);
   for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
@@ -123,7 +124,7 @@ GONIO_INLINE void remove_abandoned(const std::filesystem::path& folder, const de
 
 namespace gonio::io {
 
-GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
+[[gnu::cold]] GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
   // Without O_NONBLOCK, opening a pipe that nobody writes to would wait forever.
   const detail::descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat info {};
@@ -150,7 +151,7 @@ GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path
   return bytes;
 }
 
-GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path, staging held)
+[[gnu::cold]] GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path, staging held)
     : path_(path), target_(detail::follow_links(path)) {
   inspect_target();
   open_folder();
@@ -160,7 +161,7 @@ GONIO_INLINE file_writer::file_writer(const std::filesystem::path& path, staging
   static_cast<void>(::flock(file_.get(), LOCK_EX | LOCK_NB));
 }
 
-GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
+[[gnu::cold]] GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
     if (count < 0 && errno == EINTR) continue;
@@ -169,7 +170,7 @@ GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
   }
 }
 
-GONIO_INLINE void file_writer::commit() {
+[[gnu::cold]] GONIO_INLINE void file_writer::commit() {
   settle();
   const std::filesystem::path name = target_.filename();
   if (!temporary_) {
@@ -183,7 +184,7 @@ GONIO_INLINE void file_writer::commit() {
   forget_name(false);
 }
 
-GONIO_INLINE void file_writer::settle() {
+[[gnu::cold]] GONIO_INLINE void file_writer::settle() {
   // The old file's permissions are kept where the file system knows such a thing.
   if (replaces_) static_cast<void>(::fchmod(file_.get(), old_mode_));
   // Some file systems have nothing to synchronise, and say EINVAL.
@@ -191,7 +192,7 @@ GONIO_INLINE void file_writer::settle() {
 }
 
 /// What has no name may be refused one, by a file system or a policy that knows no links.
-GONIO_INLINE void file_writer::copy_to_named() {
+[[gnu::cold]] GONIO_INLINE void file_writer::copy_to_named() {
   const detail::descriptor unnamed = std::move(file_);
   create_named();
   std::vector<std::byte> block(std::size_t{1} << 16);
@@ -206,11 +207,11 @@ GONIO_INLINE void file_writer::copy_to_named() {
   settle();
 }
 
-GONIO_INLINE void file_writer::fail() const {
+[[gnu::cold]] GONIO_INLINE void file_writer::fail() const {
   detail::refuse_file(path_, {"cannot be written: ", detail::system_reason(errno)});
 }
 
-GONIO_INLINE void file_writer::inspect_target() {
+[[gnu::cold]] GONIO_INLINE void file_writer::inspect_target() {
   struct stat info {};
   if (::stat(target_.c_str(), &info) != 0) return;
   if (S_ISDIR(info.st_mode)) detail::refuse_file(path_, "cannot be written: it is a directory");
@@ -220,7 +221,7 @@ GONIO_INLINE void file_writer::inspect_target() {
   old_mode_ = info.st_mode & 07777;
 }
 
-GONIO_INLINE void file_writer::open_folder() {
+[[gnu::cold]] GONIO_INLINE void file_writer::open_folder() {
 #if defined(O_PATH)
   constexpr int access = O_PATH;  // a folder may be written to but not listed
 #else
@@ -231,7 +232,7 @@ GONIO_INLINE void file_writer::open_folder() {
   if (!folder_.is_open()) fail();
 }
 
-GONIO_INLINE bool file_writer::create_unnamed() {
+[[gnu::cold]] GONIO_INLINE bool file_writer::create_unnamed() {
 #if defined(O_TMPFILE)
   file_ = detail::descriptor(::openat(folder_.get(), ".", O_TMPFILE | O_RDWR | O_CLOEXEC, 0666));
   if (!file_.is_open()) return false;
@@ -242,7 +243,7 @@ GONIO_INLINE bool file_writer::create_unnamed() {
   return false;
 }
 
-GONIO_INLINE void file_writer::create_named() {
+[[gnu::cold]] GONIO_INLINE void file_writer::create_named() {
   const bool created = claim_name([&](const char* name) {
     file_ = detail::descriptor(::openat(folder_.get(), name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     return file_.is_open();
@@ -272,27 +273,27 @@ bool file_writer::claim_name(Claim&& claim) {
   return false;
 }
 
-GONIO_INLINE void file_writer::forget_name(bool unlink) noexcept {
+[[gnu::cold]] GONIO_INLINE void file_writer::forget_name(bool unlink) noexcept {
   if (unlink && temporary_) ::unlinkat(folder_.get(), temporary_->c_str(), 0);
   temporary_.reset();
   if (noted_ != nullptr) noted_->store(0);
   noted_ = nullptr;
 }
 
-GONIO_INLINE bool file_writer::link_as(const char* name) const noexcept {
+[[gnu::cold]] GONIO_INLINE bool file_writer::link_as(const char* name) const noexcept {
   std::array<char, 32> self{"/proc/self/fd/"};
   std::to_chars(self.data() + std::strlen(self.data()), self.data() + self.size() - 1, file_.get());
   return ::linkat(AT_FDCWD, self.data(), folder_.get(), name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-GONIO_INLINE void remove_unfinished_files() noexcept {
+[[gnu::cold]] GONIO_INLINE void remove_unfinished_files() noexcept {
   for (const auto& place : detail::named_temporaries)
     if (const std::uint64_t note = place.load(); note != 0)
       ::unlinkat(static_cast<int>(note >> 32) - 1,
                  detail::temporary_name(static_cast<std::uint32_t>(note & 0xffff'ffffu)).c_str(), 0);
 }
 
-GONIO_INLINE void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+[[gnu::cold]] GONIO_INLINE void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
   file_writer file(path);
   file.write(bytes);
   file.commit();

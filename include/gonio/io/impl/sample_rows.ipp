@@ -27,7 +27,7 @@ namespace gonio::io::detail {
   if (reading.quantity) quantity_.state(*reading.quantity, "what is asked for (--quantity)", place_);
 }
 
-GONIO_INLINE bool row_reader::next() {
+[[gnu::cold]] GONIO_INLINE bool row_reader::next() {
   std::string_view line;
   if (header_.columns().empty()) {
     if (!next_line(line)) gonio::refuse({place_.name, ": is empty, expected a header line that names the columns"});
@@ -44,7 +44,7 @@ GONIO_INLINE bool row_reader::next() {
 
 /// The next line that is neither empty, nor a comment, nor separators alone. A spreadsheet puts a comment in quotes;
 /// below the header line that is a field.
-GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
+[[gnu::cold]] GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   while (next_whole_line(left_, place_, line)) {
     const std::size_t first = line.find_first_not_of(blanks);
     const bool in_quotes = header_.columns().empty() && line.substr(first).starts_with("\"# ");
@@ -77,7 +77,7 @@ GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   quantity_.state(header_.quantity(), place_);
 }
 
-GONIO_INLINE void row_reader::read_fields(std::string_view line) {
+[[gnu::cold]] GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   const std::vector<std::size_t>& columns = header_.columns();
   if (const char* wrong = split_fields(line, dialect_, fields_)) place_.refuse(wrong);
   while (fields_.size() > columns.size() && fields_.back().empty()) fields_.pop_back();
@@ -100,7 +100,8 @@ GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   if (header_.is_in_plane()) look_at_sides();
 }
 
-GONIO_INLINE void row_reader::read_number_of(std::size_t column, std::string_view field, std::size_t& percent_signs) {
+[[gnu::cold]] GONIO_INLINE void row_reader::read_number_of(std::size_t column, std::string_view field,
+                                                           std::size_t& percent_signs) {
   const char* wrong = read_number(field, dialect_, numbers_[column]);
   if (wrong == nullptr) return;
   if (field.ends_with('%') && header_.values().has(column)) {
@@ -140,7 +141,7 @@ GONIO_INLINE void row_reader::read_number_of(std::size_t column, std::string_vie
                    " nm above: more than one wavelength in a file is not read, expected a file for each"});
 }
 
-GONIO_INLINE void row_reader::check_weights() const {
+[[gnu::cold]] GONIO_INLINE void row_reader::check_weights() const {
   const column_group& weights = header_.weights();
   for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
     if (numbers_[column] < 0.0)
@@ -149,7 +150,7 @@ GONIO_INLINE void row_reader::check_weights() const {
 }
 
 /// Without azimuths, one negative angle in the file shows that signs tell the sides of the normal apart.
-GONIO_INLINE void row_reader::look_at_sides() {
+[[gnu::cold]] GONIO_INLINE void row_reader::look_at_sides() {
   const double theta_i = numbers_[angle_group.first], theta_o = numbers_[angle_group.first + 2];
   if (theta_i < 0.0 || theta_o < 0.0) has_signed_angle_ = true;
   if (theta_i > 0.0 && theta_o > 0.0 && line_of_unknown_side_ == 0) line_of_unknown_side_ = place_.line;
