@@ -18,6 +18,7 @@
 #include <gonio/io/prior.hpp>
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/rgl.hpp>
+#include <gonio/io/sample_rows.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
@@ -194,19 +195,15 @@ std::string_view first_line(const file_look& file) {
   return gonio::io::detail::next_line(text, place, line) ? line : std::string_view();
 }
 
-/// A header line that names directions alone.
-bool has_directions_only(const file_look& file) {
-  constexpr std::array<std::string_view, 13> names{"theta_h", "theta_d", "phi_d", "theta_i", "phi_i",
-                                                   "theta_o", "phi_o",   "wi_x",  "wi_y",    "wi_z",
-                                                   "wo_x",    "wo_y",    "wo_z"};
-  std::vector<std::string_view> fields;
-  gonio::io::detail::split_fields(first_line(file), fields);
-  return std::ranges::all_of(fields,
-                             [&](std::string_view field) { return std::ranges::find(names, field) != names.end(); });
+/// Has its first line, in whatever dialect, directions alone?
+bool has_directions_only(const file_look& file, const gonio::io::sample_reading& reading) {
+  gonio::io::detail::row_reader rows(file.start, file.path.native(), false, reading);
+  static_cast<void>(rows.next());
+  return rows.row().values.count == 0;
 }
 
-json describe_directions(const path_type& path) {
-  const std::vector<gonio::direction_pair> pairs = gonio::io::read_direction_pairs(path);
+json describe_directions(const path_type& path, const gonio::io::sample_reading& reading) {
+  const std::vector<gonio::direction_pair> pairs = gonio::io::read_direction_pairs(path, reading);
   json facts{{"kind", "directions"}};
   facts.update(facts_of(pairs));
   return facts;
@@ -230,7 +227,8 @@ json describe_csv(const path_type& path, const measurement_options& reading) {
     static_cast<void>(gonio::io::read_reference_reflectance(path));
     return {{"kind", "reflectance of a white reference"}};
   }
-  return has_directions_only(file) ? describe_directions(path) : describe_samples(path, reading);
+  const gonio::io::sample_reading how = reading_of(reading);
+  return has_directions_only(file, how) ? describe_directions(path, how) : describe_samples(path, reading);
 }
 
 json describe_constraint(const path_type& path) {

@@ -1,8 +1,8 @@
 #include "declared_files.hpp"
 
+#include "file_start.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/file.hpp>
-#include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <system_error>
@@ -29,7 +29,7 @@ bool is_same_file(const fs::path& one, const fs::path& other) {
 
 /// Letters of either case.
 bool has_extension(const fs::path& path, const std::vector<std::string>& extensions) {
-  return std::ranges::find(extensions, gonio::io::detail::lower_case(path.extension().string())) != extensions.end();
+  return std::ranges::find(extensions, lower_extension(path)) != extensions.end();
 }
 
 std::string listed(const std::vector<std::string>& words) {

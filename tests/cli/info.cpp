@@ -105,6 +105,7 @@ TEST_CASE("info knows each other kind of file that gonio reads or writes") {
   const auto plan = facts_of_file(GONIO_SOURCE_DIR "/examples/data/nielsen-20.csv");
   CHECK(plan["kind"] == "directions");
   CHECK(plan["directions"] == 20);
+  CHECK(kind(given.put("d.csv", "theta_i;phi_i;theta_o;phi_o\n10,5;0;20;180\n")) == "directions");
   CHECK(kind(given.put("e.csv", "file,seconds\na.png,1/250\nb.png,2\n")) == "exposure times");
   CHECK(kind(given.put("w.csv", "theta_i,factor\n0,0.99\n45,0.98\n")) == "reflectance of a white reference");
   CHECK(kind(given.put("a.txt", "light 0 70\nforbid 0 10 0 10\n")) == "constraint of an apparatus");

@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-GONIO_INLINE void message_part::append_to(std::string& sentence) const {
+[[gnu::cold]] GONIO_INLINE void message_part::append_to(std::string& sentence) const {
   // The longest double has 309 digits before its point.
   std::array<char, 400> digits;
   int count = -1;
@@ -24,15 +24,15 @@ GONIO_INLINE void message_part::append_to(std::string& sentence) const {
     sentence.append(digits.data(), count);
 }
 
-GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {
+[[gnu::cold]] GONIO_INLINE std::string message_of(std::initializer_list<message_part> parts) {
   std::string sentence;
   for (const message_part& part : parts) part.append_to(sentence);
   return sentence;
 }
 
-GONIO_INLINE error::error(const std::string& sentence) : std::runtime_error(printable(sentence)) {}
+[[gnu::cold]] GONIO_INLINE error::error(const std::string& sentence) : std::runtime_error(printable(sentence)) {}
 
-GONIO_INLINE void refuse(const std::string& sentence) {
+[[gnu::cold]] GONIO_INLINE void refuse(const std::string& sentence) {
 #if defined(__cpp_exceptions)
   throw error(sentence);
 #else
@@ -41,6 +41,6 @@ GONIO_INLINE void refuse(const std::string& sentence) {
 #endif
 }
 
-GONIO_INLINE void refuse(std::initializer_list<message_part> parts) { refuse(message_of(parts)); }
+[[gnu::cold]] GONIO_INLINE void refuse(std::initializer_list<message_part> parts) { refuse(message_of(parts)); }
 
 }  // namespace gonio

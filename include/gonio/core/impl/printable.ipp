@@ -11,7 +11,7 @@
 namespace gonio::detail {
 
 /// Bytes of the UTF-8 character that the text begins with; 0 if it begins with none that may be shown.
-[[nodiscard]] GONIO_INLINE std::size_t printable_character(std::string_view text) noexcept {
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t printable_character(std::string_view text) noexcept {
   const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
   const unsigned first = byte(0);
   if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
@@ -33,7 +33,7 @@ namespace gonio::detail {
 
 namespace gonio {
 
-GONIO_INLINE std::string printable(std::string_view text) {
+[[gnu::cold]] GONIO_INLINE std::string printable(std::string_view text) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string shown;
   while (!text.empty()) {

@@ -33,9 +33,15 @@ namespace gonio {
 
 [[gnu::cold]] GONIO_INLINE std::optional<std::string> nearest_word(std::string_view misspelt,
                                                                    const std::vector<std::string>& words) {
-  const auto distance = [&](const std::string& word) { return spelling_distance(misspelt, word); };
-  const auto nearest = std::ranges::min_element(words, {}, distance);
-  if (nearest == words.end() || 3 * distance(*nearest) > std::max(misspelt.size(), nearest->size())) return {};
+  const std::string* nearest = nullptr;
+  std::size_t least = 0;
+  for (const std::string& word : words) {
+    const std::size_t distance = spelling_distance(misspelt, word);
+    if (nearest != nullptr && distance >= least) continue;
+    nearest = &word;
+    least = distance;
+  }
+  if (nearest == nullptr || 3 * least > std::max(misspelt.size(), nearest->size())) return {};
   return *nearest;
 }
 

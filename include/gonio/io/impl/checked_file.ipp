@@ -24,14 +24,14 @@
 
 namespace gonio::io::detail {
 
-[[gnu::cold]] GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
+GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
 }
 
 /// A zlib stream that takes at least an eighth of the bytes: what deflate shrinks so much that no reader would believe
 /// it is written like this.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
+[[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
   z_stream stream{};
   if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, MAX_WBITS, 8, Z_HUFFMAN_ONLY) != Z_OK)
     throw std::bad_alloc();
@@ -57,8 +57,7 @@ namespace gonio::io::detail {
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind,
-                                                                 std::span<const std::byte> payload) {
+GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind, std::span<const std::byte> payload) {
   byte_writer file;
   file.put_bytes(kind.magic.data(), kind.magic.size());
   file.put(kind.version);
@@ -71,9 +70,8 @@ namespace gonio::io {
   return file.take();
 }
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind,
-                                                                 std::span<const std::byte> bytes,
-                                                                 const std::string& name) {
+GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
+                                                   const std::string& name) {
   byte_reader file(bytes, name);
   const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
   if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
@@ -92,7 +90,7 @@ namespace gonio::io {
   return payload;
 }
 
-[[gnu::cold]] GONIO_INLINE bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
+GONIO_INLINE bool is_of_kind(const checked_file_kind& kind, const std::filesystem::path& path) {
   // Opening a pipe would wait for somebody who writes to it.
   std::error_code failed;
   if (!std::filesystem::is_regular_file(path, failed)) return false;

@@ -92,8 +92,8 @@ namespace gonio::io::detail {
   }
 }
 
-[[gnu::cold]] GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
-                                                    std::vector<std::string_view>& fields) {
+GONIO_INLINE const char* split_fields(std::string_view line, const csv_dialect& dialect,
+                                      std::vector<std::string_view>& fields) {
   if (line.find('"') != std::string_view::npos) return split_quoted(line, dialect.separator, fields);
   if (dialect.separator == ' ')
     split_at_blanks(line, fields);
@@ -125,7 +125,7 @@ namespace gonio::io::detail {
   return wrong;
 }
 
-[[gnu::cold]] GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
+GONIO_INLINE const char* read_number(std::string_view field, csv_dialect& dialect, double& value) {
   if (dialect.decimal_mark != '.') return read_marked_number(field, dialect, value);
   const char* wrong = read_number(field, value);
   const bool has_comma = wrong != nullptr && field.find(',') != std::string_view::npos;

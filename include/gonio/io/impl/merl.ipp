@@ -22,11 +22,11 @@
 
 namespace gonio::io::detail {
 
-[[gnu::cold]] GONIO_INLINE std::string to_text(const grid_extents& extents) {
+GONIO_INLINE std::string to_text(const grid_extents& extents) {
   return message_of({extents.theta_h, " x ", extents.theta_d, " x ", extents.phi_d});
 }
 
-[[gnu::cold]] GONIO_INLINE grid_extents merl_extents(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE grid_extents merl_extents(std::span<const std::byte> bytes, const std::string& name) {
   if (bytes.size() < merl_header_size)
     gonio::refuse({name, ": has ", bytes.size(), " bytes, expected at least ", merl_header_size,
                    " for the extents of a MERL table"});
@@ -39,25 +39,25 @@ namespace gonio::io::detail {
   return extents;
 }
 
-[[gnu::cold]] GONIO_INLINE std::uint64_t merl_file_size(const grid_extents& extents) {
+GONIO_INLINE std::uint64_t merl_file_size(const grid_extents& extents) {
   const auto wide = [](int extent) { return static_cast<std::uint64_t>(extent); };
   return merl_header_size + 3 * sizeof(double) * wide(extents.theta_h) * wide(extents.theta_d) * wide(extents.phi_d);
 }
 
-[[gnu::cold]] GONIO_INLINE double merl_planes::operator()(std::size_t channel, std::size_t linear) const noexcept {
+GONIO_INLINE double merl_planes::operator()(std::size_t channel, std::size_t linear) const noexcept {
   double value = 0.0;
   std::memcpy(&value, data_ + sizeof value * (channel * cells_ + linear), sizeof value);
   return value;
 }
 
-[[gnu::cold]] GONIO_INLINE int mark_statistics::rank() const noexcept {
+GONIO_INLINE int mark_statistics::rank() const noexcept {
   if (!std::isfinite(smallest_unmarked) || !(largest_marked + valid_cells::horizon < smallest_unmarked)) return 0;
   if (smallest_unmarked <= 0.0) return 1;
   return largest_marked > 0.0 ? 2 : 3;
 }
 
-[[gnu::cold]] GONIO_INLINE void refuse_cell(const std::string& name, const grid& cells, std::size_t linear,
-                                            std::size_t channel, double value) {
+GONIO_INLINE void refuse_cell(const std::string& name, const grid& cells, std::size_t linear, std::size_t channel,
+                              double value) {
   constexpr std::array<const char*, 3> channels{"red", "green", "blue"};
   const cell_index cell = cells.cell(linear);
   gonio::refuse({name, ": ", channels[channel], " of cell (theta_h ", cell.theta_h, ", theta_d ", cell.theta_d,
@@ -68,8 +68,8 @@ namespace gonio::io::detail {
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE brdf_table parse_merl(std::span<const std::byte> bytes, const std::string& name,
-                                                 const merl_options& options) {
+GONIO_INLINE brdf_table parse_merl(std::span<const std::byte> bytes, const std::string& name,
+                                   const merl_options& options) {
   const grid_extents extents = detail::merl_extents(bytes, name);
   if (const std::uint64_t expected = detail::merl_file_size(extents); bytes.size() != expected)
     gonio::refuse({name, ": has ", bytes.size(), " bytes, expected ", expected, " for a MERL table of ",
@@ -96,7 +96,7 @@ namespace gonio::io {
   return table;
 }
 
-[[gnu::cold]] GONIO_INLINE void write_merl(const std::filesystem::path& path, const brdf_table& table) {
+GONIO_INLINE void write_merl(const std::filesystem::path& path, const brdf_table& table) {
   const grid& cells = table.cells().grid();
   const auto [theta_h, theta_d, phi_d] = cells.extents();
   const std::array<std::int32_t, 3> header{theta_h, theta_d, phi_d};

@@ -11,9 +11,9 @@
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE std::vector<named_file> list_named_files(const std::filesystem::path& folder,
-                                                                    std::span<const std::string_view> extensions,
-                                                                    std::string_view what) {
+GONIO_INLINE std::vector<named_file> list_named_files(const std::filesystem::path& folder,
+                                                      std::span<const std::string_view> extensions,
+                                                      std::string_view what) {
   std::error_code failure;
   std::vector<named_file> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failure)) {

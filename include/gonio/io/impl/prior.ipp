@@ -27,20 +27,20 @@ inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft an
 
 /// How cells are anchored and reflectance is weighted, in one number: version 1 has had the anchor's 0 and 1 there from
 /// the start, so that older programs refuse weights that they do not know.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
+[[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
   const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
   const bool larger = prior.metric().weighting() == cosine_weighting::larger;
   return (corner ? 1u : 0u) + (larger ? 2u : 0u);
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
+[[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
   std::vector<float> logarithm;
   logarithm.reserve(metric.cells().size());
   for (const float rho : metric.reference()) logarithm.push_back(static_cast<float>(log_relative::log_reference(rho)));
   return logarithm;
 }
 
-[[gnu::cold]] GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
+GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
   const gonio::grid& grid = prior.cells().grid();
   out.put(static_cast<std::uint32_t>(grid.extents().theta_h));
   out.put(static_cast<std::uint32_t>(grid.extents().theta_d));
@@ -80,7 +80,7 @@ struct prior_domain {
   cosine_weighting weighting;
 };
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
   const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
   const int theta_h = extent(), theta_d = extent(), phi_d = extent();
   const auto conventions = in.take<std::uint32_t>();
@@ -110,18 +110,18 @@ struct prior_domain {
 }
 
 /// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE double least_rest(double cells, double components, double materials) {
+[[nodiscard]] GONIO_INLINE double least_rest(double cells, double components, double materials) {
   return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 12.0 * materials) + 2.0 * (8.0 + 2.0 * cells) +
          components * (8.0 + cells);
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
+[[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
   std::vector<float> values(column.codes.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = dequantise(column, i);
   return values;
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
+[[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
   // Read the grid and the counts, and refuse counts that the rest of the file cannot hold.
   const auto [cells, weighting] = take_domain(in, name);
   const auto components = in.take<std::uint32_t>();
@@ -172,13 +172,13 @@ struct prior_domain {
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
+GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
   byte_writer payload;
   detail::put_prior(payload, prior);
   return encode_checked(detail::prior_kind, payload.bytes());
 }
 
-[[gnu::cold]] GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
+GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, const std::string& name) {
   if (detail::as_text(bytes).starts_with(detail::soft_specular_kind.magic))
     gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
@@ -186,15 +186,13 @@ namespace gonio::io {
   return detail::take_prior(in, name);
 }
 
-[[gnu::cold]] GONIO_INLINE bool is_prior(const std::filesystem::path& path) {
-  return is_of_kind(detail::prior_kind, path);
-}
+GONIO_INLINE bool is_prior(const std::filesystem::path& path) { return is_of_kind(detail::prior_kind, path); }
 
-[[gnu::cold]] GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
+GONIO_INLINE void write_prior(const std::filesystem::path& path, const log_relative_pca& prior) {
   write_atomically(path, encode_prior(prior));
 }
 
-[[gnu::cold]] GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
+GONIO_INLINE log_relative_pca read_prior(const std::filesystem::path& path) {
   return decode_prior(read_bytes(path), path.string());
 }
 

@@ -90,8 +90,9 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
        {"sr^-1", column_unit::per_steradian},
        {"sr-1", column_unit::per_steradian},
        {"sr\xE2\x81\xBB\xC2\xB9", column_unit::per_steradian}}};  // superscripts
-  const auto found = std::ranges::find(known, name, [](const auto& each) { return each.first; });
-  return found == known.end() ? column_unit::unknown : found->second;
+  for (const auto& [each, unit] : known)
+    if (each == name) return unit;
+  return column_unit::unknown;
 }
 
 /// Is it a unit that a column may have?
@@ -135,12 +136,15 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
   std::string letters;
   for (const char c : name)
     if ((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')) letters += c;
-  const auto found = std::ranges::find(known_names, letters, &known_name::letters);
-  return found == known_names.end() ? nullptr : found;
+  for (const known_name& each : known_names)
+    if (each.letters == letters) return &each;
+  return nullptr;
 }
 
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t column_named(std::string_view name) {
-  return static_cast<std::size_t>(std::ranges::find(sample_columns, name) - sample_columns.begin());
+  std::size_t column = 0;
+  while (column < sample_columns.size() && sample_columns[column] != name) ++column;
+  return column;
 }
 
 /// The column that is called otherwise in this file, if this is it.
@@ -192,8 +196,8 @@ inline constexpr std::size_t longest_name = 40;
     if (!fits(unit_named(named.unit), column)) named.unit.clear();
     if (add_known(named, {"", column}, place)) return;
   } else if (const known_name* known = find_known(written.name)) {
-    const bool is_another = std::ranges::find(reading.columns, sample_columns[known->column], &column_name::column) !=
-                            reading.columns.end();
+    bool is_another = false;
+    for (const column_name& each : reading.columns) is_another |= each.column == sample_columns[known->column];
     if (!is_another && add_known(written, *known, place)) return;
   }
   columns_.push_back(ignored);
@@ -206,13 +210,16 @@ inline constexpr std::size_t longest_name = 40;
   const std::size_t column = known.column;
   const column_unit unit = unit_named(written.unit);
   if (!fits(unit, column)) return false;
-  const std::string text = detail::quoted(written.text), name(sample_columns[column]);
+  const std::string text = detail::quoted(written.text);
+  const std::string_view name = sample_columns[column];
+  const bool is_synonym = written.text != name;
   if (has(column))
-    place.refuse({"column ", text, written.text == name ? "" : ", which is " + name + ",", " appears twice"});
+    place.refuse({"column ", text, is_synonym ? ", which is " : "", is_synonym ? name : "", is_synonym ? "," : "",
+                  " appears twice"});
   columns_.push_back(column);
   if (unit == column_unit::radians) in_radians_.push_back(column);
-  if (known.quantity) quantity_.state(*known.quantity, "the name of column " + text, place);
-  if (unit == column_unit::percent) quantity_.state_percent_signs("the unit of column " + text, place);
+  if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), place);
+  if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), place);
   return true;
 }
 
@@ -269,7 +276,9 @@ inline constexpr std::size_t longest_name = 40;
 }
 
 [[gnu::cold]] GONIO_INLINE bool sample_header::has_any(const column_group& group) const {
-  return std::ranges::any_of(columns_, [&](std::size_t column) { return group.has(column); });
+  for (const std::size_t column : columns_)
+    if (group.has(column)) return true;
+  return false;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::require(const column_group& group, const text_place& place) const {
@@ -281,45 +290,47 @@ inline constexpr std::size_t longest_name = 40;
   std::vector<std::string> names;
   for (const written_column& each : extra_)
     if (each.name.size() <= longest_name) names.push_back(each.name);
-  const std::string name(sample_columns[column]);
-  std::string sentence = "column '" + name + "' is missing";
-  if (const auto near = nearest_word(name, names)) {
-    const std::string& text = std::ranges::find(extra_, *near, &written_column::name)->text;
-    sentence += ": perhaps it is " + detail::quoted(text);
-  } else if (colour_group.has(column)) {
-    sentence += ", expected r,g,b, or value for one channel";
-  }
-  place.refuse({sentence, "; ", as_it_looks()});
+  const std::string_view name = sample_columns[column];
+  const std::string looks = as_it_looks();
+  if (const auto near = nearest_word(name, names))
+    for (const written_column& each : extra_)
+      if (each.name == *near)
+        place.refuse({"column '", name, "' is missing: perhaps it is ", detail::quoted(each.text), "; ", looks});
+  place.refuse({"column '", name, "' is missing",
+                colour_group.has(column) ? ", expected r,g,b, or value for one channel; " : "; ", looks});
 }
 
-/// The first names of a list, which may be long.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string quoted_list(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 6;
-  std::string text;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) text += (i == 0 ? "" : ", ") + names[i];
-  return names.size() <= most ? text : text + " and " + std::to_string(names.size() - most) + " more";
+/// Of lists of names, which may be long, so many are listed.
+inline constexpr std::size_t most_listed = 6;
+
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::string how_many_more(std::size_t count) {
+  return count <= most_listed ? "" : message_of({" and ", count - most_listed, " more"});
 }
 
 [[gnu::cold]] GONIO_INLINE std::string sample_header::as_it_looks() const {
-  std::vector<std::string> unknown;
-  for (const written_column& each : extra_) unknown.push_back(detail::quoted(each.text));
-  const std::string looks = "the header line looks " + description(dialect_);
-  if (unknown.empty()) return looks;
-  return looks + ", and not known in it: " + quoted_list(unknown) + " (--columns NAME=THEIRS says what they are)";
+  std::string unknown;
+  for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i)
+    unknown += message_of({i == 0 ? "" : ", ", detail::quoted(extra_[i].text)});
+  return message_of({"the header line looks ", description(dialect_),
+                     extra_.empty() ? "" : ", and not known in it: ", unknown, how_many_more(extra_.size()),
+                     extra_.empty() ? "" : " (--columns NAME=THEIRS says what they are)"});
 }
 
 [[gnu::cold]] GONIO_INLINE std::string sample_header::note_of_ignored() const {
   if (extra_.empty()) return "";
-  std::vector<std::string> optional, names;
+  std::vector<std::string> optional;
   for (const std::size_t column : {weight_group.first, channel_weight_group.first, channel_weight_group.first + 1,
                                    channel_weight_group.first + 2, wavelength_column, quantity_column})
     if (!has(column)) optional.emplace_back(sample_columns[column]);
-  for (const written_column& each : extra_) {
-    const auto near = each.name.size() <= longest_name ? nearest_word(each.name, optional) : std::nullopt;
-    names.push_back(detail::quoted(each.text) + (near ? " (is it " + *near + "?)" : ""));
+  const bool is_one = extra_.size() == 1;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most_listed, extra_.size()); ++i) {
+    names += message_of({i == 0 ? "" : ", ", detail::quoted(extra_[i].text)});
+    if (extra_[i].name.size() > longest_name) continue;
+    if (const auto near = nearest_word(extra_[i].name, optional)) names += message_of({" (is it ", *near, "?)"});
   }
-  return (names.size() == 1 ? "column " : "columns ") + quoted_list(names) +
-         (names.size() == 1 ? " is ignored" : " are ignored");
+  return message_of(
+      {is_one ? "column " : "columns ", names, how_many_more(extra_.size()), is_one ? " is ignored" : " are ignored"});
 }
 
 }  // namespace gonio::io::detail

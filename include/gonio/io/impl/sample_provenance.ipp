@@ -20,12 +20,13 @@ namespace gonio::io::detail {
 }
 
 [[gnu::cold]] GONIO_INLINE void keep(sample_provenance& provenance, const comment_entry& entry) {
-  for (const auto& [key, text] : {std::pair{"instrument", &provenance.instrument}, std::pair{"date", &provenance.date},
-                                  std::pair{"conditions", &provenance.conditions}}) {
-    if (entry.key != key || entry.value.empty()) continue;
-    if (!text->empty()) *text += "; ";
-    *text += entry.value;
-  }
+  std::string* const text = entry.key == "instrument"   ? &provenance.instrument
+                            : entry.key == "date"       ? &provenance.date
+                            : entry.key == "conditions" ? &provenance.conditions
+                                                        : nullptr;
+  if (text == nullptr || entry.value.empty()) return;
+  if (!text->empty()) *text += "; ";
+  *text += entry.value;
 }
 
 }  // namespace gonio::io::detail
@@ -35,7 +36,7 @@ namespace gonio::io {
 [[gnu::cold]] GONIO_INLINE std::string comment_lines(const sample_provenance& provenance) {
   std::string text;
   const auto append = [&](std::string_view key, const std::string& value) {
-    if (!value.empty()) text += "# " + std::string(key) + ": " + printable(value) + "\n";
+    if (!value.empty()) text += message_of({"# ", key, ": ", printable(value), "\n"});
   };
   append("instrument", provenance.instrument);
   append("date", provenance.date);

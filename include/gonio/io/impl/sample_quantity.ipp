@@ -22,12 +22,12 @@ namespace gonio::io {
   std::string word = detail::lower_case(detail::trimmed(name));
   for (char& c : word)
     if (c == ' ' || c == '_') c = '-';
-  const auto found = std::ranges::find(sample_quantity_names, word);
-  if (found == sample_quantity_names.end()) return {};
-  return static_cast<sample_quantity>(found - sample_quantity_names.begin());
+  for (std::size_t i = 0; i < sample_quantity_names.size(); ++i)
+    if (sample_quantity_names[i] == word) return static_cast<sample_quantity>(i);
+  return {};
 }
 
-[[gnu::cold]] GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) noexcept {
+GONIO_INLINE double brdf_factor(sample_quantity quantity, const direction& wo) noexcept {
   switch (quantity) {
     case sample_quantity::brdf:
       return 1.0;

@@ -27,7 +27,7 @@ namespace gonio::io::detail {
   if (reading.quantity) quantity_.state(*reading.quantity, "what is asked for (--quantity)", place_);
 }
 
-[[gnu::cold]] GONIO_INLINE bool row_reader::next() {
+GONIO_INLINE bool row_reader::next() {
   std::string_view line;
   if (header_.columns().empty()) {
     if (!next_line(line)) gonio::refuse({place_.name, ": is empty, expected a header line that names the columns"});
@@ -44,7 +44,7 @@ namespace gonio::io::detail {
 
 /// The next line that is neither empty, nor a comment, nor separators alone. A spreadsheet puts a comment in quotes;
 /// below the header line that is a field.
-[[gnu::cold]] GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
+GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   while (next_whole_line(left_, place_, line)) {
     const std::size_t first = line.find_first_not_of(blanks);
     const bool in_quotes = header_.columns().empty() && line.substr(first).starts_with("\"# ");
@@ -68,7 +68,7 @@ namespace gonio::io::detail {
   if (!quantity)
     place_.refuse({"the quantity ", quoted(entry.value),
                    " is unknown, expected brdf, brdf-cosine, reflectance-factor or percent"});
-  quantity_.state(*quantity, "the comment in line " + std::to_string(place_.line), place_);
+  quantity_.state(*quantity, message_of({"the comment in line ", place_.line}), place_);
 }
 
 [[gnu::cold]] GONIO_INLINE void row_reader::read_header(std::string_view line) {
@@ -77,7 +77,7 @@ namespace gonio::io::detail {
   quantity_.state(header_.quantity(), place_);
 }
 
-[[gnu::cold]] GONIO_INLINE void row_reader::read_fields(std::string_view line) {
+GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   const std::vector<std::size_t>& columns = header_.columns();
   if (const char* wrong = split_fields(line, dialect_, fields_)) place_.refuse(wrong);
   while (fields_.size() > columns.size() && fields_.back().empty()) fields_.pop_back();
@@ -141,7 +141,7 @@ namespace gonio::io::detail {
                    " nm above: more than one wavelength in a file is not read, expected a file for each"});
 }
 
-[[gnu::cold]] GONIO_INLINE void row_reader::check_weights() const {
+GONIO_INLINE void row_reader::check_weights() const {
   const column_group& weights = header_.weights();
   for (std::size_t column = weights.first; column < weights.first + weights.count; ++column)
     if (numbers_[column] < 0.0)
@@ -164,22 +164,23 @@ namespace gonio::io::detail {
         "file is negative; expected these columns, or signs: those of one side are equal");
   if (!reading_.note) return;
   if (const std::string ignored = header_.note_of_ignored(); !ignored.empty())
-    reading_.note(place_.name + ": " + ignored);
+    reading_.note(message_of({place_.name, ": ", ignored}));
   if (header_.is_in_plane())
-    reading_.note(place_.name +
-                  ": there are no columns phi_i and phi_o: light and viewer are taken to be on the same side of the "
-                  "normal where theta_i and theta_o have the same sign");
+    reading_.note(
+        message_of({place_.name,
+                    ": there are no columns phi_i and phi_o: light and viewer are taken to be on the same side of the "
+                    "normal where theta_i and theta_o have the same sign"}));
 }
 
 [[gnu::cold]] GONIO_INLINE void row_reader::refuse_size(std::string_view line) const {
   const csv_dialect of_line = dialect_of(line);
   const std::size_t found = fields_.size(), expected = header_.columns().size();
-  std::string looks = "the header line looks " + description({dialect_.separator});
-  if (of_line.separator != dialect_.separator)
-    looks += ", this one " + description(of_line);
-  else if (dialect_.separator == ',' && found > expected)
-    looks += ": separate fields by semicolons if numbers have decimal commas";
-  place_.refuse({found, found == 1 ? " field" : " fields", ", expected ", expected, " as in the header line; ", looks});
+  const bool differs = of_line.separator != dialect_.separator;
+  const bool may_have_commas = !differs && dialect_.separator == ',' && found > expected;
+  place_.refuse({found, found == 1 ? " field" : " fields", ", expected ", expected,
+                 " as in the header line; the header line looks ", description({dialect_.separator}),
+                 differs ? ", this one " : "", differs ? description(of_line) : "",
+                 may_have_commas ? ": separate fields by semicolons if numbers have decimal commas" : ""});
 }
 
 }  // namespace gonio::io::detail

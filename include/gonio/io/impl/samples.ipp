@@ -23,8 +23,8 @@ namespace gonio::io::detail {
 
 /// A polar angle in radians. A goniometer's arm may lean to either side: there a negative angle is as good
 /// as an azimuth of 180 degrees.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
-                                                            const text_place& place) {
+[[nodiscard]] GONIO_INLINE double polar_angle(const sample_row& row, std::size_t column, bool either_side,
+                                              const text_place& place) {
   const double angle = row[column];
   if (!((angle >= 0.0 || either_side) && std::abs(angle) < 90.0))
     place.refuse({"column ", sample_columns[column], ": ", shortest(angle), " degrees",
@@ -33,16 +33,14 @@ namespace gonio::io::detail {
   return radians(angle);
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column,
-                                                        const text_place& place) {
+[[nodiscard]] GONIO_INLINE double azimuth(const sample_row& row, std::size_t column, const text_place& place) {
   if (!(std::abs(row[column]) <= 360.0))
     place.refuse(
         {"column ", sample_columns[column], ": ", shortest(row[column]), " degrees, expected from -360 to 360"});
   return radians(row[column]);
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first,
-                                                               const text_place& place) {
+[[nodiscard]] GONIO_INLINE direction unit_vector(const sample_row& row, std::size_t first, const text_place& place) {
   const double x = row[first], y = row[first + 1], z = row[first + 2];
   const double length = gonio::detail::norm_of(x, y, z);
   const auto refuse = [&](const char* what, double value, const char* expected) {
@@ -54,7 +52,7 @@ namespace gonio::io::detail {
   return {x / length, y / length, z / length};
 }
 
-[[gnu::cold]] GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
+GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_row& row) {
   if (cosine.i > 0.0 && cosine.o > 0.0) return;
   std::string given;
   for (std::size_t column = row.group.first; column < row.group.first + row.group.count; ++column)
@@ -63,13 +61,13 @@ namespace gonio::io::detail {
 }
 
 /// Of a row that gives half and difference angles.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE half_difference given_angles(const parsed_row& row) {
   return {polar_angle(row.numbers, 0, false, row.place), polar_angle(row.numbers, 1, false, row.place),
           azimuth(row.numbers, 2, row.place)};
 }
 
 /// Light and viewer of a row that gives directions.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE direction_pair given_directions(const parsed_row& row) {
   const sample_row& numbers = row.numbers;
   const text_place& place = row.place;
   if (row.group.first == vector_group.first) return {unit_vector(numbers, 7, place), unit_vector(numbers, 10, place)};
@@ -79,27 +77,27 @@ namespace gonio::io::detail {
 }
 
 /// Angles as they were given. Those of phi_d beyond half a turn exchange light and viewer: they are kept as a pair.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
+[[nodiscard]] GONIO_INLINE sample_directions directions_of(const half_difference& given) {
   if (fold_phi_d(given.phi_d) == given.phi_d) return given;
   return to_directions(given);
 }
 
 /// A row's directions. Rounding may put one that grazes the surface below it in one of the two ways alone; it is
 /// refused in both.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE sample_directions row_directions(const parsed_row& row) {
   const sample_directions at = row.has_half_difference() ? directions_of(given_angles(row)) : given_directions(row);
   require_above_horizon(cosines(at.angles()), row);
   require_above_horizon({at.pair().wi.z(), at.pair().wo.z()}, row);
   return at;
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
+[[nodiscard]] GONIO_INLINE channel_weights row_weight(const parsed_row& row) {
   const double* first = &row.numbers[row.weights.first];
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
 /// The value of a row as a BRDF, sr^-1.
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
+[[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
   const double* given = &row.numbers[row.values.first];
   const bool is_grey = row.values.count == 1;
   if (is_grey && !row.quantity)
@@ -118,7 +116,7 @@ namespace gonio::io::detail {
   return value;
 }
 
-[[gnu::cold]] GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
+GONIO_INLINE void format_sample(std::string& text, const sample& s, bool weighs_channels_apart) {
   const half_difference& at = s.angles();
   for (const double value : {degrees(at.theta_h), degrees(at.theta_d), degrees(fold_phi_d(at.phi_d)), s.value.x(),
                              s.value.y(), s.value.z()}) {
@@ -141,8 +139,8 @@ namespace gonio::io::detail {
 
 namespace gonio::io {
 
-[[gnu::cold]] GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::string& name,
-                                                         const sample_reading& reading) {
+GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::string& name,
+                                           const sample_reading& reading) {
   sample_file file;
   detail::row_reader rows(text, name, true, reading);
   while (rows.next()) {
@@ -156,8 +154,7 @@ namespace gonio::io {
   return file;
 }
 
-[[gnu::cold]] GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name,
-                                                    const sample_reading& reading) {
+GONIO_INLINE sample_set parse_samples(std::string_view text, const std::string& name, const sample_reading& reading) {
   return parse_sample_file(text, name, reading).samples;
 }
 
@@ -167,7 +164,7 @@ namespace gonio::io {
   return parse_sample_file(detail::as_text(bytes), path.native(), reading);
 }
 
-[[gnu::cold]] GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
+GONIO_INLINE sample_set read_samples(const std::filesystem::path& path, const sample_reading& reading) {
   return read_sample_file(path, reading).samples;
 }
 

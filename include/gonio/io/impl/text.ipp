@@ -34,25 +34,25 @@ namespace gonio::io::detail {
   return message_of({"'", text, field.size() > longest ? "...'" : "'"});
 }
 
-[[gnu::cold]] GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
+GONIO_INLINE std::string_view trimmed(std::string_view text) noexcept {
   const std::size_t begin = text.find_first_not_of(blanks);
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
 }
 
-[[gnu::cold]] GONIO_INLINE std::string lower_case(std::string_view text) {
+GONIO_INLINE std::string lower_case(std::string_view text) {
   std::string small(text);
   for (char& c : small)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   return small;
 }
 
-[[gnu::cold]] GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noexcept {
+GONIO_INLINE std::string_view without_byte_order_mark(std::string_view text) noexcept {
   constexpr std::string_view mark = "\xEF\xBB\xBF";
   return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
 
-[[gnu::cold]] GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line) {
+GONIO_INLINE bool next_whole_line(std::string_view& text, text_place& place, std::string_view& line) {
   while (!text.empty()) {
     ++place.line;
     const std::size_t end = text.find('\n');
@@ -63,7 +63,7 @@ namespace gonio::io::detail {
   return false;
 }
 
-[[gnu::cold]] GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
+GONIO_INLINE bool next_line(std::string_view& text, text_place& place, std::string_view& line) {
   while (next_whole_line(text, place, line)) {
     line = trimmed(line);
     if (line.front() != '#') return true;
@@ -71,8 +71,7 @@ namespace gonio::io::detail {
   return false;
 }
 
-[[gnu::cold]] GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields,
-                                             char separator) {
+GONIO_INLINE void split_fields(std::string_view line, std::vector<std::string_view>& fields, char separator) {
   fields.clear();
   for (std::size_t end = line.find(separator); end != std::string_view::npos; end = line.find(separator)) {
     fields.push_back(trimmed(line.substr(0, end)));
@@ -97,7 +96,7 @@ namespace gonio::io::detail {
   return std::errc();
 }
 
-[[gnu::cold]] [[nodiscard]] GONIO_INLINE std::errc read_whole(std::string_view digits, double& value) {
+[[nodiscard]] GONIO_INLINE std::errc read_whole(std::string_view digits, double& value) {
 #if defined(__cpp_lib_to_chars)
   const auto [end, failed] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   return end == digits.data() + digits.size() ? failed : std::errc::invalid_argument;
@@ -106,7 +105,7 @@ namespace gonio::io::detail {
 #endif
 }
 
-[[gnu::cold]] GONIO_INLINE const char* read_number(std::string_view field, double& value) {
+GONIO_INLINE const char* read_number(std::string_view field, double& value) {
   // Instruments print a plus sign, which from_chars does not know.
   const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
   const std::string_view digits = field.substr(plus ? 1 : 0);
@@ -116,7 +115,7 @@ namespace gonio::io::detail {
   return std::isfinite(value) ? nullptr : " is not finite";
 }
 
-[[gnu::cold]] GONIO_INLINE std::string shortest(double value) {
+GONIO_INLINE std::string shortest(double value) {
   std::array<char, 32> text{};
   const auto [end, failed] = std::to_chars(text.data(), text.data() + text.size(), value);
   GONIO_ASSERT(failed == std::errc());
