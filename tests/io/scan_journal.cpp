@@ -211,6 +211,19 @@ TEST_CASE("scan journal: a head that is damaged, or not whole, is refused") {
   refuses("seed 3", "seed 3\nseed 3", "'seed' is told a second time");
 }
 
+TEST_CASE("scan journal: a scan killed anywhere in its head is told so, and begun again by the same scan") {
+  const scratch::folder scratch;
+  const auto path = scratch.path() / "a.scan";
+  { scan_journal(path, oak, poses(2), 4095); }
+  const std::string head = text_of(path);
+  for (std::size_t size = 0; size < head.size(); ++size) {
+    write(path, head.substr(0, size));
+    CHECK_THROWS_WITH_AS((void)io::read_scan(path), Contains("the same command begins it again"), gonio::error);
+    { scan_journal(path, oak, poses(2), 4095); }
+    CHECK(text_of(path) == head);
+  }
+}
+
 TEST_CASE("scan journal: poses that were added while it was measured come back, whole or not at all") {
   const scratch::folder scratch;
   const auto path = scratch.path() / "a.scan";

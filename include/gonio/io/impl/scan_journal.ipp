@@ -192,11 +192,14 @@ GONIO_INLINE void apply_scan_line(std::string_view line, const text_place& place
 }
 
 GONIO_INLINE void finish_scan(recorded_scan& scan, const scan_lines& all, const std::string& name) {
-  if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing"});
-  if (scan.planned == 0) gonio::refuse({name, ": there is no pose"});
+  // Readings come last: without one, the process may have been killed while it wrote the head.
+  const std::string_view again =
+      all.has_reading ? "" : "; if the scan was stopped before its first reading, the same command begins it again";
+  if (scan.largest_count == 0) gonio::refuse({name, ": the line largest_count is missing", again});
+  if (scan.planned == 0) gonio::refuse({name, ": there is no pose", again});
   if (all.plan && (all.plan->first != scan.planned || all.plan->second != checksum(all.pose_lines)))
     gonio::refuse(
-        {name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged"});
+        {name, ": the poses are not the ", all.plan->first, " that the line 'plan' tells, the file is damaged", again});
   if (all.has_sample != all.has_setup || all.has_sample != all.has_seed || all.has_sample != all.plan.has_value())
     gonio::refuse({name, ": of the lines sample, setup, seed and plan some are missing"});
   if (all.has_sample) scan.subject = all.subject;
