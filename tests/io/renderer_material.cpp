@@ -1,9 +1,11 @@
 #include "../json.hpp"
 #include "scratch.hpp"
 #include <gonio/io/renderer_material.hpp>
+#include <gonio/model/fresnel.hpp>
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -38,23 +40,69 @@ TEST_CASE("a rough lobe over a diffuse one as a material of pbrt") {
         "  \"bool remaproughness\" false\n");
 }
 
-TEST_CASE("the same of Mitsuba") {
-  CHECK(gonio::io::mitsuba_material(paint("torrance-sparrow")) ==
-        "<bsdf type=\"roughplastic\">\n"
-        "  <string name=\"distribution\" value=\"beckmann\"/>\n"
-        "  <float name=\"alpha\" value=\"0.25\"/>\n"
-        "  <float name=\"int_ior\" value=\"3\"/>\n"
-        "  <float name=\"ext_ior\" value=\"1\"/>\n"
-        "  <rgb name=\"diffuse_reflectance\" value=\"0.5, 0.25, 0.125\"/>\n"
-        "  <rgb name=\"specular_reflectance\" value=\"1, 0.75, 0.5\"/>\n"
-        "</bsdf>\n");
-  CHECK(gonio::io::mitsuba_material(metal()) ==
-        "<bsdf type=\"roughconductor\">\n"
-        "  <string name=\"material\" value=\"none\"/>\n"
-        "  <string name=\"distribution\" value=\"ggx\"/>\n"
-        "  <float name=\"alpha\" value=\"0.25\"/>\n"
-        "  <rgb name=\"specular_reflectance\" value=\"0.5, 0.25, 0.125\"/>\n"
-        "</bsdf>\n");
+TEST_CASE("the same of Mitsuba: the sum of both lobes") {
+  analytic_brdf bright({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
+                        {lobe_kind::of<gonio::model::torrance_sparrow_shape>(), {2.0, 1.0, 0.5}, {0.25, 0.04}}});
+  const auto interface = gonio::io::detail::conductor_like_schlick(0.04);
+  CHECK(gonio::io::mitsuba_material(bright) ==
+        "<bsdf type=\"blendbsdf\">\n"
+        "  <float name=\"weight\" value=\"0.5\"/>\n"
+        "  <bsdf type=\"diffuse\">\n"
+        "    <spectrum type=\"srgb\" name=\"reflectance\">\n"
+        "      <rgb name=\"color\" value=\"1, 0.5, 0.25\"/>\n"
+        "      <boolean name=\"unbounded\" value=\"true\"/>\n"
+        "    </spectrum>\n"
+        "  </bsdf>\n"
+        "  <bsdf type=\"roughconductor\">\n"
+        "    <string name=\"distribution\" value=\"beckmann\"/>\n"
+        "    <float name=\"alpha\" value=\"0.25\"/>\n"
+        "    <spectrum name=\"eta\" value=\"" +
+            gonio::io::detail::shortest(interface.index) +
+            "\"/>\n"
+            "    <spectrum name=\"k\" value=\"" +
+            gonio::io::detail::shortest(interface.extinction) +
+            "\"/>\n"
+            "    <spectrum type=\"srgb\" name=\"specular_reflectance\">\n"
+            "      <rgb name=\"color\" value=\"4, 2, 1\"/>\n"
+            "      <boolean name=\"unbounded\" value=\"true\"/>\n"
+            "    </spectrum>\n"
+            "  </bsdf>\n"
+            "</bsdf>\n");
+}
+
+TEST_CASE("a conductor reflects f0 at normal incidence, and nearly as Schlick says elsewhere") {
+  for (const double f0 : {0.02, 0.04, 0.1, 0.3, 0.6, 0.9}) {
+    const auto found = gonio::io::detail::conductor_like_schlick(f0);
+    CHECK(gonio::model::fresnel_conductor(1.0, found.index, found.extinction) == doctest::Approx(f0).epsilon(1e-6));
+    const double most = f0 >= 0.6 ? 0.006 : f0 >= 0.3 ? 0.06 : 0.32;
+    for (double degrees = 5.0; degrees <= 85.0; degrees += 10.0) {
+      const double cosine = std::cos(gonio::radians(degrees));
+      CHECK(std::abs(gonio::model::fresnel_conductor(cosine, found.index, found.extinction) /
+                         gonio::model::fresnel_schlick(cosine, f0) -
+                     1.0) < most);
+    }
+  }
+  // What is fitted may be no reflectance at all.
+  for (const double f0 : {-0.1, 0.0, 1.0, 3.0}) {
+    const auto found = gonio::io::detail::conductor_like_schlick(f0);
+    CHECK(std::isfinite(found.index + found.extinction));
+  }
+}
+
+TEST_CASE("renderers without colours above 1 get the highlight's brightness in its reflectance at normal incidence") {
+  const analytic_brdf brown({{lobe_kind::of<gonio::model::lambert_shape>(), {0.5, 0.25, 0.125}, {}},
+                             {lobe_kind::of<gonio::model::ggx_shape>(), {5.0, 2.5, 1.25}, {0.25, 0.05}}});
+  const std::string text = gonio::io::materialx_material(brown);
+  CHECK(text.find("\"specular_color\" type=\"color3\" value=\"1, 0.5, 0.25\"") != std::string::npos);
+  CHECK(text.find("\"specular_ior\" type=\"float\" value=\"3\"") != std::string::npos);
+  CHECK(gonio::io::pbrt_material(brown).find("\"float eta\" [ 3 ]") != std::string::npos);
+}
+
+TEST_CASE("a base that is not seen beside the highlight makes no dielectric") {
+  const analytic_brdf gold({{lobe_kind::of<gonio::model::lambert_shape>(), {0.003, 0.001, 0.0}, {}},
+                            {lobe_kind::of<gonio::model::ggx_shape>(), {1.0, 0.75, 0.5}, {0.25, 0.75}}});
+  CHECK(parse_json(gonio::io::gltf_material(gold))["materials"][0]["pbrMetallicRoughness"]["metallicFactor"] == 1);
+  CHECK(gonio::io::materialx_material(gold).find("\"base_metalness\" type=\"float\" value=\"1\"") != std::string::npos);
 }
 
 TEST_CASE("the same of OpenPBR, in MaterialX") {

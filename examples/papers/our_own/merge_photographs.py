@@ -117,8 +117,6 @@ def measure(scene, camera, seed, folder, rows):
         if camera == "linear" and shutil.which("pfshdrcalibrate"):
             add("the same, to scale", values, truth, numbers, deviations, to_scale=True)
             add("pfstools, of the same pixels, to scale", merged_by_pfstools(folder, 64), truth, numbers, to_scale=True)
-    # An estimated response is off by a per cent, as if each exposure were.
-    noise[noise.index("--flicker") + 1] = "0.01"
     values, deviations = merge(folder, *noise, *(("--dark-level", 64) if camera == "linear" else ()))
     add(f"{camera}, response estimated, to scale", values, truth, usable(values, deviations, truth), deviations,
         to_scale=True)

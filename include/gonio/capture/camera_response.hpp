@@ -77,7 +77,7 @@ using exposure_counts = Eigen::ArrayXXd;
 
 struct response_options {
   /// Weight of the smoothness against the data, of which the mean square counts.
-  double smoothness = 1e-5;
+  double smoothness = 3e-6;
   /// From this count on a pixel is saturated; 0 stands for the largest count.
   std::uint16_t saturation = 0;
 };

@@ -14,7 +14,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace gonio::capture::detail {
@@ -226,6 +228,61 @@ GONIO_INLINE void require_mergeable(std::span<const exposed_frame> frames,
             ", and the largest count, ", int{first.largest}});
 }
 
+/// Values of alike radiance, whose mean counts have little noise. A response that is fitted to noisy counts is biased:
+/// noise in a count moves its row along the response, and a logarithm is not linear in it.
+class alike_values {
+ public:
+  alike_values(std::span<const exposed_frame> frames, std::uint16_t level, std::uint16_t saturation)
+      : frames_(frames), level_(level), saturation_(saturation) {}
+
+  /// The mean counts above the dark level of groups of a channel's pixels: a row for a group, a column for a frame. A
+  /// frame in which one of a group is saturated counts as saturated for all of it.
+  [[nodiscard]] exposure_counts mean_counts(std::span<const Eigen::Index> pixels, Eigen::Index channel) const {
+    constexpr Eigen::Index groups_wanted = 400;
+    const std::vector<Eigen::Index> values = by_radiance(pixels, channel);
+    const Eigen::Index size = std::max<Eigen::Index>(std::ssize(values) / groups_wanted, 1);
+    exposure_counts means(std::ssize(values) / size, std::ssize(frames_));
+    for (Eigen::Index i = 0; i < means.rows(); ++i)
+      for (Eigen::Index j = 0; j < means.cols(); ++j)
+        means(i, j) = mean_count(std::span(values).subspan(i * size, size), frames_[j].codes);
+    return means;
+  }
+
+ private:
+  /// The sum of a value's counts grows with its radiance, whatever the response.
+  [[nodiscard]] std::vector<Eigen::Index> by_radiance(std::span<const Eigen::Index> pixels,
+                                                      Eigen::Index channel) const {
+    std::vector<std::pair<std::uint64_t, Eigen::Index>> sums;
+    sums.reserve(pixels.size());
+    for (const Eigen::Index pixel : pixels) {
+      const Eigen::Index value = 3 * pixel + channel;
+      std::uint64_t sum = 0;
+      for (const exposed_frame& each : frames_) sum += each.codes.values[value];
+      sums.emplace_back(sum, value);
+    }
+    std::ranges::sort(sums);
+    std::vector<Eigen::Index> values;
+    values.reserve(sums.size());
+    for (const auto& [sum, value] : sums) values.push_back(value);
+    return values;
+  }
+
+  /// Of the middle half: a pixel that is hot or has moved does not count.
+  [[nodiscard]] double mean_count(std::span<const Eigen::Index> group, const stored_codes& codes) const {
+    std::vector<std::uint16_t> counts;
+    counts.reserve(group.size());
+    for (const Eigen::Index value : group) counts.push_back(codes.values[value]);
+    std::ranges::sort(counts);
+    if (counts.back() >= saturation_) return codes.largest - level_;
+    const auto quarter = std::ssize(counts) / 4;
+    const double sum = std::accumulate(counts.begin() + quarter, counts.end() - quarter, 0.0);
+    return std::max(sum / static_cast<double>(std::ssize(counts) - 2 * quarter) - level_, 0.0);
+  }
+
+  std::span<const exposed_frame> frames_;
+  std::uint16_t level_, saturation_;
+};
+
 }  // namespace gonio::capture::detail
 
 namespace gonio::capture {
@@ -273,21 +330,17 @@ GONIO_INLINE std::array<camera_response, 3> estimate_responses(std::span<const e
                                                                const dark_signal& dark, const response_options& options,
                                                                std::uint64_t seed) {
   detail::require_alike(frames, "a photograph");
-  constexpr Eigen::Index pixels_used = 20000;
+  constexpr Eigen::Index pixels_used = 200'000;
   const stored_codes& first = frames.front().codes;
   const std::vector<Eigen::Index> pixels = random_choice(std::ssize(first.values) / 3, pixels_used, seed);
-  const std::uint16_t above = counts_above(first.largest, dark);
-  const double level = first.largest - above;
+  const std::uint16_t above = counts_above(first.largest, dark), level = first.largest - above;
+  const detail::alike_values alike{frames, level, options.saturation > 0 ? options.saturation : first.largest};
   std::vector<double> times;
   for (const exposed_frame& each : frames) times.push_back(each.seconds);
   response_options of_difference = options;
-  if (options.saturation > level) of_difference.saturation = static_cast<std::uint16_t>(options.saturation - level);
+  if (options.saturation > level) of_difference.saturation = options.saturation - level;
   const auto of_channel = [&](Eigen::Index channel) {
-    exposure_counts counts(std::ssize(pixels), std::ssize(frames));
-    for (Eigen::Index i = 0; i < counts.rows(); ++i)
-      for (Eigen::Index j = 0; j < counts.cols(); ++j)
-        counts(i, j) = std::max(frames[j].codes.values[3 * pixels[i] + channel] - level, 0.0);
-    return estimate_response(counts, times, above, of_difference);
+    return estimate_response(alike.mean_counts(pixels, channel), times, above, of_difference);
   };
   return {of_channel(0), of_channel(1), of_channel(2)};
 }

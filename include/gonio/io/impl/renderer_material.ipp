@@ -6,20 +6,58 @@
 #include <gonio/io/renderer_material.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/model/analytic_brdf.hpp>
+#include <gonio/model/fresnel.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
 namespace gonio::io::detail {
 
 GONIO_INLINE double rough_surface::refractive_index() const {
-  const double root = std::sqrt(std::min(f0, 0.5));
+  const double root = std::sqrt(std::min(f0, 0.999));
   return (1.0 + root) / (1.0 - root);
 }
 
-GONIO_INLINE bool rough_surface::metal() const { return (diffuse == 0.0).all(); }
+GONIO_INLINE bool rough_surface::metal() const {
+  constexpr double base_of_metal = 0.05;
+  return (diffuse <= base_of_metal * specular * f0).all();
+}
+
+GONIO_INLINE rough_surface bounded(rough_surface surface) {
+  const double brightest = surface.specular.maxCoeff();
+  if (brightest <= 1.0) return surface;
+  surface.specular /= brightest;
+  surface.f0 = std::min(brightest * surface.f0, 0.999);
+  return surface;
+}
+
+GONIO_INLINE conductor conductor_like_schlick(double f0) {
+  const double bounded = std::clamp(f0, 1e-4, 0.999), root = std::sqrt(bounded);
+  const double least = (1.0 - bounded) / (1.0 + bounded), most = (1.0 + root) / (1.0 - root);
+  conductor best;
+  double least_error = std::numeric_limits<double>::infinity();
+  constexpr int steps = 400;
+  for (int step = 0; step <= steps; ++step) {
+    // All indices from the least to the most have an extinction with this reflectance at normal incidence.
+    const double index = least * std::pow(most / least, static_cast<double>(step) / steps);
+    const double squared = (bounded * std::pow(index + 1.0, 2) - std::pow(index - 1.0, 2)) / (1.0 - bounded);
+    const double extinction = std::sqrt(std::max(squared, 0.0));
+    double error = 0.0;
+    for (int degrees = 0; degrees <= 85; degrees += 5) {
+      const double cosine = std::cos(radians(degrees));
+      const double ratio =
+          model::fresnel_conductor(cosine, index, extinction) / model::fresnel_schlick(cosine, bounded);
+      error = std::max(error, std::abs(ratio - 1.0));
+    }
+    if (error >= least_error) continue;
+    least_error = error;
+    best = {index, extinction};
+  }
+  return best;
+}
 
 GONIO_INLINE rough_surface as_rough_surface(const model::analytic_brdf& model) {
   rough_surface found;
@@ -53,7 +91,7 @@ GONIO_INLINE rough_surface as_ggx_surface(const model::analytic_brdf& model, con
 namespace gonio::io {
 
 GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
-  const detail::rough_surface surface = detail::as_ggx_surface(model, "pbrt");
+  const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "pbrt"));
   const std::string roughness =
       "  \"float roughness\" [ " + detail::shortest(surface.alpha) + " ]\n  \"bool remaproughness\" false\n";
   if (surface.metal())
@@ -65,22 +103,27 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
 
 GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
   const detail::rough_surface surface = detail::as_rough_surface(model);
-  const auto colour = [](const char* name, const rgb& value) {
-    return "  <rgb name=\"" + std::string(name) + "\" value=\"" + detail::three_numbers(value, ", ") + "\"/>\n";
+  const auto number = [](const char* type, const char* name, double value) {
+    return "<" + std::string(type) + " name=\"" + name + "\" value=\"" + detail::shortest(value) + "\"/>\n";
   };
-  std::string text = surface.metal() ? "<bsdf type=\"roughconductor\">\n  <string name=\"material\" value=\"none\"/>\n"
-                                     : "<bsdf type=\"roughplastic\">\n";
-  text += "  <string name=\"distribution\" value=\"" + std::string(surface.beckmann ? "beckmann" : "ggx") + "\"/>\n";
-  text += "  <float name=\"alpha\" value=\"" + detail::shortest(surface.alpha) + "\"/>\n";
-  if (surface.metal()) return text + colour("specular_reflectance", surface.specular * surface.f0) + "</bsdf>\n";
-  text += "  <float name=\"int_ior\" value=\"" + detail::shortest(surface.refractive_index()) + "\"/>\n";
-  text += "  <float name=\"ext_ior\" value=\"1\"/>\n";
-  return text + colour("diffuse_reflectance", surface.diffuse) + colour("specular_reflectance", surface.specular) +
-         "</bsdf>\n";
+  // A colour above 1 is refused unless it says that it is meant.
+  const auto colour = [](const char* name, const rgb& value) {
+    return "<spectrum type=\"srgb\" name=\"" + std::string(name) + "\">\n      <rgb name=\"color\" value=\"" +
+           detail::three_numbers(value, ", ") +
+           "\"/>\n      <boolean name=\"unbounded\" value=\"true\"/>\n    </spectrum>\n";
+  };
+  // A blend of equal shares of what is twice as bright is the sum.
+  const auto [index, extinction] = detail::conductor_like_schlick(surface.f0);
+  return "<bsdf type=\"blendbsdf\">\n  " + number("float", "weight", 0.5) + "  <bsdf type=\"diffuse\">\n    " +
+         colour("reflectance", 2.0 * surface.diffuse) + "  </bsdf>\n  <bsdf type=\"roughconductor\">\n    " +
+         "<string name=\"distribution\" value=\"" + (surface.beckmann ? "beckmann" : "ggx") + "\"/>\n    " +
+         number("float", "alpha", surface.alpha) + "    " + number("spectrum", "eta", index) + "    " +
+         number("spectrum", "k", extinction) + "    " + colour("specular_reflectance", 2.0 * surface.specular) +
+         "  </bsdf>\n</bsdf>\n";
 }
 
 GONIO_INLINE std::string materialx_material(const model::analytic_brdf& model, const std::string& name) {
-  const detail::rough_surface surface = detail::as_ggx_surface(model, "OpenPBR");
+  const detail::rough_surface surface = detail::bounded(detail::as_ggx_surface(model, "OpenPBR"));
   constexpr const char* known = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_";
   if (name.empty() || name.find_first_not_of(known) != std::string::npos)
     gonio::refuse({"the name of a MaterialX material is letters, digits and underscores, not ", detail::quoted(name)});
