@@ -73,7 +73,8 @@ TEST_CASE("spectral samples that are none are refused") {
   check_refused("values", [](auto& s) { s.directions.pop_back(); });
   check_refused("1 weights", [](auto& s) { s.weights.pop_back(); });
   check_refused("no samples", [](auto& s) { s.directions.clear(); });
-  check_refused("sample 2: the reflectance at 650 nm", [&](auto& s) { s.values(1, 2) = static_cast<float>(nan); });
+  check_refused("sample 2: the reflectance at wavelength 3",
+                [&](auto& s) { s.values(1, 2) = static_cast<float>(nan); });
   check_refused("sample 2: the weight", [](auto& s) { s.weights[1] = -1.0; });
   check_refused("sample 1: a direction", [](auto& s) { s.directions[0] = {1.5, 1.5, 0.0}; });
 }

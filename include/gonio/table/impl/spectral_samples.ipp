@@ -40,13 +40,9 @@ GONIO_INLINE spectral_samples spectral_samples::subset(std::span<const Eigen::In
 
 GONIO_INLINE void require_wavelengths(std::span<const double> wavelengths) {
   if (wavelengths.empty()) refuse("a spectrum needs at least one wavelength");
-  double before = 0.0;
-  for (Eigen::Index i = 0; i < std::ssize(wavelengths); ++i) {
-    const double here = wavelengths[i];
-    if (!(here > before && std::isfinite(here)))
-      refuse({"wavelength ", i + 1, " of a spectrum, ", here, " nm, is not above ", before, " nm"});
-    before = here;
-  }
+  for (Eigen::Index i = 0; i < std::ssize(wavelengths); ++i)
+    if (!(wavelengths[i] > (i == 0 ? 0.0 : wavelengths[i - 1]) && std::isfinite(wavelengths[i])))
+      refuse({"wavelength ", i + 1, " of a spectrum is not above ", i == 0 ? "0" : "the one before"});
 }
 
 GONIO_INLINE void require_usable(const spectral_samples& samples) {
@@ -61,7 +57,7 @@ GONIO_INLINE void require_usable(const spectral_samples& samples) {
     detail::require_usable_sample({samples.directions[i], rgb::Zero(), samples.weight(i)}, i + 1);
     for (Eigen::Index band = 0; band < samples.bands(); ++band)
       if (!std::isfinite(samples.values(i, band)))
-        refuse({"sample ", i + 1, ": the reflectance at ", samples.wavelengths[band], " nm is not finite"});
+        refuse({"sample ", i + 1, ": the reflectance at wavelength ", band + 1, " is not finite"});
   }
 }
 
