@@ -52,6 +52,8 @@ TEST_CASE("spectra may be stated in any quantity, in any dialect, with weights a
   CHECK(double{file.samples.values(0, 1)} == doctest::Approx(std::numbers::inv_pi));
   CHECK(file.samples.weight(0) == 0.5);
   CHECK(file.quantity == gonio::io::sample_quantity::percent);
+  const std::string commas = "# quantity: brdf\ntheta_h;theta_d;phi_d;632,8 nm\n10;20;30;0,5\n";
+  CHECK(parse_spectral_sample_file(commas, "x").samples.wavelengths == std::vector<double>{632.8});
   CHECK(file.provenance.instrument == "arm");
 }
 

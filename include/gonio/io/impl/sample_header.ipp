@@ -157,8 +157,10 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
     name = trimmed(name.substr(0, name.size() - 2));
     is_bare = false;
   }
+  std::string digits(name);  // the header line is above the number that shows the file's decimal mark
+  std::ranges::replace(digits, ',', '.');
   double nanometres = 0.0;
-  if (read_number(name, nanometres) != nullptr || !(nanometres > 0.0)) return 0.0;
+  if (read_number(digits, nanometres) != nullptr || !(nanometres > 0.0)) return 0.0;
   return is_bare && (nanometres < least_bare || nanometres > most_bare) ? 0.0 : nanometres;
 }
 
