@@ -53,7 +53,8 @@ void add_measurement_options(command& to, measurement_options& options) {
   const auto& names = gonio::io::sample_quantity_names;
   to.add_option("--quantity", options.quantity,
                 "What the numbers of a .csv file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
-                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column value "
+                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column "
+                "value, or columns of wavelengths, "
                 "whose file does not say it")
       .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
   to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
