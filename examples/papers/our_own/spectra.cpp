@@ -19,6 +19,10 @@
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace papers {
 
@@ -38,9 +42,25 @@ using gonio::illuminant;
 /// Of the directions that were not fitted.
 struct path_errors {
   double spectral_rms = 0.0;  ///< of ln(f + 0.001), all wavelengths
-  double daylight = 0.0;      ///< mean Delta E under D65
-  double incandescent = 0.0;  ///< mean Delta E under A
-  double other_lamp = 0.0;    ///< the same of the spectra, where colours were fitted under D65
+  // Mean Delta E under an illuminant, of colours that may be out of the gamut, and of those that a display shows.
+  double daylit = 0.0, lamplit = 0.0;
+  double shown_daylit = 0.0, shown_lamplit = 0.0;
+  double other_lamp = 0.0;  ///< under A, of the spectra where colours were fitted under D65
+};
+
+struct measure {
+  double path_errors::*which;
+  const char* title;
+  int digits;
+};
+
+constexpr std::array measures{
+    measure{&path_errors::spectral_rms, "spectral rms", 3},
+    measure{&path_errors::daylit, "Delta E, D65", 2},
+    measure{&path_errors::lamplit, "Delta E, A", 2},
+    measure{&path_errors::shown_daylit, "clipped, D65", 2},
+    measure{&path_errors::shown_lamplit, "clipped, A", 2},
+    measure{&path_errors::other_lamp, "Delta E, A, fitted under D65", 2},
 };
 
 /// What was not fitted, in one repetition.
@@ -68,18 +88,20 @@ struct held_out {
     return std::sqrt(sum / static_cast<double>(samples.size()));
   }
 
-  /// Mean CIELAB difference of pi f, over the directions in which the material is no brighter than a white diffuser.
+  /// Mean CIELAB difference of pi f, over the directions in which the material is no brighter than a white diffuser:
+  /// first of colours as they are, then of those that a display shows.
   template <class Colour>
-  [[nodiscard]] double delta_e(illuminant light, const Colour& colour_in) const {
-    double sum = 0.0, count = 0.0;
+  [[nodiscard]] std::pair<double, double> delta_e(illuminant light, const Colour& colour_in) const {
+    double sum = 0.0, shown = 0.0, count = 0.0;
     for (Eigen::Index i = 0; i < samples.size(); ++i) {
       const gonio::rgb truth = std::numbers::pi * colour(light)(samples.spectrum(i));
       if (gonio::luminance(truth) > 1.0) continue;
       const gonio::rgb estimate = std::numbers::pi * gonio::rgb(colour_in(i));
       sum += (gonio::unclipped_lab(estimate) - gonio::unclipped_lab(truth)).matrix().norm();
+      shown += gonio::delta_e(estimate, truth);
       count += 1.0;
     }
-    return sum / count;
+    return {sum / count, shown / count};
   }
 
   [[nodiscard]] Eigen::ArrayXd truth_in(Eigen::Index i) const {
@@ -101,55 +123,79 @@ path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio
   const auto under = [&](illuminant light) {
     return others.delta_e(light, [&](Eigen::Index i) { return others.colour_of(light, spectrum_in(i)); });
   };
-  const double incandescent = under(illuminant::a);
-  return {others.rms(spectrum_in), under(illuminant::d65), incandescent, incandescent};
+  const auto [daylit, shown_daylit] = under(illuminant::d65);
+  const auto [lamplit, shown_lamplit] = under(illuminant::a);
+  return {others.rms(spectrum_in), daylit, lamplit, shown_daylit, shown_lamplit, lamplit};
 }
+
+/// What three channels of a colour are fitted.
+enum class colour_space { rgb, xyz };
+
+/// A fit of three channels, as linear Rec. 709: XYZ is relative to white, and not negative.
+class colour_fit {
+ public:
+  colour_fit(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted, colour_space space,
+             illuminant light)
+      : space_(space), fit_(estimator.fit(channels_of(fitted.colours(light), space))) {}
+
+  [[nodiscard]] gonio::rgb operator()(const gonio::direction_pair& at) const {
+    const gonio::rgb found = fit_(at.wi, at.wo);
+    return space_ == colour_space::rgb ? found : gonio::from_xyz(found * gonio::to_xyz(gonio::rgb::Ones()));
+  }
+
+ private:
+  [[nodiscard]] static gonio::sample_set channels_of(gonio::sample_set samples, colour_space space) {
+    if (space == colour_space::xyz)
+      for (gonio::sample& each : samples) each.value = gonio::to_xyz(each.value) / gonio::to_xyz(gonio::rgb::Ones());
+    return samples;
+  }
+
+  colour_space space_;
+  gonio::fitted_brdf<spectral_fit_estimator::basis_type> fit_;
+};
 
 /// Colours under each illuminant; the spectra are the smoothest of those under D65.
 path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
-                        const gonio::model::smooth_spectra& smooth, const held_out& others) {
-  const auto under = [&](const auto& fit) {
-    return [&](Eigen::Index i) -> gonio::rgb {
-      const auto& [wi, wo] = others.samples.directions[i].pair();
-      return fit(wi, wo);
-    };
-  };
-  const auto daylit = estimator.fit(fitted.colours(illuminant::d65)),
-             lamplit = estimator.fit(fitted.colours(illuminant::a));
-  const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd { return smooth(under(daylit)(i)); };
-  return {others.rms(spectrum_in), others.delta_e(illuminant::d65, under(daylit)),
-          others.delta_e(illuminant::a, under(lamplit)), others.delta_e(illuminant::a, [&](Eigen::Index i) {
-            return others.colour_of(illuminant::a, spectrum_in(i));
-          })};
+                        colour_space space, const gonio::model::smooth_spectra& smooth, const held_out& others) {
+  const colour_fit daylit(estimator, fitted, space, illuminant::d65), lamplit(estimator, fitted, space, illuminant::a);
+  const auto at = [&](Eigen::Index i) { return others.samples.directions[i].pair(); };
+  const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd { return smooth(daylit(at(i))); };
+  const auto under_d65 = others.delta_e(illuminant::d65, [&](Eigen::Index i) { return daylit(at(i)); });
+  const auto under_a = others.delta_e(illuminant::a, [&](Eigen::Index i) { return lamplit(at(i)); });
+  const auto other_lamp =
+      others.delta_e(illuminant::a, [&](Eigen::Index i) { return others.colour_of(illuminant::a, spectrum_in(i)); });
+  return {others.rms(spectrum_in), under_d65.first, under_a.first, under_d65.second, under_a.second, other_lamp.first};
 }
 
-/// Both ways of all repetitions.
-struct comparison {
-  std::vector<path_errors> wavelengths, colours;
+/// One way of fitting, in all repetitions.
+using all_errors = std::vector<path_errors>;
 
-  /// "0.123 (0.101)": mean and median over the repetitions.
-  [[nodiscard]] static std::string described(const std::vector<path_errors>& errors, double path_errors::*which,
-                                             int digits) {
-    std::vector<double> all;
-    double sum = 0.0;
-    for (const path_errors& each : errors) {
-      all.push_back(each.*which);
-      sum += each.*which;
-    }
-    return fixed(sum / static_cast<double>(all.size()), digits) + " (" + fixed(gonio::median(all), digits) + ")";
+/// "0.123 (0.101)": mean and median over the repetitions.
+std::string described(const all_errors& errors, const measure& one) {
+  std::vector<double> all;
+  double sum = 0.0;
+  for (const path_errors& each : errors) {
+    all.push_back(each.*one.which);
+    sum += each.*one.which;
   }
-  /// In how many repetitions the wavelengths are nearer.
-  [[nodiscard]] Eigen::Index wins(double path_errors::*which) const {
-    Eigen::Index count = 0;
-    for (std::size_t i = 0; i < wavelengths.size(); ++i) count += wavelengths[i].*which < colours[i].*which ? 1 : 0;
-    return count;
-  }
+  return fixed(sum / static_cast<double>(all.size()), one.digits) + " (" + fixed(gonio::median(all), one.digits) + ")";
+}
+
+/// "18 of 20": repetitions in which the first is nearer.
+std::string wins(const all_errors& first, const all_errors& second, const measure& one) {
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) count += first[i].*one.which < second[i].*one.which ? 1 : 0;
+  return std::to_string(count) + " of " + std::to_string(first.size());
+}
+
+struct comparison {
+  all_errors wavelengths, rgb, xyz;
 };
 
 comparison compare(const spectral_fit_estimator& estimator, const gonio::spectral_samples& all, Eigen::Index count,
                    const spectra_options& given) {
   const gonio::model::smooth_spectra smooth(all.wavelengths);
-  comparison both;
+  comparison found;
   for (Eigen::Index r = 0; r < given.repetitions; ++r) {
     const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, r);
     std::vector<Eigen::Index> rest;
@@ -157,31 +203,32 @@ comparison compare(const spectral_fit_estimator& estimator, const gonio::spectra
       if (!std::ranges::binary_search(chosen, i)) rest.push_back(i);
     const gonio::spectral_samples fitted = all.subset(chosen), unused = all.subset(rest);
     const held_out others(unused);
-    both.wavelengths.push_back(fit_wavelengths(estimator, fitted, others));
-    both.colours.push_back(fit_colours(estimator, fitted, smooth, others));
+    found.wavelengths.push_back(fit_wavelengths(estimator, fitted, others));
+    found.rgb.push_back(fit_colours(estimator, fitted, colour_space::rgb, smooth, others));
+    found.xyz.push_back(fit_colours(estimator, fitted, colour_space::xyz, smooth, others));
   }
-  return both;
+  return found;
 }
 
-void print_rows(const std::string& material, Eigen::Index count, const comparison& both) {
-  constexpr std::array measures{&path_errors::spectral_rms, &path_errors::daylight, &path_errors::incandescent,
-                                &path_errors::other_lamp};
-  const std::string start = "| " + material + " | " + std::to_string(count) + " | ";
-  std::string wavelengths = start + "wavelengths |", colours = start + "colours |", wins = start + "wavelengths win |";
-  for (const auto which : measures) {
-    const int digits = which == &path_errors::spectral_rms ? 3 : 2;
-    wavelengths += ' ' + comparison::described(both.wavelengths, which, digits) + " |";
-    colours += ' ' + comparison::described(both.colours, which, digits) + " |";
-    wins += ' ' + std::to_string(both.wins(which)) + " of " + std::to_string(both.colours.size()) + " |";
-  }
-  std::cout << wavelengths << '\n' << colours << '\n' << wins << '\n';
+void print_rows(const std::string& material, Eigen::Index count, const comparison& found) {
+  const auto print_row = [&](const char* name, const auto& entry_of) {
+    std::cout << "| " << material << " | " << count << " | " << name << " |";
+    for (const measure& one : measures) std::cout << ' ' << entry_of(one) << " |";
+    std::cout << '\n';
+  };
+  print_row("wavelengths", [&](const measure& one) { return described(found.wavelengths, one); });
+  print_row("RGB", [&](const measure& one) { return described(found.rgb, one); });
+  print_row("XYZ", [&](const measure& one) { return described(found.xyz, one); });
+  print_row("wavelengths nearer than RGB", [&](const measure& one) { return wins(found.wavelengths, found.rgb, one); });
+  print_row("wavelengths nearer than XYZ", [&](const measure& one) { return wins(found.wavelengths, found.xyz, one); });
 }
 
 void run(const spectra_options& given) {
   const spectral_fit_estimator estimator{gonio::io::read_prior(given.prior), {}, given.threads};
   std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
-            << "| material | fitted | what is fitted | spectral rms | Delta E, D65 | Delta E, A | Delta E, A, of what "
-               "was fitted under D65 |\n|---|---|---|---|---|---|---|\n";
+            << "| material | fitted | what is fitted |";
+  for (const measure& one : measures) std::cout << ' ' << one.title << " |";
+  std::cout << "\n|---|---|---|---|---|---|---|---|---|\n";
   for (const std::filesystem::path& file : given.samples) {
     const gonio::spectral_samples all = read_spectra_file(file).samples;
     for (const Eigen::Index count : given.counts) {
