@@ -4,6 +4,7 @@
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/estimate/impl/angular_error.ipp>
 #include <gonio/estimate/impl/conformity.ipp>
+#include <gonio/estimate/impl/fitted_spectra.ipp>
 #include <gonio/estimate/impl/highlight_contrast.ipp>
 #include <gonio/estimate/impl/leave_one_material_out_error.ipp>
 #include <gonio/estimate/impl/located_samples.ipp>

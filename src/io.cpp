@@ -25,6 +25,7 @@
 #include <gonio/io/impl/reference_reflectance.ipp>
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>
+#include <gonio/io/impl/rgl_spectra.ipp>
 #include <gonio/io/impl/rules.ipp>
 #include <gonio/io/impl/sample_collector.ipp>
 #include <gonio/io/impl/sample_header.ipp>
@@ -35,6 +36,7 @@
 #include <gonio/io/impl/scan_journal.ipp>
 #include <gonio/io/impl/setup_text.ipp>
 #include <gonio/io/impl/soft_specular_prior.ipp>
+#include <gonio/io/impl/spectral_samples.ipp>
 #include <gonio/io/impl/sphere_setup.ipp>
 #include <gonio/io/impl/ssdd.ipp>
 #include <gonio/io/impl/table_npy.ipp>

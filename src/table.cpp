@@ -4,5 +4,7 @@
 #include <gonio/table/impl/image.ipp>
 #include <gonio/table/impl/material_set.ipp>
 #include <gonio/table/impl/sample_set.ipp>
+#include <gonio/table/impl/spectral_samples.ipp>
+#include <gonio/table/impl/spectral_table.ipp>
 #include <gonio/table/impl/tensor_view.ipp>
 #include <gonio/table/impl/valid_cells.ipp>

@@ -120,10 +120,12 @@ json describe_samples(const path_type& path, const measurement_options& reading)
 json describe_rgl(const path_type& path) {
   const gonio::io::rgl_material file = gonio::io::read_rgl(path);
   const std::vector<double>& theta_i = file.material.parts().theta_i;
-  return {{"kind", "RGL material"},
-          {"description", file.description},
-          {"directions_of_light", theta_i.size()},
-          {"theta_i", {rounded_degrees(theta_i.front()), rounded_degrees(theta_i.back())}}};
+  json facts{{"kind", "RGL material"},
+             {"description", file.description},
+             {"directions_of_light", theta_i.size()},
+             {"theta_i", {rounded_degrees(theta_i.front()), rounded_degrees(theta_i.back())}}};
+  if (file.spectra) facts["wavelengths_nm"] = file.spectra->wavelengths;
+  return facts;
 }
 
 json describe_array(const path_type& path) {

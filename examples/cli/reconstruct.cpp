@@ -1,5 +1,6 @@
 /// gonio reconstruct: samples in, a table over all directions out.
 
+#include "command_line/file_kinds.hpp"
 #include "command_line/json.hpp"
 #include "command_line/materials.hpp"
 #include "command_line/measurement_files.hpp"
@@ -11,12 +12,14 @@
 #include "images.hpp"
 #include "uncertainty_image.hpp"
 #include <gonio/io/file.hpp>
+#include <gonio/io/rgl_spectra.hpp>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace cli {
@@ -59,10 +62,29 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
   gonio::io::write_png(options.image, spheres.front());
 }
 
+/// Spectra where the format holds them, else the table.
+void write_result(const reconstruct_options& options, const reconstruction& result) {
+  if (options.output.extension() != ".bsdf" || !result.spectra) return write_table(options.output, result.table);
+  const std::string name = options.output.stem().string();
+  write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
+}
+
 void reconstruct_and_write(const reconstruct_options& options, const image_options& how) {
-  const gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
-  const reconstruction result = reconstruct(options, measured.samples);
-  if (!options.output.empty()) write_table(options.output, result.table);
+  gonio::io::sample_file measured;
+  std::optional<reconstruction> found;
+  if (options.fits_spectra) {
+    const gonio::io::spectral_sample_file spectra = read_spectra_file(options.samples, options.reading);
+    measured = as_colours(spectra, options.reading.light.value_or(gonio::illuminant::d65));
+    tell_doubts(options.samples, measured);
+    if (options.output.extension() == ".bsdf" && spectra.samples.bands() == 1)
+      gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
+    found = reconstruct(options, spectra.samples);
+  } else {
+    measured = read_measurement_file(options.samples, options.reading);
+    found = reconstruct(options, measured.samples);
+  }
+  const reconstruction& result = *found;
+  if (!options.output.empty()) write_result(options, result);
   if (!options.image.empty()) write_sphere(options, result.table, how);
   if (!options.uncertainty.empty()) write_table(options.uncertainty, *result.uncertainty);
   if (!options.uncertainty_image.empty())
@@ -114,6 +136,13 @@ void add_reconstruct(command& app) {
   // Declare the samples and the method.
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_measurement_options(command, options->reading);
+  command.add_flag("--spectra", options->fits_spectra,
+                   "Fit each wavelength of spectral samples (.csv with columns like 400nm, or .brdf) as a grey "
+                   "material; .bsdf has the spectra then, other formats their colours");
+  command.add_choice(
+      "--illuminant", [options](int light) { options->reading.light = static_cast<gonio::illuminant>(light); },
+      {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},
+      "Under which spectra become colours: D65, daylight (the default), or A, incandescent");
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);

@@ -6,11 +6,14 @@
 #include "sample_warnings.hpp"
 #include "warning.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/io/file.hpp>
 #include <gonio/io/text.hpp>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace cli {
 
@@ -28,6 +31,15 @@ void add_columns(const std::string& list, std::vector<gonio::io::column_name>& c
   }
 }
 
+/// Spectra become colours under D65.
+gonio::io::sample_file read_csv(const std::filesystem::path& path, const gonio::io::sample_reading& reading) {
+  const std::vector<std::byte> bytes = gonio::io::read_bytes(path);
+  const std::string_view text = gonio::io::detail::as_text(bytes);
+  if (!gonio::io::names_wavelengths(text, path.native(), reading))
+    return gonio::io::parse_sample_file(text, path.native(), reading);
+  return as_colours(gonio::io::parse_spectral_sample_file(text, path.native(), reading), gonio::illuminant::d65);
+}
+
 }  // namespace
 
 gonio::io::sample_reading reading_of(const measurement_options& options) {
@@ -41,7 +53,8 @@ void add_measurement_options(command& to, measurement_options& options) {
   const auto& names = gonio::io::sample_quantity_names;
   to.add_option("--quantity", options.quantity,
                 "What the numbers of a .csv file of samples are: brdf (sr^-1), brdf-cosine (times the cosine of the "
-                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column value "
+                "viewer's angle), reflectance-factor (1 is white) or percent (100 is white); needed for a column "
+                "value, or columns of wavelengths, "
                 "whose file does not say it")
       .check(check::one_of(std::vector<std::string>(names.begin(), names.end())));
   to.add_option("--columns", options.columns, "What a .csv file of samples calls its columns: theta_o=Winkel,g=Y")
@@ -60,14 +73,39 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 
 gonio::io::sample_file read_measurement_file(const std::filesystem::path& path, const measurement_options& options) {
   gonio::io::sample_file file;
-  if (const measurement_kind* kind = measurement_kind_of(path)) {
+  if (options.light) {
+    file = as_colours(read_spectra_file(path, options), *options.light);
+  } else if (const measurement_kind* kind = measurement_kind_of(path)) {
     require_unused(options, path);  // such a file says what its values are
     file.samples = kind->read(path);
   } else {
-    file = gonio::io::read_sample_file(path, reading_of(options));
+    file = read_csv(path, reading_of(options));
   }
-  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
+  tell_doubts(path, file);
   return file;
+}
+
+void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file) {
+  for (const std::string& sentence : doubts_of(file)) warn(path.native() + ": " + sentence);
+}
+
+gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& path,
+                                                  const measurement_options& options) {
+  const measurement_kind* kind = measurement_kind_of(path);
+  if (kind == nullptr) return gonio::io::read_spectral_sample_file(path, reading_of(options));
+  require_unused(options, path);
+  if (kind->read_spectra == nullptr)
+    gonio::refuse({path.native(),
+                   ": --spectra and --illuminant need a .csv file whose columns are wavelengths, or "
+                   "Cornell's format; spectra of ",
+                   kind->name, " are read as colours"});
+  return {kind->read_spectra(path), {}, {}};
+}
+
+gonio::io::sample_file as_colours(const gonio::io::spectral_sample_file& file, gonio::illuminant light) {
+  std::optional<double> wavelength;
+  if (file.samples.bands() == 1) wavelength = file.samples.wavelengths.front();
+  return {file.samples.colours(light), file.quantity, wavelength, file.provenance};
 }
 
 gonio::sample_set read_measurements(const std::filesystem::path& path, const measurement_options& options) {

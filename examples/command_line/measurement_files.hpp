@@ -3,11 +3,14 @@
 
 #include "command.hpp"
 #include "json.hpp"
+#include <gonio/core/spectrum.hpp>
 #include <gonio/io/samples.hpp>
+#include <gonio/io/spectral_samples.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +18,9 @@ namespace cli {
 
 /// What a user says of a file that does not say it itself.
 struct measurement_options {
-  std::string quantity;              ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
-  std::vector<std::string> columns;  ///< lists like "theta_o=Winkel,g=Y"
+  std::string quantity;                         ///< a name of `gonio::io::sample_quantity`; empty if it is not stated
+  std::vector<std::string> columns;             ///< lists like "theta_o=Winkel,g=Y"
+  std::optional<gonio::illuminant> light = {};  ///< under which spectra become colours; none: D65
 
   [[nodiscard]] bool empty() const noexcept { return quantity.empty() && columns.empty(); }
 };
@@ -37,6 +41,17 @@ void require_unused(const measurement_options& options, const std::filesystem::p
 /// options. What is ignored, assumed or implausible is told as a warning on standard error.
 [[nodiscard]] gonio::io::sample_file read_measurement_file(const std::filesystem::path& path,
                                                            const measurement_options& options = {});
+
+/// The same with all wavelengths: CSV whose columns are called by them, or that has a single one, or Cornell's format.
+/// Throws gonio::error for a file of colours.
+[[nodiscard]] gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& path,
+                                                                const measurement_options& options = {});
+
+/// Spectra as colours, and what their file says of them.
+[[nodiscard]] gonio::io::sample_file as_colours(const gonio::io::spectral_sample_file& file, gonio::illuminant light);
+
+/// Warns of numbers that look like something else than they are read as (`doubts_of`).
+void tell_doubts(const std::filesystem::path& path, const gonio::io::sample_file& file);
 
 /// The same without what the file says of them.
 [[nodiscard]] gonio::sample_set read_measurements(const std::filesystem::path& path,

@@ -26,7 +26,7 @@ constexpr std::array<measurement_kind, 5> kinds{{
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
      gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },
-     gonio::io::read_cornell},
+     gonio::io::read_cornell, gonio::io::read_cornell_spectra},
 }};
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace cli {
 
@@ -33,6 +34,16 @@ void require_finite(const gonio::brdf_table& table, const gonio::sample_set& sam
   const std::string file = options.samples.empty() ? "" : options.samples.native() + ": ";
   gonio::refuse({file, "these samples, of up to ", value.str(),
                  " sr^-1, complete to a table that is not finite by the method ", options.method});
+}
+
+/// What is told of every fit, which is refused if it is not finite.
+reconstruction with_warnings(reconstruction result, const reconstruct_options& options,
+                             const gonio::sample_set& samples) {
+  std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
+  if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
+    result.warnings.push_back(std::move(sentence));
+  require_finite(result.table, samples, options);
+  return result;
 }
 
 }  // namespace
@@ -94,12 +105,12 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
 }
 
 reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples) {
-  reconstruction result = method_named(options.method).reconstruct(options, samples);
-  std::ranges::move(warnings_of(samples, options.noise.value_or(0.0)), std::back_inserter(result.warnings));
-  if (std::string sentence = warning_of(options.method, std::ssize(counting_samples(samples))); !sentence.empty())
-    result.warnings.push_back(std::move(sentence));
-  require_finite(result.table, samples, options);
-  return result;
+  return with_warnings(method_named(options.method).reconstruct(options, samples), options, samples);
+}
+
+reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra) {
+  const gonio::sample_set colours = spectra.colours(options.reading.light.value_or(gonio::illuminant::d65));
+  return with_warnings(reconstruct_each_wavelength(options, spectra, colours), options, colours);
 }
 
 }  // namespace cli

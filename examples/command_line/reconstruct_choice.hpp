@@ -29,4 +29,7 @@ void take_given(reconstruct_options& options, const std::function<bool(const std
 /// gonio::error for unusable samples, and if the table is not finite.
 [[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::sample_set& samples);
 
+/// The same of spectra, each wavelength as a grey material.
+[[nodiscard]] reconstruction reconstruct(const reconstruct_options& options, const gonio::spectral_samples& spectra);
+
 }  // namespace cli

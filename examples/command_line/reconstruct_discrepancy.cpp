@@ -6,6 +6,7 @@
 #include "reconstruct_methods.hpp"
 #include <gonio/core/statistics.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/posterior.hpp>
 #include <gonio/estimate/screened_samples.hpp>
 #include <gonio/io/file.hpp>
@@ -13,7 +14,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <span>
+#include <utility>
 
 namespace cli {
 
@@ -120,10 +123,24 @@ void describe(const gonio::screened_samples& screened, Eigen::Index samples, con
   result.details[leaves_out ? "left_out" : "disagreeing"] = contradicted;
 }
 
-}  // namespace
+/// The colours of samples fitted, without those that the others contradict.
+reconstruction fit_colours(const discrepancy_estimator& estimator, const gonio::screened_samples& screened,
+                           const reconstruct_options& options) {
+  const auto fitted = estimator.fit_located(screened.kept);
+  reconstruction result{fitted.tabulate(gonio::valid_cells(), options.threads)};
+  const gonio::rgb residual = fitted.report()->residual.array() / std::sqrt(static_cast<double>(screened.kept.size()));
+  result.details = {{"mapped_residual_rms", per_channel(residual)},
+                    {"kkt_residual", per_channel(fitted.report()->kkt_residual.array())}};
+  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
+                    ' ' + fixed(residual.z(), 3);
+  return result;
+}
 
-reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
-                                            const gonio::sample_set& samples) {
+/// What makes a fit of the samples that are kept.
+using fit_function = std::function<reconstruction(const discrepancy_estimator&, const gonio::screened_samples&)>;
+
+reconstruction reconstruct_by(const fit_function& fit, const reconstruct_options& options,
+                              const gonio::log_relative_pca& prior, const gonio::sample_set& samples) {
   const gonio::discrepancy_model model{.variance = options.discrepancy, .noise = options.noise.value_or(0.0)};
   const discrepancy_estimator estimator{prior, model, options.threads};
   const gonio::located_samples located = gonio::locate_samples(prior.cells(), samples, options.threads);
@@ -141,19 +158,39 @@ reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, 
                     screened.left_out);
 
   // Fit the rest.
-  const auto fitted = estimator.fit_located(screened.kept);
-  reconstruction result{fitted.tabulate(gonio::valid_cells(), options.threads)};
-  const gonio::rgb residual = fitted.report()->residual.array() / std::sqrt(static_cast<double>(screened.kept.size()));
-  result.details = {{"mapped_residual_rms", per_channel(residual)},
-                    {"kkt_residual", per_channel(fitted.report()->kkt_residual.array())},
-                    {"discrepancy", options.discrepancy}};
-  result.sentence = "residual in the mapped domain (rms) " + fixed(residual.x(), 3) + ' ' + fixed(residual.y(), 3) +
-                    ' ' + fixed(residual.z(), 3);
+  reconstruction result = fit(estimator, screened);
+  result.details["discrepancy"] = options.discrepancy;
   if (!options.keeps_all) describe(screened, located.size(), numbers, result);
   const gonio::posterior known(estimator, screened.kept);
   describe(known, prior, options, result);
   if (options.wants_uncertainty()) result.uncertainty = uncertainty_table(known, options.threads);
   return result;
+}
+
+}  // namespace
+
+reconstruction reconstruct_with_discrepancy(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                            const gonio::sample_set& samples) {
+  const auto fit = [&](const discrepancy_estimator& estimator, const gonio::screened_samples& screened) {
+    return fit_colours(estimator, screened, options);
+  };
+  return reconstruct_by(fit, options, prior, samples);
+}
+
+reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
+                                                    const gonio::log_relative_pca& prior,
+                                                    const gonio::spectral_samples& spectra,
+                                                    const gonio::sample_set& samples) {
+  const auto fit = [&](const discrepancy_estimator& estimator, const gonio::screened_samples& screened) {
+    gonio::located_samples located = gonio::locate_samples(prior.cells(), spectra, options.threads);
+    if (!options.keeps_all)
+      located = gonio::robust_decomposition<gonio::log_relative>::weighted(std::move(located), screened.inlier_weights);
+    const Eigen::Index count = located.size();
+    auto [functions, found] = estimator.solve_located(std::move(located));
+    const gonio::fitted_spectra fitted(spectra.wavelengths, std::move(functions), std::move(found));
+    return described_spectra(fitted.tabulate(gonio::valid_cells(), options.threads), fitted.report(), count, options);
+  };
+  return reconstruct_by(fit, options, prior, samples);
 }
 
 }  // namespace cli

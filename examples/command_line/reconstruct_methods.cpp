@@ -78,7 +78,7 @@ reconstruction reconstruct_misplaced(const reconstruct_options& options, const g
 
 }  // namespace
 
-reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
+component_choice choose_components(const reconstruct_options& options) {
   const bool penalised = options.solver.name.empty() || options.solver.name == "tikhonov";
   if (options.noise && !options.solver.eta.empty())
     gonio::refuse("--noise and --eta both set the penalty: give one of them");
@@ -94,19 +94,31 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
                   " needs --method linear");
   if (!options.materials.is_prior() || !options.materials.exclude.empty())
     gonio::refuse("--networks, --merl and --exclude need --method linear: the components of --prior are fixed");
-  const auto prior = gonio::io::read_prior(options.materials.prior);
-  if (options.discrepancy != 0.0 && penalised && options.solver.eta.empty() && options.angular_error == 0.0)
-    return reconstruct_with_discrepancy(options, prior, samples);
+  component_choice chosen{gonio::io::read_prior(options.materials.prior), solver};
+  chosen.is_penalised = penalised && options.solver.eta.empty();
+  chosen.has_discrepancy = options.discrepancy != 0.0 && chosen.is_penalised && options.angular_error == 0.0;
+  if (chosen.has_discrepancy) return chosen;
   if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
         "--no-reject, --residuals, --uncertainty and --uncertainty-image need a discrepancy: they go with none of "
         "--discrepancy 0, --misplaced, --eta and other solvers than tikhonov");
   if (options.discrepancy != 0.0 && options.discrepancy != reconstruct_options{}.discrepancy)
     gonio::refuse("--discrepancy goes with none of --misplaced, --eta and other solvers than tikhonov");
+  return chosen;
+}
+
+double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                  const gonio::sample_set& samples) {
+  return options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
+                       : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);
+}
+
+reconstruction reconstruct_by_components(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const auto [prior, solver, has_discrepancy, is_penalised] = choose_components(options);
+  if (has_discrepancy) return reconstruct_with_discrepancy(options, prior, samples);
   if (options.angular_error != 0.0) return reconstruct_misplaced(options, prior, samples);
-  if (!penalised || !options.solver.eta.empty()) return fit(prior, solver, samples, options.threads);
-  const double eta = options.noise ? gonio::eta_of_noise(prior, samples, *options.noise, options.threads)
-                                   : gonio::eta_of_unknown_noise(prior, samples, 0.3, options.threads);
+  if (!is_penalised) return fit(prior, solver, samples, options.threads);
+  const double eta = chosen_eta(options, prior, samples);
   reconstruction result = fit(prior, gonio::tikhonov(eta), samples, options.threads);
   result.details["eta"] = eta;
   result.sentence += ", eta " + fixed(eta, 3);

@@ -7,10 +7,13 @@
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/spectrum.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/estimate/scattered_options.hpp>
 #include <gonio/metric/any_metric.hpp>
 #include <gonio/render/image.hpp>
+#include <gonio/table/spectral_samples.hpp>
+#include <gonio/table/spectral_table.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -28,6 +31,7 @@ struct reconstruct_options {
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
   bool keeps_uncertainty = false;  ///< beside those that are written: in the result
+  bool fits_spectra = false;       ///< each wavelength instead of colours
   bool has_own_options = false;    ///< the method was asked for something beside what all methods have
   bool as_printed = false;         ///< correction as Noell et al. 2014 print it
   int iterations = 10;
@@ -52,17 +56,36 @@ struct reconstruction {
   std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
+  std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` is its colours
 };
 
 /// Principal components under the metric that they were learned with.
 [[nodiscard]] reconstruction reconstruct_by_components(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
+/// What `--method pca` fits, once what it cannot do is refused.
+struct component_choice {
+  gonio::log_relative_pca prior;
+  gonio::any_solver solver;
+  bool has_discrepancy = false, is_penalised = false;  ///< the latter: by Tikhonov's eta, which is chosen or given
+};
+[[nodiscard]] component_choice choose_components(const reconstruct_options& options);
+
+/// Tikhonov's penalty where none is given.
+[[nodiscard]] double chosen_eta(const reconstruct_options& options, const gonio::log_relative_pca& prior,
+                                const gonio::sample_set& samples);
+
 /// The same components and a discrepancy beside them, without samples that the others contradict; of 100 samples and
 /// more, outliers count less.
 [[nodiscard]] reconstruction reconstruct_with_discrepancy(const reconstruct_options& options,
                                                           const gonio::log_relative_pca& prior,
                                                           const gonio::sample_set& samples);
+
+/// The same for each wavelength. Which samples disagree is judged by their colours, as in `samples`.
+[[nodiscard]] reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& options,
+                                                                  const gonio::log_relative_pca& prior,
+                                                                  const gonio::spectral_samples& spectra,
+                                                                  const gonio::sample_set& samples);
 
 /// The components of soft or of specular materials, whichever the samples choose (Nielsen et al. 2015, section 8).
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
@@ -88,6 +111,16 @@ struct reconstruction {
 /// The mean of the samples nearest to each direction.
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
+
+/// Each wavelength as a grey material, by the methods pca and linear. Throws gonio::error for the others, which fit
+/// colours.
+[[nodiscard]] reconstruction reconstruct_each_wavelength(const reconstruct_options& options,
+                                                         const gonio::spectral_samples& spectra,
+                                                         const gonio::sample_set& colours);
+
+/// A fit of spectra by `samples` samples, with the solver's report, and its colours.
+[[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const gonio::solve_report& report,
+                                               Eigen::Index samples, const reconstruct_options& options);
 
 /// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
 template <class Relative>

@@ -36,6 +36,7 @@ void add_real_methods(command& app);
 void add_scattered_samples(command& app);
 void add_adaptive_design(command& app);
 void add_in_plane(command& app);
+void add_spectra(command& app);
 void add_near_field_photographs(command& app);
 void add_sphere_photograph(command& app);
 void add_shape_poses(command& app);

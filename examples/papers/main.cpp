@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   papers::add_scattered_samples(app);
   papers::add_adaptive_design(app);
   papers::add_in_plane(app);
+  papers::add_spectra(app);
   papers::add_near_field_photographs(app);
   papers::add_sphere_photograph(app);
   papers::add_shape_poses(app);

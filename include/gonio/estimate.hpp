@@ -14,6 +14,7 @@
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
 #include <gonio/estimate/highlight_contrast.hpp>
 #include <gonio/estimate/leave_one_material_out_error.hpp>
 #include <gonio/estimate/leave_one_out.hpp>

@@ -29,6 +29,7 @@
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/renderer_material.hpp>
 #include <gonio/io/rgl.hpp>
+#include <gonio/io/rgl_spectra.hpp>
 #include <gonio/io/rules.hpp>
 #include <gonio/io/sample_collector.hpp>
 #include <gonio/io/sample_header.hpp>
@@ -39,6 +40,7 @@
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/setup_text.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/spectral_samples.hpp>
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/ssdd.hpp>
 #include <gonio/io/table_npy.hpp>

@@ -9,6 +9,8 @@
 #include <gonio/table/location.hpp>
 #include <gonio/table/material_set.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
+#include <gonio/table/spectral_table.hpp>
 #include <gonio/table/stored_codes.hpp>
 #include <gonio/table/surface_image.hpp>
 #include <gonio/table/tensor_view.hpp>

@@ -97,3 +97,42 @@ TEST_CASE("wavelengths that are no spectrum are refused") {
   refused({400, std::numeric_limits<double>::infinity()}, "wavelength 2");
   refused({20'000, 30'000}, "visible");
 }
+
+TEST_CASE("incandescent light: the standard's values") {
+  // ISO 11664-2, Table 1: relative power of illuminant A.
+  CHECK(gonio::incandescent(380) == doctest::Approx(9.79510).epsilon(1e-5));
+  CHECK(gonio::incandescent(460) == doctest::Approx(37.8121).epsilon(1e-5));
+  CHECK(gonio::incandescent(560) == doctest::Approx(100.0));
+  CHECK(gonio::incandescent(700) == doctest::Approx(198.261).epsilon(1e-5));
+  CHECK(gonio::incandescent(780) == doctest::Approx(241.675).epsilon(1e-5));
+  CHECK(gonio::relative_power(gonio::illuminant::d65, 460) == gonio::daylight(460));
+  CHECK(gonio::relative_power(gonio::illuminant::a, 460) == gonio::incandescent(460));
+}
+
+TEST_CASE("observer and incandescent light together see A's white") {
+  rgb white = rgb::Zero();
+  for (double wavelength = 380; wavelength <= 780; wavelength += 1)
+    white += gonio::incandescent(wavelength) * gonio::colour_matching(wavelength);
+  white /= white.y();
+  CHECK(white.x() == doctest::Approx(1.09850).epsilon(0.01));
+  CHECK(white.z() == doctest::Approx(0.35585).epsilon(0.01));
+}
+
+TEST_CASE("a spectrum of equal reflectance is white under either light, and a red one is brighter under A") {
+  for (const auto light : {gonio::illuminant::d65, gonio::illuminant::a}) {
+    const spectral_colour colour(visible(), light);
+    const rgb white = colour(std::vector<double>(visible().size(), 1.0));
+    CHECK(((white - 1.0).abs() < 1e-6).all());
+    CHECK(((colour(std::vector<float>(visible().size(), 1.0f)) - white).abs() < 1e-6).all());
+  }
+  const spectral_colour daylit(visible()), lamplit(visible(), gonio::illuminant::a);
+  const auto red = band(590, 700);
+  CHECK(gonio::luminance(lamplit(red)) > 1.2 * gonio::luminance(daylit(red)));
+}
+
+TEST_CASE("CIELAB without clipping is that with it inside of the gamut, and tells colours apart outside") {
+  for (const rgb& colour : {rgb(1, 1, 1), rgb(0.2, 0.5, 0.9), rgb(0, 0.01, 0.003)})
+    CHECK(((gonio::unclipped_lab(colour) - gonio::to_lab(colour)).abs() < 0.01).all());
+  CHECK((gonio::unclipped_lab({0.5, -0.1, 0.1}) - gonio::unclipped_lab({0.5, 0.0, 0.1})).abs().maxCoeff() > 1.0);
+  CHECK((gonio::to_lab({0.5, -0.1, 0.1}) == gonio::to_lab({0.5, 0.0, 0.1})).all());
+}

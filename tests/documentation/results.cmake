@@ -12,7 +12,7 @@ foreach(line IN LISTS lines)
   string(REGEX REPLACE "^<!-- gonio-papers (.*) -->$" "quick.md|\\1" entry "${line}")
   list(APPEND quick "${entry}")
 endforeach()
-list(APPEND quick "models.md|model-recovery")
+list(APPEND quick "models.md|model-recovery" "spectra.md|spectra --samples garnet_red.brdf krylon_blue.brdf")
 
 # The file or folder that a command calls by its name; the word itself if it is none; nothing if it is not there.
 function(resolve result word)

@@ -60,3 +60,19 @@ TEST_CASE("of many samples outliers count less, and are not named") {
   CHECK(found.outlier_share < 0.3);
   CHECK(found.kept.weights.minCoeff() >= 0.0);
 }
+
+TEST_CASE("inlier weights say which samples of the given ones are kept, so that others of the same places can be") {
+  for (const Eigen::Index count : {12, 25, 200}) {
+    const auto given = with_wrong_ones(count);
+    const auto found = gonio::screen(screened_estimator(), given);
+    REQUIRE(found.inlier_weights.size() == count);
+    const auto again = gonio::robust_decomposition<gonio::log_relative>::weighted(given, found.inlier_weights);
+    CHECK(again.values == found.kept.values);
+    CHECK(again.weights == found.kept.weights);
+    // As many channels as there are stay.
+    gonio::located_samples wide = given;
+    wide.values = given.values.replicate(1, 3).eval();
+    CHECK(gonio::robust_decomposition<gonio::log_relative>::weighted(wide, found.inlier_weights).values ==
+          found.kept.values.replicate(1, 3));
+  }
+}

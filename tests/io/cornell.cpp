@@ -86,3 +86,18 @@ TEST_CASE("the shared paints: a red and a blue one, positive, with highlights") 
   CHECK(sum(red).x() > 1.5 * sum(red).y());
   CHECK(sum(blue).z() > 1.5 * sum(blue).x());
 }
+
+TEST_CASE("Cornell's spectra as they are, and their colours as before") {
+  const std::string text = start + "0.5 0 0.25 3.1 .1 .2 .3\n0.5 1 0.25 -1.5 0 -1 0.3\n";
+  const auto spectra = gonio::io::parse_cornell_spectra(text, "x");
+  CHECK(spectra.wavelengths == std::vector<double>{450, 550, 650});
+  CHECK(spectra.values(0, 1) == 0.2f);
+  CHECK(spectra.values(1, 1) == -1.0f);
+  const auto colours = spectra.colours(), samples = parse_cornell(text, "x");
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(((colours[i].value - samples[i].value).abs() < 1e-6).all());
+    CHECK(colours[i].angles().theta_h == samples[i].angles().theta_h);
+  }
+  check_refused([] { return gonio::io::parse_cornell_spectra("3\n450 550\n", "x"); }, {"ends before its 3"});
+  check_refused([] { return gonio::io::read_cornell_spectra("/nowhere/paint.brdf"); }, {"/nowhere/paint.brdf"});
+}

@@ -119,6 +119,22 @@ class material_functions {
     return {mapped_, index * count, count, cells_, metric_, columns_, grams_[index]};
   }
 
+  /// All functions of all channels as one basis, for what has no colour channels: of measured materials each channel
+  /// counts as a grey material, as it does for principal components (Nielsen et al. 2015, section 3). A view of 3
+  /// size() functions: red of all, then green, then blue; of those left out none takes part.
+  [[nodiscard]] material_channel<Metric> as_grey() const {
+    std::vector<Eigen::Index> columns;
+    for (Eigen::Index channel = 0; channel < 3; ++channel)
+      for (const Eigen::Index column : *columns_) columns.push_back(channel * size() + column);
+    return {mapped_,
+            0,
+            mapped_->cols(),
+            cells_,
+            metric_,
+            std::make_shared<const std::vector<Eigen::Index>>(std::move(columns)),
+            std::make_shared<detail::gram_on_demand>()};
+  }
+
  protected:
   /// All functions of all channels: cells x 3 size.
   [[nodiscard]] const cell_matrix& mapped() const noexcept { return *mapped_; }

@@ -1,7 +1,7 @@
 #pragma once
 /// Colours of spectral reflectance: CIE 1931 2-degree observer, by the fits of Wyman, Sloan and Shirley, "Simple
-/// Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013 (section 2.2), under CIE standard
-/// illuminant D65 (ISO 11664-2).
+/// Analytic Approximations to the CIE XYZ Color Matching Functions", JCGT 2(2), 2013 (section 2.2), under the CIE
+/// standard illuminants D65 and A (ISO 11664-2).
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/error.hpp>
@@ -42,20 +42,39 @@ namespace gonio {
   return std::lerp(power[below], power[below + 1], position - static_cast<double>(below));
 }
 
+/// Relative power of incandescent light A at a wavelength in nanometres, 100 at 560: Planck's law at 2848 K with the
+/// second radiation constant 1.435e-2 m K, as the standard defines it.
+[[nodiscard]] inline double incandescent(double wavelength) noexcept {
+  constexpr double exponent = 1.435e7 / 2848.0, reference = 560.0;  // nanometres
+  return 100.0 * std::pow(reference / wavelength, 5) * std::expm1(exponent / reference) /
+         std::expm1(exponent / wavelength);
+}
+
+/// What a reflectance is lit by before the observer sees it.
+enum class illuminant { d65, a };
+
+/// Relative power of an illuminant at a wavelength in nanometres, 100 at 560.
+[[nodiscard]] inline double relative_power(illuminant light, double wavelength) noexcept {
+  return light == illuminant::a ? incandescent(wavelength) : daylight(wavelength);
+}
+
 /// Turns reflectance at given wavelengths into linear Rec. 709, by the trapezoidal rule, such that a reflectance that
-/// is the same at all of them is that grey.
+/// is the same at all of them is that grey: XYZ is relative to the illuminant's white, as in CIELAB, and that white is
+/// (1, 1, 1). `unclipped_lab` of it is therefore CIELAB under that illuminant.
 class spectral_colour {
  public:
   /// Wavelengths in nanometres. Throws gonio::error unless there are at least two, finite and ascending, one of which
   /// the observer sees.
-  explicit spectral_colour(std::span<const double> wavelengths) : weights_(std::ssize(wavelengths), 3) {
+  explicit spectral_colour(std::span<const double> wavelengths, illuminant light = illuminant::d65)
+      : weights_(std::ssize(wavelengths), 3) {
     if (wavelengths.size() < 2) refuse("a spectrum needs at least two wavelengths");
     for (Eigen::Index i = 0; i < std::ssize(wavelengths); ++i) {
       if (!std::isfinite(wavelengths[i]) || (i > 0 && !(wavelengths[i] > wavelengths[i - 1])))
         refuse({"wavelength ", i + 1, " of a spectrum is not above the one before"});
       const double from = wavelengths[i == 0 ? 0 : i - 1],
                    to = wavelengths[std::min(i + 1, std::ssize(wavelengths) - 1)];
-      weights_.row(i) = (0.5 * (to - from) * daylight(wavelengths[i]) * colour_matching(wavelengths[i])).transpose();
+      const double power = 0.5 * (to - from) * relative_power(light, wavelengths[i]);
+      weights_.row(i) = (power * colour_matching(wavelengths[i])).transpose();
     }
     const Eigen::Array3d white = weights_.colwise().sum().transpose();
     if (!(white > 0.0).all()) refuse("a spectrum has no visible wavelength");
@@ -71,10 +90,27 @@ class spectral_colour {
     const Eigen::Map<const Eigen::ArrayXd> values(reflectance.data(), weights_.rows());
     return from_xyz((weights_.colwise() * values).colwise().sum().transpose());
   }
+  /// The same of reflectances as they are stored.
+  [[nodiscard]] rgb operator()(std::span<const float> reflectance) const {
+    GONIO_ASSERT(std::ssize(reflectance) == size());
+    rgb xyz(0.0, 0.0, 0.0);
+    for (Eigen::Index band = 0; band < size(); ++band)
+      for (Eigen::Index c = 0; c < 3; ++c) xyz[c] += weights_(band, c) * double{reflectance[band]};
+    return from_xyz(xyz);
+  }
 
  private:
   Eigen::ArrayX3d weights_;
 };
+
+/// CIELAB 1976 (L*, a*, b*) of a `spectral_colour` under its illuminant, in and out of the gamut of Rec. 709: `to_lab`
+/// clips, as a display would.
+[[nodiscard]] inline rgb unclipped_lab(const rgb& colour) noexcept {
+  const rgb relative = to_xyz(colour) / to_xyz(rgb::Ones());
+  const double x = detail::lab_curve(relative.x()), y = detail::lab_curve(relative.y()),
+               z = detail::lab_curve(relative.z());
+  return {116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)};
+}
 
 /// What each of some wavelengths adds to red, green and blue (3 x wavelengths) of a reflectance that is linear between
 /// them and constant outside, as renderers read spectra; integrated every nanometre. Throws as `spectral_colour`.

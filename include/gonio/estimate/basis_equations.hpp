@@ -15,6 +15,13 @@
 
 namespace gonio {
 
+/// The weights of a basis' functions, a column for each channel of what was fitted: colours, wavelengths.
+template <colour_basis Basis>
+struct solved_channels {
+  Basis functions;
+  solution found;
+};
+
 /// Measurements seen through a basis. Row i of a system is the basis interpolated at measurement i, the right-hand side
 /// its mapped value minus the offset there; its weight multiplies the squared error. Channels with a basis and weights
 /// in common share one system, with a right-hand side for each. Rows are read from the basis block by block, never

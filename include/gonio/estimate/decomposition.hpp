@@ -44,9 +44,18 @@ class decomposition {
   /// gonio::error for unusable samples, or if the solver gives up.
   template <class Samples>
   [[nodiscard]] fitted_brdf<Basis> fit(const Samples& samples) const {
-    const basis_equations equations(basis_, locate_samples(basis_.cells(), samples, threads_), threads_);
+    auto [functions, found] = solve_located(locate_samples(cells(), samples, threads_));
+    return {std::move(functions), std::move(found)};
+  }
+
+  /// The same without its end, of samples of any number of channels that are located on the basis' cells: what
+  /// `fit_spectra` goes on with.
+  [[nodiscard]] solved_channels<Basis> solve_located(located_samples samples) const {
+    const basis_equations equations(basis_, std::move(samples), threads_);
     return {basis_, equations.solve(solver_)};
   }
+
+  [[nodiscard]] const auto& cells() const noexcept { return basis_.cells(); }
 
  private:
   Basis basis_;

@@ -75,12 +75,20 @@ class discrepancy_decomposition {
 
   /// The same of samples that are located on the prior's cells.
   [[nodiscard]] fitted_brdf<basis_type> fit_located(located_samples samples) const {
+    auto [functions, found] = solve_located(std::move(samples));
+    return {std::move(functions), std::move(found)};
+  }
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return prior_.cells(); }
+
+  /// The same without its end, of any number of channels: what `fit_spectra` goes on with.
+  [[nodiscard]] solved_channels<basis_type> solve_located(located_samples samples) const {
     if (samples.size() > model_.most_samples)
       samples = samples.subset(random_choice(samples.size(), model_.most_samples, 0));
     samples.weights.array().colwise() *= model_.error_variance / error_variances(samples);
-    const basis_type functions = functions_for(samples);
+    basis_type functions = functions_for(samples);
     const basis_equations equations(functions, std::move(samples), threads_);
-    return {functions, equations.solve(tikhonov(observations() * model_.error_variance))};
+    return {std::move(functions), equations.solve(tikhonov(observations() * model_.error_variance))};
   }
 
   /// The covariance of the samples, errors included, in the metric's domain: n x n. A sample's weight, the mean of its

@@ -29,6 +29,9 @@ struct screened_samples {
   /// samples, empty from `fewest_weighed` on.
   std::vector<outlying_sample> contradicted = {};
   double outlier_share = 0.0;  ///< of all samples; fractions of samples that count in part
+  /// What each of those that were given counts, from 0 to 1: `kept` is what `robust_decomposition::weighted` makes of
+  /// it.
+  Eigen::VectorXd inlier_weights = {};
 };
 
 /// Costs what `reject_outlying` does, or `robust_decomposition::inlier_weights`. Throws gonio::error if the samples'
@@ -44,19 +47,24 @@ template <error_metric Metric>
   const auto n = static_cast<double>(samples.size());
   if (samples.size() < fewest_weighed) {
     sorted_samples sorted = reject_outlying(estimator, samples);
-    if (samples.size() < fewest_left_out) return {samples, {}, std::move(sorted.left_out), 0.0};
-    screened_samples found{samples.subset(sorted.kept), {}, std::move(sorted.left_out)};
-    for (const outlying_sample& out : found.contradicted) found.left_out.push_back(out.number);
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(samples.size());
+    if (samples.size() < fewest_left_out) return {samples, {}, std::move(sorted.left_out), 0.0, std::move(weights)};
+    screened_samples found{samples.subset(sorted.kept), {}, std::move(sorted.left_out), 0.0, std::move(weights)};
+    for (const outlying_sample& out : found.contradicted) {
+      found.left_out.push_back(out.number);
+      found.inlier_weights[out.number] = 0.0;
+    }
     found.outlier_share = static_cast<double>(found.left_out.size()) / n;
     return found;
   }
   const robust_decomposition robust{estimator, {}, threads};
-  const Eigen::VectorXd weights = robust.inlier_weights(samples);
+  Eigen::VectorXd weights = robust.inlier_weights(samples);
   screened_samples found{robust.weighted(samples, weights)};
   for (Eigen::Index i = 0; i < weights.size(); ++i)
     if (weights[i] < 0.5) found.left_out.push_back(i);
   std::ranges::sort(found.left_out, {}, [&](Eigen::Index i) { return std::pair(weights[i], i); });
   found.outlier_share = 1.0 - weights.sum() / n;
+  found.inlier_weights = std::move(weights);
   return found;
 }
 

@@ -7,6 +7,7 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <cmath>
 #include <filesystem>
@@ -29,8 +30,11 @@ class cornell_parser {
 
   /// What was read. Throws gonio::error if that is not a whole measurement.
   [[nodiscard]] sample_set samples() &&;
+  /// The same with all wavelengths.
+  [[nodiscard]] spectral_samples spectra() &&;
 
  private:
+  void require_whole() const;
   void split(std::string_view line);
 
   [[nodiscard]] double number(std::size_t field) const {
@@ -52,6 +56,7 @@ class cornell_parser {
   std::optional<spectral_colour> colour_;
   std::vector<std::string_view> fields_;
   sample_set samples_;
+  std::vector<float> spectra_;
 };
 
 }  // namespace detail
@@ -62,6 +67,10 @@ class cornell_parser {
 
 /// Reads such a file. Throws gonio::error naming file, line and field of what is wrong.
 [[nodiscard]] sample_set read_cornell(const std::filesystem::path& path);
+
+/// The same with the spectra as they are.
+[[nodiscard]] spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_cornell_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -73,8 +73,13 @@ class sample_header {
 
   [[nodiscard]] const std::vector<std::size_t>& columns() const noexcept { return columns_; }
   [[nodiscard]] const column_group& directions() const noexcept { return directions_; }
-  /// r,g,b or the one value; the count is 0 if there is neither.
+  /// r,g,b or the one value, or the wavelengths, which are counted from `ignored` + 1 on; the count is 0 if there is
+  /// none of these.
   [[nodiscard]] const column_group& values() const noexcept { return values_; }
+  /// Of columns that are called by theirs, nanometres, ascending.
+  [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
+  /// What a column is called in messages.
+  [[nodiscard]] std::string name_of(std::size_t column) const;
   /// The columns that say how much a sample counts: one, or one for each channel.
   [[nodiscard]] const column_group& weights() const noexcept { return weights_; }
   [[nodiscard]] bool has_wavelength() const noexcept { return has_wavelength_; }
@@ -89,6 +94,7 @@ class sample_header {
  private:
   void add(const written_column& written, const sample_reading& reading, const text_place& place);
   [[nodiscard]] bool add_known(const written_column& written, const known_name& known, const text_place& place);
+  [[nodiscard]] bool add_wavelength(const written_column& written, const text_place& place);
   void require_named(const sample_reading& reading, const text_place& place) const;
   void find_directions(const text_place& place);
   void find_values(bool needs_value, const text_place& place);
@@ -101,6 +107,7 @@ class sample_header {
 
   csv_dialect dialect_;
   std::vector<std::size_t> columns_, in_radians_;
+  std::vector<double> wavelengths_;
   std::vector<written_column> extra_;
   column_group directions_, values_, weights_ = weight_group;
   stated_quantity quantity_;

@@ -8,7 +8,6 @@
 #include <gonio/io/sample_quantity.hpp>
 #include <gonio/io/text.hpp>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -17,7 +16,8 @@
 
 namespace gonio::io::detail {
 
-using sample_row = std::array<double, sample_columns.size()>;
+/// By the numbers of the columns, those of wavelengths behind the ignored ones.
+using sample_row = std::vector<double>;
 
 /// A line of numbers, in its place.
 struct parsed_row {
@@ -27,6 +27,7 @@ struct parsed_row {
   const column_group& weights;
   std::optional<sample_quantity> quantity;
   const text_place& place;
+  const sample_header& header;
 
   [[nodiscard]] bool has_half_difference() const noexcept { return group.first == half_difference_group.first; }
 };
@@ -41,8 +42,9 @@ class row_reader {
   [[nodiscard]] bool next();
 
   [[nodiscard]] parsed_row row() const noexcept {
-    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), place_};
+    return {numbers_, header_.directions(), header_.values(), header_.weights(), quantity_.quantity(), place_, header_};
   }
+  [[nodiscard]] const sample_header& header() const noexcept { return header_; }
   [[nodiscard]] std::optional<sample_quantity> quantity() const noexcept { return quantity_.quantity(); }
   [[nodiscard]] std::optional<double> wavelength() const noexcept { return wavelength_; }
   [[nodiscard]] const sample_provenance& provenance() const noexcept { return provenance_; }
@@ -71,7 +73,7 @@ class row_reader {
   sample_provenance provenance_;
   std::optional<double> wavelength_;
   std::vector<std::string_view> fields_;
-  sample_row numbers_{};
+  sample_row numbers_ = sample_row(sample_columns.size());
   std::size_t rows_ = 0;
   bool has_percent_signs_ = false, has_signed_angle_ = false;
   std::size_t line_of_unknown_side_ = 0;  ///< where two angles are not 0 and none is negative

@@ -26,7 +26,7 @@ namespace gonio::io {
 struct sample_file {
   sample_set samples = {};                       ///< sr^-1, whatever quantity the file has
   std::optional<sample_quantity> quantity = {};  ///< as stated in the file or by its reader; r,g,b need none
-  std::optional<double> wavelength = {};         ///< nm, if the file has such a column
+  std::optional<double> wavelength = {};         ///< nm, if the file has such a column, or one called by it
   sample_provenance provenance = {};
 };
 

@@ -31,6 +31,8 @@ using brdf_function = std::function<rgb(const direction& wi, const direction& wo
 
 [[nodiscard]] adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, const adaptive_resolution& resolution,
                                                        thread_count threads);
+[[nodiscard]] unit_square_tables tabulated_over(const brdf_function& f, const adaptive_brdf_parts& normals,
+                                                thread_count threads);
 
 }  // namespace detail
 
@@ -45,6 +47,15 @@ template <brdf Brdf>
                                                 thread_count threads = {}) {
   const auto evaluated = [&f](const direction& wi, const direction& wo) -> rgb { return f(wi, wo); };
   return adaptive_brdf(detail::tabulated_adaptively(evaluated, resolution, threads));
+}
+
+/// The reflectance of another BRDF over a material's own normals, as `adaptive_brdf_parts` has it: three wavelengths of
+/// a material, say, that is tabulated in colours. O(theta_i values^2) evaluations of f.
+template <brdf Brdf>
+[[nodiscard]] unit_square_tables tabulate_over(const adaptive_brdf& material, const Brdf& f,
+                                               thread_count threads = {}) {
+  const auto evaluated = [&f](const direction& wi, const direction& wo) -> rgb { return f(wi, wo); };
+  return detail::tabulated_over(evaluated, material.parts(), threads);
 }
 
 }  // namespace gonio::model

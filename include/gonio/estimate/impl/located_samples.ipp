@@ -65,12 +65,12 @@ GONIO_INLINE std::vector<half_difference> located_samples::angles() const {
 
 GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::Index>& positions) const {
   const auto count = std::ssize(positions);
-  located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, 3),
+  located_samples some{std::vector<location>(positions.size()), Eigen::MatrixXd(count, values.cols()),
                        Eigen::MatrixXd(count, weights.cols())};
   for (Eigen::Index i = 0; i < std::ssize(positions); ++i) {
     const Eigen::Index to = i, from = positions[i];
     some.locations[i] = locations[positions[i]];
-    for (Eigen::Index channel = 0; channel < 3; ++channel) some.values(to, channel) = values(from, channel);
+    for (Eigen::Index channel = 0; channel < values.cols(); ++channel) some.values(to, channel) = values(from, channel);
     for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
   }
   return some;

@@ -28,12 +28,24 @@ GONIO_INLINE void cornell_parser::read(std::string_view line) {
     read_sample();
 }
 
-GONIO_INLINE sample_set cornell_parser::samples() && {
+GONIO_INLINE void cornell_parser::require_whole() const {
   if (!colour_)
     gonio::refuse(
         {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
   if (samples_.empty()) gonio::refuse({place_.name, ": has no samples, expected at least one"});
+}
+
+GONIO_INLINE sample_set cornell_parser::samples() && {
+  require_whole();
   return std::move(samples_);
+}
+
+GONIO_INLINE spectral_samples cornell_parser::spectra() && {
+  require_whole();
+  const auto rows = std::ssize(samples_), bands = std::ssize(wavelengths_);
+  spectral_samples found{wavelengths_, {}, Eigen::Map<const cell_matrix>(spectra_.data(), rows, bands)};
+  for (const sample& each : samples_) found.directions.push_back(each.directions);
+  return found;
 }
 
 GONIO_INLINE void cornell_parser::split(std::string_view line) {
@@ -77,6 +89,7 @@ GONIO_INLINE void cornell_parser::read_sample() {
   }
   const direction wi = read_direction(0), wo = read_direction(2);
   samples_.push_back({direction_pair{wi, wo}, (*colour_)(reflectances_), 1.0});
+  for (const double reflectance : reflectances_) spectra_.push_back(static_cast<float>(reflectance));
 }
 
 GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
@@ -99,6 +112,18 @@ GONIO_INLINE sample_set parse_cornell(std::string_view text, const std::string& 
   detail::cornell_parser parser(place);
   detail::for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
   return std::move(parser).samples();
+}
+
+GONIO_INLINE spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name) {
+  detail::text_place place{name, 0};
+  detail::cornell_parser parser(place);
+  detail::for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
+  return std::move(parser).spectra();
+}
+
+GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return parse_cornell_spectra(detail::as_text(bytes), path.string());
 }
 
 GONIO_INLINE sample_set read_cornell(const std::filesystem::path& path) {

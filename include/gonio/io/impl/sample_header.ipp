@@ -141,6 +141,29 @@ enum class column_unit { none, degrees, radians, nanometres, percent, per_sterad
   return nullptr;
 }
 
+/// The nanometres that a column is called by: 400nm, "400 [nm]", w400, lambda_400, or a bare number that may be some; 0
+/// of any other name.
+[[gnu::cold]] [[nodiscard]] GONIO_INLINE double wavelength_named(const written_column& written) {
+  constexpr double least_bare = 100.0, most_bare = 20'000.0;
+  std::string_view name = written.name;
+  bool is_bare = written.unit.empty();
+  if (!is_bare && unit_named(written.unit) != column_unit::nanometres) return 0.0;
+  for (const std::string_view prefix : {"lambda_", "lambda", "wl", "w"})
+    if (is_bare && name.starts_with(prefix)) {
+      name.remove_prefix(prefix.size());
+      is_bare = false;
+    }
+  if (name.ends_with("nm")) {
+    name = trimmed(name.substr(0, name.size() - 2));
+    is_bare = false;
+  }
+  std::string digits(name);  // the header line is above the number that shows the file's decimal mark
+  std::ranges::replace(digits, ',', '.');
+  double nanometres = 0.0;
+  if (read_number(digits, nanometres) != nullptr || !(nanometres > 0.0)) return 0.0;
+  return is_bare && (nanometres < least_bare || nanometres > most_bare) ? 0.0 : nanometres;
+}
+
 [[gnu::cold]] [[nodiscard]] GONIO_INLINE std::size_t column_named(std::string_view name) {
   std::size_t column = 0;
   while (column < sample_columns.size() && sample_columns[column] != name) ++column;
@@ -199,6 +222,8 @@ inline constexpr std::size_t longest_name = 40;
     bool is_another = false;
     for (const column_name& each : reading.columns) is_another |= each.column == sample_columns[known->column];
     if (!is_another && add_known(written, *known, place)) return;
+  } else if (add_wavelength(written, place)) {
+    return;
   }
   columns_.push_back(ignored);
   extra_.push_back(written);
@@ -221,6 +246,23 @@ inline constexpr std::size_t longest_name = 40;
   if (known.quantity) quantity_.state(*known.quantity, message_of({"the name of column ", text}), place);
   if (unit == column_unit::percent) quantity_.state_percent_signs(message_of({"the unit of column ", text}), place);
   return true;
+}
+
+/// False if the name is no wavelength.
+[[gnu::cold]] GONIO_INLINE bool sample_header::add_wavelength(const written_column& written, const text_place& place) {
+  const double nanometres = wavelength_named(written);
+  if (nanometres == 0.0) return false;
+  if (!wavelengths_.empty() && !(nanometres > wavelengths_.back()))
+    place.refuse({"column ", detail::quoted(written.text), " stands behind that of ",
+                  detail::shortest(wavelengths_.back()), " nm, expected wavelengths that ascend, none of them twice"});
+  wavelengths_.push_back(nanometres);
+  columns_.push_back(ignored + wavelengths_.size());
+  return true;
+}
+
+[[gnu::cold]] GONIO_INLINE std::string sample_header::name_of(std::size_t column) const {
+  if (column < ignored) return std::string(sample_columns[column]);
+  return message_of({detail::shortest(wavelengths_[column - ignored - 1]), "nm"});
 }
 
 /// Refuses a file that has not all columns that the caller named.
@@ -255,22 +297,28 @@ inline constexpr std::size_t longest_name = 40;
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_values(bool needs_value, const text_place& place) {
-  const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group);
-  if (is_grey && is_colour) place.refuse("reflectance is given in two ways, expected r,g,b or value");
+  const bool is_grey = has_any(grey_group), is_colour = has_any(colour_group), is_spectral = !wavelengths_.empty();
+  if (int{is_grey} + int{is_colour} + int{is_spectral} > 1)
+    place.refuse({"reflectance is given in two ways, expected r,g,b or value",
+                  is_spectral ? " or columns of wavelengths, as " : "", is_spectral ? name_of(ignored + 1) : ""});
   if (is_grey) values_ = grey_group;
-  if (!is_grey && (is_colour || needs_value)) {
+  if (is_spectral) values_ = {ignored + 1, wavelengths_.size()};
+  if (!is_grey && !is_spectral && (is_colour || needs_value)) {
     require(colour_group, place);
     values_ = colour_group;
   }
   has_wavelength_ = has(wavelength_column);
   if (has_wavelength_ && values_.first == colour_group.first && values_.count > 0)
     place.refuse("r,g,b have no wavelength, expected value");
+  if (has_wavelength_ && is_spectral)
+    place.refuse({"the column wavelength stands beside ", name_of(ignored + 1), ", expected one of them"});
 }
 
 [[gnu::cold]] GONIO_INLINE void sample_header::find_weights(const text_place& place) {
   if (!has_any(channel_weight_group)) return;
   if (has_any(weight_group))
     place.refuse("weights are given in two ways, expected weight or weight_r,weight_g,weight_b");
+  if (!wavelengths_.empty()) place.refuse("wavelengths have one weight, expected weight, not one for each channel");
   require(channel_weight_group, place);
   weights_ = channel_weight_group;
 }
@@ -296,8 +344,10 @@ inline constexpr std::size_t longest_name = 40;
     for (const written_column& each : extra_)
       if (each.name == *near)
         place.refuse({"column '", name, "' is missing: perhaps it is ", detail::quoted(each.text), "; ", looks});
-  place.refuse({"column '", name, "' is missing",
-                colour_group.has(column) ? ", expected r,g,b, or value for one channel; " : "; ", looks});
+  place.refuse(
+      {"column '", name, "' is missing",
+       colour_group.has(column) ? ", expected r,g,b, or value for one channel, or wavelengths, as 400nm; " : "; ",
+       looks});
 }
 
 /// Of lists of names, which may be long, so many are listed.

@@ -75,6 +75,8 @@ GONIO_INLINE bool row_reader::next_line(std::string_view& line) {
   dialect_ = dialect_of(line);
   header_.read(line, dialect_, reading_, needs_value_, place_);
   quantity_.state(header_.quantity(), place_);
+  numbers_.resize(sample_columns.size() + 1 + header_.wavelengths().size());
+  if (header_.wavelengths().size() == 1) wavelength_ = header_.wavelengths().front();
 }
 
 GONIO_INLINE void row_reader::read_fields(std::string_view line) {
@@ -86,7 +88,7 @@ GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   for (std::size_t i = 0; i < fields_.size(); ++i) {
     const std::size_t column = columns[i];
     // A plain number with a decimal point, which nearly all are, is read at once.
-    const bool is_number = column < quantity_column;
+    const bool is_number = column < quantity_column || column > sample_header::ignored;
     if (is_number && dialect_.decimal_mark == '.' && read_number(fields_[i], numbers_[column]) == nullptr) continue;
     if (is_number)
       read_number_of(column, fields_[i], percent_signs);
@@ -110,7 +112,7 @@ GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   }
   if (wrong != nullptr)
     place_.refuse(
-        {"column ", sample_columns[column], ": ", quoted(field), wrong, "; the file looks ", description(dialect_)});
+        {"column ", header_.name_of(column), ": ", quoted(field), wrong, "; the file looks ", description(dialect_)});
 }
 
 /// The file may say in each line what its numbers are, if it is the same in all.
@@ -138,7 +140,8 @@ GONIO_INLINE void row_reader::read_fields(std::string_view line) {
   if (!wavelength_) wavelength_ = given;
   if (*wavelength_ != given)
     place_.refuse({"column wavelength: ", shortest(given), " nm, but ", shortest(*wavelength_),
-                   " nm above: more than one wavelength in a file is not read, expected a file for each"});
+                   " nm above: more than one wavelength in such a column is not read, expected a file for each, or "
+                   "columns called by their wavelengths, as 400nm"});
 }
 
 GONIO_INLINE void row_reader::check_weights() const {

@@ -96,22 +96,31 @@ GONIO_INLINE void require_above_horizon(const cosine_pair& cosine, const parsed_
   return row.weights.count == 1 ? channel_weights(first[0]) : channel_weights(rgb(first[0], first[1], first[2]));
 }
 
+/// Refuses numbers that may be of any quantity: those of r,g,b are a BRDF.
+GONIO_INLINE void require_quantity(const parsed_row& row) {
+  if (row.quantity || row.values.first == colour_group.first) return;
+  row.place.refuse({"the file does not say what the numbers of ", row.header.name_of(row.values.first),
+                    " are, expected a comment line '# quantity: brdf' above, or brdf-cosine, reflectance-factor or "
+                    "percent (--quantity says it of files that do not)"});
+}
+
+GONIO_INLINE void refuse_beyond_float(const parsed_row& row, std::size_t column, double value) {
+  row.place.refuse(
+      {"column ", row.header.name_of(column), ": ", shortest(value), " sr^-1 is beyond the range of float"});
+}
+
 /// The value of a row as a BRDF, sr^-1.
 [[nodiscard]] GONIO_INLINE rgb row_value(const parsed_row& row, const sample_directions& at) {
   const double* given = &row.numbers[row.values.first];
   const bool is_grey = row.values.count == 1;
-  if (is_grey && !row.quantity)
-    row.place.refuse(
-        "the file does not say what the numbers of value are, expected a comment line '# quantity: brdf' above, or "
-        "brdf-cosine, reflectance-factor or percent (--quantity says it of files that do not)");
+  require_quantity(row);
   const double factor = brdf_factor(row.quantity.value_or(sample_quantity::brdf), at.pair().wo);
   rgb value;
   for (Eigen::Index channel = 0; channel < 3; ++channel) {
     const std::size_t field = is_grey ? 0 : static_cast<std::size_t>(channel);
     value[channel] = factor * given[field];
     if (std::abs(value[channel]) > double{std::numeric_limits<float>::max()})
-      row.place.refuse({"column ", sample_columns[row.values.first + field], ": ", shortest(value[channel]),
-                        " sr^-1 is beyond the range of float"});
+      refuse_beyond_float(row, row.values.first + field, value[channel]);
   }
   return value;
 }
@@ -145,6 +154,9 @@ GONIO_INLINE sample_file parse_sample_file(std::string_view text, const std::str
   detail::row_reader rows(text, name, true, reading);
   while (rows.next()) {
     const detail::parsed_row row = rows.row();
+    if (rows.header().wavelengths().size() > 1)
+      gonio::refuse({name, ": has ", rows.header().wavelengths().size(),
+                     " columns of wavelengths, expected r,g,b, or value: io/spectral_samples.hpp reads spectra"});
     const sample_directions at = detail::row_directions(row);
     file.samples.push_back({at, detail::row_value(row, at), detail::row_weight(row)});
   }

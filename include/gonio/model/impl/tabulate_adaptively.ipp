@@ -157,6 +157,39 @@ class visible_normal_quantiles {
   return table;
 }
 
+[[nodiscard]] inline direction half_vector_at(const square_point& at) {
+  return spherical_direction(polar_angle_at(at.along), (2.0 * at.across - 1.0) * std::numbers::pi);
+}
+
+[[nodiscard]] inline double normal_density_at(const unit_square_tables& normals, const square_point& at) {
+  return square_patch(normals, at).value(normals, 0);
+}
+
+[[nodiscard]] inline direction light_at(const adaptive_brdf_parts& parts, Eigen::Index number) {
+  return spherical_direction(std::min(parts.theta_i[number], highest_angle), 0.0);
+}
+
+/// The three tables of f at the theta_i with this number, of the size that `reflectance` has, over the normals of a
+/// material.
+inline void fill_reflectance(const brdf_function& f, const adaptive_brdf_parts& parts, Eigen::Index number,
+                             unit_square_tables& reflectance) {
+  const unit_square_tables& visible = parts.visible_normals;
+  const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
+  const direction wi = light_at(parts, number);
+  const square_point light{0.5, polar_coordinate(wi)};
+  const double area = square_patch(parts.projected_area, light).value(parts.projected_area, 0);
+  const Eigen::Index size = reflectance.rows * reflectance.columns;
+  float* red = reflectance.values.data() + 3 * number * size;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const square_point half = quantiles({unit_coordinate(i / reflectance.columns, reflectance.rows),
+                                         unit_coordinate(i % reflectance.columns, reflectance.columns)});
+    const direction m = half_vector_at(half);
+    const direction wo = 2.0 * m.dot(wi) * m - wi;
+    const rgb value = continued_cosine_value(f, wi, wo) * (4.0 * area / normal_density_at(parts.normals, half));
+    for (Eigen::Index c = 0; c < 3; ++c) red[c * size + i] = static_cast<float>(value[c]);
+  }
+}
+
 /// The tables of a material, filled one theta_i after the other.
 class adaptive_tabulation {
  public:
@@ -172,50 +205,25 @@ class adaptive_tabulation {
 
   /// Of the angle with this number.
   void fill(Eigen::Index number) {
-    const direction wi = spherical_direction(std::min(parts_.theta_i[number], highest_angle), 0.0);
-    fill_visible_normals(number, wi);
-    fill_reflectance(number, wi);
+    fill_visible_normals(number, light_at(parts_, number));
+    fill_reflectance(f_, parts_, number, parts_.reflectance);
   }
 
   [[nodiscard]] adaptive_brdf_parts take() && { return std::move(parts_); }
 
  private:
-  [[nodiscard]] static direction half_vector(const square_point& at) {
-    return spherical_direction(polar_angle_at(at.along), (2.0 * at.across - 1.0) * std::numbers::pi);
-  }
-  [[nodiscard]] double normal_density(const square_point& at) const {
-    return square_patch(parts_.normals, at).value(parts_.normals, 0);
-  }
-
   void fill_visible_normals(Eigen::Index number, const direction& wi) {
     unit_square_tables& visible = parts_.visible_normals;
     Eigen::Index at = number * visible.rows * visible.columns;
     for (Eigen::Index row = 0; row < visible.rows; ++row)
       for (Eigen::Index column = 0; column < visible.columns; ++column) {
         const square_point node{unit_coordinate(row, visible.rows), unit_coordinate(column, visible.columns)};
-        const direction m = half_vector(node);
+        const direction m = half_vector_at(node);
         // Of the unit square, not of solid angle; the factor that is the same everywhere does not matter.
         const double jacobian = node.along * std::hypot(m.x(), m.y());
-        visible.values[at++] = static_cast<float>(normal_density(node) * std::max(wi.dot(m), 0.0) * jacobian);
+        visible.values[at++] =
+            static_cast<float>(normal_density_at(parts_.normals, node) * std::max(wi.dot(m), 0.0) * jacobian);
       }
-  }
-
-  void fill_reflectance(Eigen::Index number, const direction& wi) {
-    const unit_square_tables& visible = parts_.visible_normals;
-    const visible_normal_quantiles quantiles(visible.row(number, 0), visible.rows, visible.columns);
-    const square_point light{0.5, polar_coordinate(wi)};
-    const double area = square_patch(parts_.projected_area, light).value(parts_.projected_area, 0);
-    unit_square_tables& reflectance = parts_.reflectance;
-    const Eigen::Index size = reflectance.rows * reflectance.columns;
-    float* red = reflectance.values.data() + 3 * number * size;
-    for (Eigen::Index i = 0; i < size; ++i) {
-      const square_point half = quantiles({unit_coordinate(i / reflectance.columns, reflectance.rows),
-                                           unit_coordinate(i % reflectance.columns, reflectance.columns)});
-      const direction m = half_vector(half);
-      const direction wo = 2.0 * m.dot(wi) * m - wi;
-      const rgb value = continued_cosine_value(f_, wi, wo) * (4.0 * area / normal_density(half));
-      for (Eigen::Index c = 0; c < 3; ++c) red[c * size + i] = static_cast<float>(value[c]);
-    }
   }
 
   const brdf_function& f_;
@@ -235,6 +243,15 @@ GONIO_INLINE adaptive_brdf_parts tabulated_adaptively(const brdf_function& f, co
   for_each_index(
       resolution.theta_i, 1, [&](Eigen::Index number) { tabulation.fill(number); }, threads);
   return std::move(tabulation).take();
+}
+
+GONIO_INLINE unit_square_tables tabulated_over(const brdf_function& f, const adaptive_brdf_parts& normals,
+                                               thread_count threads) {
+  unit_square_tables reflectance = normals.reflectance;
+  for_each_index(
+      std::ssize(normals.theta_i), 1, [&](Eigen::Index number) { fill_reflectance(f, normals, number, reflectance); },
+      threads);
+  return reflectance;
 }
 
 }  // namespace gonio::model::detail

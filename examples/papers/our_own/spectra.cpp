@@ -1,0 +1,263 @@
+/// gonio-papers spectra: spectral measurements reconstructed wavelength by wavelength, against the same as colours.
+
+#include "command_line/fixed.hpp"
+#include "command_line/measurement_files.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/threads_option.hpp"
+#include "papers/experiments.hpp"
+#include <gonio/core/random.hpp>
+#include <gonio/core/spectrum.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/estimate/discrepancy_decomposition.hpp>
+#include <gonio/estimate/fitted_spectra.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/model/smooth_spectra.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace papers {
+
+namespace {
+
+struct spectra_options {
+  std::vector<std::filesystem::path> samples;
+  std::filesystem::path prior;
+  std::vector<Eigen::Index> counts{5, 20, 100};
+  Eigen::Index repetitions = 20;
+  gonio::thread_count threads;
+};
+
+using spectral_fit_estimator = gonio::discrepancy_decomposition<gonio::log_relative>;
+using gonio::illuminant;
+
+/// Of the directions that were not fitted.
+struct path_errors {
+  double spectral_rms = 0.0;  ///< of ln(f + 0.001), all wavelengths
+  // Mean Delta E under an illuminant, of colours that may be out of the gamut, and of those that a display shows.
+  double daylit = 0.0, lamplit = 0.0;
+  double shown_daylit = 0.0, shown_lamplit = 0.0;
+  double other_lamp = 0.0;  ///< under A, of the spectra where colours were fitted under D65
+};
+
+struct measure {
+  double path_errors::*which;
+  const char* title;
+  int digits;
+};
+
+constexpr std::array measures{
+    measure{&path_errors::spectral_rms, "spectral rms", 3},
+    measure{&path_errors::daylit, "Delta E, D65", 2},
+    measure{&path_errors::lamplit, "Delta E, A", 2},
+    measure{&path_errors::shown_daylit, "clipped, D65", 2},
+    measure{&path_errors::shown_lamplit, "clipped, A", 2},
+    measure{&path_errors::other_lamp, "Delta E, A, fitted under D65", 2},
+};
+
+/// What was not fitted, in one repetition.
+struct held_out {
+  const gonio::spectral_samples& samples;
+  gonio::spectral_colour daylit, lamplit;
+
+  explicit held_out(const gonio::spectral_samples& all)
+      : samples(all), daylit(all.wavelengths), lamplit(all.wavelengths, illuminant::a) {}
+
+  [[nodiscard]] const gonio::spectral_colour& colour(illuminant light) const {
+    return light == illuminant::a ? lamplit : daylit;
+  }
+
+  /// Root mean square of the difference of ln(f + 0.001) over directions and wavelengths; negative values count as
+  /// zero.
+  template <class Spectrum>
+  [[nodiscard]] double rms(const Spectrum& spectrum_in) const {
+    constexpr double offset = 1e-3;
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < samples.size(); ++i) {
+      const Eigen::ArrayXd estimate = spectrum_in(i), truth = truth_in(i);
+      sum += ((estimate.max(0.0) + offset) / (truth.max(0.0) + offset)).log().square().mean();
+    }
+    return std::sqrt(sum / static_cast<double>(samples.size()));
+  }
+
+  /// Mean CIELAB difference of pi f, over the directions in which the material is no brighter than a white diffuser:
+  /// first of colours as they are, then of those that a display shows.
+  template <class Colour>
+  [[nodiscard]] std::pair<double, double> delta_e(illuminant light, const Colour& colour_in) const {
+    double sum = 0.0, shown = 0.0, count = 0.0;
+    for (Eigen::Index i = 0; i < samples.size(); ++i) {
+      const gonio::rgb truth = std::numbers::pi * colour(light)(samples.spectrum(i));
+      if (gonio::luminance(truth) > 1.0) continue;
+      const gonio::rgb estimate = std::numbers::pi * gonio::rgb(colour_in(i));
+      sum += (gonio::unclipped_lab(estimate) - gonio::unclipped_lab(truth)).matrix().norm();
+      shown += gonio::delta_e(estimate, truth);
+      count += 1.0;
+    }
+    return {sum / count, shown / count};
+  }
+
+  [[nodiscard]] Eigen::ArrayXd truth_in(Eigen::Index i) const {
+    return samples.values.row(i).transpose().cast<double>().array();
+  }
+  [[nodiscard]] gonio::rgb colour_of(illuminant light, const Eigen::ArrayXd& spectrum) const {
+    return colour(light)(std::span<const double>(spectrum.data(), static_cast<std::size_t>(spectrum.size())));
+  }
+};
+
+/// Each wavelength as a grey material.
+path_errors fit_wavelengths(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
+                            const held_out& others) {
+  const auto fit = gonio::fit_spectra(estimator, fitted);
+  const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd {
+    const auto& [wi, wo] = others.samples.directions[i].pair();
+    return fit(wi, wo);
+  };
+  const auto under = [&](illuminant light) {
+    return others.delta_e(light, [&](Eigen::Index i) { return others.colour_of(light, spectrum_in(i)); });
+  };
+  const auto [daylit, shown_daylit] = under(illuminant::d65);
+  const auto [lamplit, shown_lamplit] = under(illuminant::a);
+  return {others.rms(spectrum_in), daylit, lamplit, shown_daylit, shown_lamplit, lamplit};
+}
+
+/// What three channels of a colour are fitted.
+enum class colour_space { rgb, xyz };
+
+/// A fit of three channels, as linear Rec. 709: XYZ is relative to white, and not negative.
+class colour_fit {
+ public:
+  colour_fit(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted, colour_space space,
+             illuminant light)
+      : space_(space), fit_(estimator.fit(channels_of(fitted.colours(light), space))) {}
+
+  [[nodiscard]] gonio::rgb operator()(const gonio::direction_pair& at) const {
+    const gonio::rgb found = fit_(at.wi, at.wo);
+    return space_ == colour_space::rgb ? found : gonio::from_xyz(found * gonio::to_xyz(gonio::rgb::Ones()));
+  }
+
+ private:
+  [[nodiscard]] static gonio::sample_set channels_of(gonio::sample_set samples, colour_space space) {
+    if (space == colour_space::xyz)
+      for (gonio::sample& each : samples) each.value = gonio::to_xyz(each.value) / gonio::to_xyz(gonio::rgb::Ones());
+    return samples;
+  }
+
+  colour_space space_;
+  gonio::fitted_brdf<spectral_fit_estimator::basis_type> fit_;
+};
+
+/// Colours under each illuminant; the spectra are the smoothest of those under D65.
+path_errors fit_colours(const spectral_fit_estimator& estimator, const gonio::spectral_samples& fitted,
+                        colour_space space, const gonio::model::smooth_spectra& smooth, const held_out& others) {
+  const colour_fit daylit(estimator, fitted, space, illuminant::d65), lamplit(estimator, fitted, space, illuminant::a);
+  const auto at = [&](Eigen::Index i) { return others.samples.directions[i].pair(); };
+  const auto spectrum_in = [&](Eigen::Index i) -> Eigen::ArrayXd { return smooth(daylit(at(i))); };
+  const auto under_d65 = others.delta_e(illuminant::d65, [&](Eigen::Index i) { return daylit(at(i)); });
+  const auto under_a = others.delta_e(illuminant::a, [&](Eigen::Index i) { return lamplit(at(i)); });
+  const auto other_lamp =
+      others.delta_e(illuminant::a, [&](Eigen::Index i) { return others.colour_of(illuminant::a, spectrum_in(i)); });
+  return {others.rms(spectrum_in), under_d65.first, under_a.first, under_d65.second, under_a.second, other_lamp.first};
+}
+
+/// One way of fitting, in all repetitions.
+using all_errors = std::vector<path_errors>;
+
+/// "0.123 (0.101)": mean and median over the repetitions.
+std::string described(const all_errors& errors, const measure& one) {
+  std::vector<double> all;
+  double sum = 0.0;
+  for (const path_errors& each : errors) {
+    all.push_back(each.*one.which);
+    sum += each.*one.which;
+  }
+  return fixed(sum / static_cast<double>(all.size()), one.digits) + " (" + fixed(gonio::median(all), one.digits) + ")";
+}
+
+/// "18 of 20": repetitions in which the first is nearer.
+std::string wins(const all_errors& first, const all_errors& second, const measure& one) {
+  Eigen::Index count = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) count += first[i].*one.which < second[i].*one.which ? 1 : 0;
+  return std::to_string(count) + " of " + std::to_string(first.size());
+}
+
+struct comparison {
+  all_errors wavelengths, rgb, xyz;
+};
+
+comparison compare(const spectral_fit_estimator& estimator, const gonio::spectral_samples& all, Eigen::Index count,
+                   const spectra_options& given) {
+  const gonio::model::smooth_spectra smooth(all.wavelengths);
+  comparison found;
+  for (Eigen::Index r = 0; r < given.repetitions; ++r) {
+    const std::vector<Eigen::Index> chosen = gonio::random_choice(all.size(), count, r);
+    std::vector<Eigen::Index> rest;
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      if (!std::ranges::binary_search(chosen, i)) rest.push_back(i);
+    const gonio::spectral_samples fitted = all.subset(chosen), unused = all.subset(rest);
+    const held_out others(unused);
+    found.wavelengths.push_back(fit_wavelengths(estimator, fitted, others));
+    found.rgb.push_back(fit_colours(estimator, fitted, colour_space::rgb, smooth, others));
+    found.xyz.push_back(fit_colours(estimator, fitted, colour_space::xyz, smooth, others));
+  }
+  return found;
+}
+
+void print_rows(const std::string& material, Eigen::Index count, const comparison& found) {
+  const auto print_row = [&](const char* name, const auto& entry_of) {
+    std::cout << "| " << material << " | " << count << " | " << name << " |";
+    for (const measure& one : measures) std::cout << ' ' << entry_of(one) << " |";
+    std::cout << '\n';
+  };
+  print_row("wavelengths", [&](const measure& one) { return described(found.wavelengths, one); });
+  print_row("RGB", [&](const measure& one) { return described(found.rgb, one); });
+  print_row("XYZ", [&](const measure& one) { return described(found.xyz, one); });
+  print_row("wavelengths nearer than RGB", [&](const measure& one) { return wins(found.wavelengths, found.rgb, one); });
+  print_row("wavelengths nearer than XYZ", [&](const measure& one) { return wins(found.wavelengths, found.xyz, one); });
+}
+
+void run(const spectra_options& given) {
+  const spectral_fit_estimator estimator{gonio::io::read_prior(given.prior), {}, given.threads};
+  std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
+            << "| material | fitted | what is fitted |";
+  for (const measure& one : measures) std::cout << ' ' << one.title << " |";
+  std::cout << "\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const std::filesystem::path& file : given.samples) {
+    const gonio::spectral_samples all = read_spectra_file(file).samples;
+    for (const Eigen::Index count : given.counts) {
+      if (count >= all.size())
+        gonio::refuse({file.native(), ": no sample is left to judge by after ", count, " of ", all.size()});
+      print_rows(file.stem().string(), count, compare(estimator, all, count, given));
+    }
+  }
+}
+
+}  // namespace
+
+void add_spectra(command& app) {
+  auto command = app.add_subcommand(
+      "spectra", "Spectral measurements reconstructed wavelength by wavelength, against the same as colours");
+  const auto options = std::make_shared<spectra_options>();
+  command
+      .add_input("--samples", options->samples,
+                 "Spectral measurements (.csv with columns like 400nm, or .brdf in Cornell's text format)")
+      .required();
+  add_prior_option(command, options->prior);
+  command.add_option("--counts", options->counts, "Numbers of measurements that are fitted")
+      .check(check::positive_number())
+      .capture_default_str();
+  command.add_option("--repetitions", options->repetitions, "Random sets of each number")
+      .check(check::positive_number())
+      .capture_default_str();
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace papers

@@ -1,0 +1,29 @@
+#pragma once
+/// Spectra in files of the RGL material database (io/rgl.hpp): written of a spectral table, and read in any directions.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/io/rgl.hpp>
+#include <gonio/table/spectral_samples.hpp>
+#include <gonio/table/spectral_table.hpp>
+
+#include <span>
+#include <string>
+
+namespace gonio::io {
+
+/// A spectral table as the spectral variant of a material, for pbrt-v4 and Mitsuba's spectral variants: `write_rgl`
+/// writes it. Throws gonio::error for fewer than two wavelengths, or if none is visible. The cost of
+/// `model::tabulate_adaptively` and of a `model::tabulate_over` for each three wavelengths.
+[[nodiscard]] rgl_material tabulate_adaptively(const spectral_table& table, const std::string& description = "gonio",
+                                               thread_count threads = {});
+
+/// The spectra of a material in some directions, as measurements. Throws gonio::error for a material in RGB, and for
+/// directions at or below the horizon.
+[[nodiscard]] spectral_samples sample_spectra(const rgl_material& material,
+                                              std::span<const sample_directions> directions);
+
+}  // namespace gonio::io
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/io/impl/rgl_spectra.ipp>
+#endif

@@ -1,0 +1,67 @@
+#pragma once
+/// A table of a BRDF's spectra over the valid cells of a grid.
+
+#include <gonio/core/parallel.hpp>
+#include <gonio/core/spectrum.hpp>
+#include <gonio/table/brdf_table.hpp>
+#include <gonio/table/cell_matrix.hpp>
+#include <gonio/table/location.hpp>
+
+#include <Eigen/Core>
+
+#include <span>
+#include <vector>
+
+namespace gonio {
+
+/// Reflectance in sr^-1 at w wavelengths, tabulated over valid cells, cell-major: the spectrum of a cell is contiguous.
+/// 31 wavelengths over MERL's grid take 136 MB. No `brdf`, whose values are colours: `colours` and `at_wavelength` are.
+class spectral_table {
+ public:
+  /// A table of zeros. Wavelengths in nanometres. Throws gonio::error unless they are positive, finite and ascending.
+  spectral_table(valid_cells cells, std::vector<double> wavelengths);
+
+  /// Takes values of shape (cells, w). Throws gonio::error if they have another, too.
+  spectral_table(valid_cells cells, std::vector<double> wavelengths, cell_matrix values);
+
+  [[nodiscard]] const valid_cells& cells() const noexcept { return cells_; }
+  /// Nanometres, ascending.
+  [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
+  /// The number of wavelengths, w.
+  [[nodiscard]] Eigen::Index bands() const noexcept { return values_.cols(); }
+  /// cells x w.
+  [[nodiscard]] const cell_matrix& values() const noexcept { return values_; }
+  [[nodiscard]] cell_matrix& values() noexcept { return values_; }
+
+  /// The w reflectances of a cell.
+  [[nodiscard]] std::span<const float> at(Eigen::Index cell) const noexcept {
+    return {values_.data() + cell * bands(), static_cast<std::size_t>(bands())};
+  }
+
+  /// The spectrum in a pair of directions by trilinear interpolation, w values; zero below the horizon.
+  [[nodiscard]] Eigen::ArrayXf operator()(const direction& wi, const direction& wo) const {
+    if (!(wi.z() > 0.0 && wo.z() > 0.0)) return Eigen::ArrayXf::Zero(bands());
+    return at(locate(cells_, to_half_difference(wi, wo)));
+  }
+
+  /// The same at a location on this table's cells.
+  [[nodiscard]] Eigen::ArrayXf at(const location& place) const;
+
+  /// One wavelength, the same in all three channels.
+  [[nodiscard]] brdf_table at_wavelength(Eigen::Index band) const;
+
+  /// The table as linear Rec. 709 under an illuminant (`spectral_colour`); of one wavelength it is grey. Throws
+  /// gonio::error if none of several wavelengths is visible.
+  [[nodiscard]] brdf_table colours(illuminant light = illuminant::d65, thread_count threads = {}) const;
+
+ private:
+  valid_cells cells_;
+  std::vector<double> wavelengths_;
+  cell_matrix values_;
+};
+
+}  // namespace gonio
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/table/impl/spectral_table.ipp>
+#endif

@@ -1,0 +1,118 @@
+/// gonio reconstruct --spectra, and what reads spectra as colours.
+
+#include "../io/scratch.hpp"
+#include "../json.hpp"
+#include "tool.hpp"
+#include <gonio/io/merl.hpp>
+#include <gonio/io/rgl.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/io/spectral_samples.hpp>
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+/// A blueish paint at some wavelengths: a highlight over a diffuse part that falls with the wavelength.
+gonio::spectral_samples measured_paint(std::vector<double> wavelengths) {
+  gonio::spectral_samples samples{wavelengths, {}, gonio::cell_matrix(18, std::ssize(wavelengths))};
+  for (Eigen::Index i = 0; i < 18; ++i) {
+    const double theta_h = 0.09 * static_cast<double>(i % 6), theta_d = 0.3 + 0.3 * static_cast<double>(i / 6);
+    samples.directions.push_back({theta_h, theta_d, 1.0 + 0.1 * static_cast<double>(i)});
+    for (Eigen::Index band = 0; band < samples.bands(); ++band)
+      samples.values(i, band) = static_cast<float>(60.0 / wavelengths[static_cast<std::size_t>(band)] +
+                                                   0.5 * std::exp(-20.0 * theta_h * theta_h));
+  }
+  return samples;
+}
+
+class measured_files {
+ public:
+  measured_files() {
+    gonio::io::write_spectral_samples(folder_ / "spectra.csv", measured_paint({420, 480, 540, 600, 660}));
+    gonio::io::write_spectral_samples(folder_ / "laser.csv", measured_paint({633}));
+    gonio::io::write_samples(folder_ / "colours.csv", measured_paint({420, 480, 540, 600, 660}).colours());
+  }
+  [[nodiscard]] std::string at(const std::string& name) const { return (folder_ / name).string(); }
+
+ private:
+  scratch::folder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("each wavelength is reconstructed, and written as spectra or as their colours") {
+  const measured_files files;
+  const auto told =
+      parse_json(run("reconstruct " + files.at("spectra.csv") + " --spectra --json -o " + files.at("a.bsdf")));
+  CHECK(told["wavelengths_nm"].size() == 5);
+  CHECK(told["mapped_residual_rms"].size() == 5);
+  CHECK(told["illuminant"] == "D65");
+  const auto material = gonio::io::read_rgl(files.at("a.bsdf"));
+  REQUIRE(material.spectra);
+  CHECK(material.spectra->wavelengths == std::vector<double>{420, 480, 540, 600, 660});
+  CHECK(parse_json(run("info --json " + files.at("a.bsdf")))["wavelengths_nm"].size() == 5);
+
+  CHECK(run("reconstruct " + files.at("spectra.csv") + " --spectra -o " + files.at("d65.binary"))
+            .find("5 wavelengths from 420 to 660 nm") != std::string::npos);
+  run("reconstruct " + files.at("spectra.csv") + " --spectra --illuminant A -o " + files.at("a.binary"));
+  const gonio::direction wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.7, 2.0);
+  const gonio::rgb daylit = gonio::io::read_merl(files.at("d65.binary"))(wi, wo),
+                   lamplit = gonio::io::read_merl(files.at("a.binary"))(wi, wo);
+  CHECK(daylit.z() > 1.1 * daylit.x());
+  CHECK(lamplit.y() < daylit.y());  // of a lamp's light less is blue
+  CHECK(((material.material(wi, wo) / daylit - 1.0).abs() < 0.05).all());
+}
+
+TEST_CASE("spectra are fitted by other penalties, by other solvers and by the materials themselves") {
+  const measured_files files;
+  for (const std::string options : {"--eta 40", "--discrepancy 0", "--solver lasso", "--no-reject", "--method linear",
+                                    "--method linear --solver tikhonov --eta 1"}) {
+    CAPTURE(options);
+    const std::string told =
+        run("reconstruct " + files.at("spectra.csv") + " --spectra " + options + " -o " + files.at("t.binary"));
+    CHECK(told.find("5 wavelengths") != std::string::npos);
+  }
+}
+
+TEST_CASE("without --spectra, spectra are their colours wherever samples are read") {
+  const measured_files files;
+  run("reconstruct " + files.at("spectra.csv") + " -o " + files.at("from_spectra.binary"));
+  run("reconstruct " + files.at("spectra.csv") + " --illuminant D65 -o " + files.at("from_d65.binary"));
+  run("reconstruct " + files.at("colours.csv") + " -o " + files.at("from_colours.binary"));
+  CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_colours.binary")));
+  CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_d65.binary")));
+  const auto facts = parse_json(run("info --json " + files.at("spectra.csv")));
+  CHECK(facts["samples"] == 18);
+}
+
+TEST_CASE("one wavelength is reconstructed as it is, with --spectra and without") {
+  const measured_files files;
+  const auto told =
+      parse_json(run("reconstruct " + files.at("laser.csv") + " --spectra --json -o " + files.at("spectral.binary")));
+  CHECK(told["wavelength_nm"] == 633.0);
+  CHECK(told["wavelengths_nm"].size() == 1);
+  run("reconstruct " + files.at("laser.csv") + " -o " + files.at("grey.binary"));
+  const gonio::direction wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.7, 2.0);
+  const gonio::rgb one = gonio::io::read_merl(files.at("spectral.binary"))(wi, wo),
+                   grey = gonio::io::read_merl(files.at("grey.binary"))(wi, wo);
+  CHECK(one.x() == doctest::Approx(one.z()).epsilon(1e-5));
+  CHECK(one.x() == doctest::Approx(grey.x()).epsilon(1e-5));
+}
+
+TEST_CASE("what has no spectra is refused") {
+  const measured_files files;
+  const std::string output = " -o " + files.at("t.binary");
+  refuses("reconstruct " + files.at("colours.csv") + " --spectra" + output, {"colours.csv", "names no wavelengths"});
+  refuses("reconstruct " + files.at("colours.csv") + " --illuminant A" + output,
+          {"colours.csv", "names no wavelengths"});
+  refuses("reconstruct " + files.at("spectra.csv") + " --spectra --method pull-push" + output,
+          {"--spectra", "pca or linear", "pull-push"});
+  refuses("reconstruct " + files.at("spectra.csv") + " --spectra --misplaced 0.5 --noise 0.02" + output,
+          {"--misplaced", "--spectra"});
+  refuses("reconstruct " + files.at("laser.csv") + " --spectra -o " + files.at("t.bsdf"),
+          {"t.bsdf", "two wavelengths"});
+  refuses("reconstruct " + files.at("spectra.csv") + " --illuminant B" + output, {"--illuminant"});
+}

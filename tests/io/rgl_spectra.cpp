@@ -1,0 +1,81 @@
+#include "scratch.hpp"
+#include <gonio/io/rgl_spectra.hpp>
+#include <gonio/model/ggx.hpp>
+#include <gonio/model/lambert.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+using scratch::check_refused;
+
+namespace {
+
+const gonio::valid_cells& cells() {
+  static const gonio::valid_cells small(gonio::grid({30, 15, 12}));
+  return small;
+}
+
+/// A diffuse material that reflects more of the longer wavelengths.
+gonio::spectral_table diffuse_table() {
+  gonio::spectral_table table(cells(), {420.0, 500.0, 580.0, 660.0});
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell) table.values().row(cell) << 0.05f, 0.1f, 0.2f, 0.3f;
+  return table;
+}
+
+}  // namespace
+
+TEST_CASE("a spectral table is written as a spectral material, and its spectra are read back") {
+  const scratch::folder here;
+  gonio::spectral_table table = diffuse_table();
+  for (Eigen::Index cell = 0; cell < cells().size(); ++cell) {
+    const double theta_h = cells().angles(cell).theta_h;
+    table.values().row(cell).array() += static_cast<float>(0.4 * std::exp(-theta_h * theta_h / 0.1));
+  }
+  const auto path = here / "paint.bsdf";
+  gonio::io::write_rgl(path, gonio::io::tabulate_adaptively(table, "paint"));
+  const auto read = gonio::io::read_rgl(path);
+  REQUIRE(read.spectra);
+  CHECK(read.description == "paint");
+  CHECK(read.spectra->wavelengths == table.wavelengths());
+
+  std::vector<gonio::sample_directions> directions;
+  for (const double theta_h : {0.05, 0.3, 0.6})
+    for (const double theta_d : {0.1, 0.5}) directions.push_back({theta_h, theta_d, 1.2});
+  const gonio::spectral_samples samples = gonio::io::sample_spectra(read, directions);
+  CHECK(samples.wavelengths == table.wavelengths());
+  for (Eigen::Index i = 0; i < samples.size(); ++i) {
+    const auto& [wi, wo] = directions[i].pair();
+    const Eigen::ArrayXf expected = table(wi, wo);
+    for (Eigen::Index band = 0; band < 4; ++band)
+      CHECK(double{samples.values(i, band)} == doctest::Approx(double{expected[band]}).epsilon(0.02));
+  }
+}
+
+TEST_CASE("the tables of three wavelengths are those of the material that has them as channels") {
+  const gonio::spectral_table table = diffuse_table();
+  const auto material = gonio::io::tabulate_adaptively(table);
+  const auto again = gonio::model::tabulate_over(material.material, table.colours());
+  const std::vector<float>& expected = material.material.parts().reflectance.values;
+  REQUIRE(again.values.size() == expected.size());
+  double worst = 0.0, largest = 0.0;  // densities are scaled to 1 meanwhile, which rounds them
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    worst = std::max(worst, std::abs(double{again.values[i]} - double{expected[i]}));
+    largest = std::max(largest, std::abs(double{expected[i]}));
+  }
+  CHECK(worst < 1e-3 * largest);
+  const auto same = gonio::io::tabulate_adaptively(table, "gonio", gonio::thread_count{3});
+  CHECK(same.spectra->values.values == material.spectra->values.values);
+}
+
+TEST_CASE("what is no spectral material is refused") {
+  const gonio::spectral_table laser(cells(), {633.0});
+  check_refused([&] { return gonio::io::tabulate_adaptively(laser); }, {"two wavelengths"});
+  const gonio::spectral_table unseen(cells(), {2000.0, 3000.0});
+  check_refused([&] { return gonio::io::tabulate_adaptively(unseen); }, {"visible"});
+  const gonio::io::rgl_material in_rgb{
+      gonio::model::tabulate_adaptively(gonio::model::lambertian{.albedo = gonio::rgb::Constant(0.5)}, {4, 8, 8, 8}),
+      "",
+      {}};
+  check_refused([&] { return gonio::io::sample_spectra(in_rgb, {}); }, {"in RGB"});
+}
