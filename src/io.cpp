@@ -13,6 +13,7 @@
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
 #include <gonio/io/impl/json_reader.ipp>
+#include <gonio/io/impl/mbsdf.ipp>
 #include <gonio/io/impl/merl.ipp>
 #include <gonio/io/impl/merl_directory.ipp>
 #include <gonio/io/impl/merl_gzip.ipp>

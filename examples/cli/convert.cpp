@@ -23,6 +23,8 @@ void convert(const convert_options& options) {
   const file_kind& kind = written_kind(options.output);
   if (options.how.as_spectra && kind.extensions.front() != ".bsdf")
     gonio::refuse({"--spectra needs an output that ends in .bsdf, not ", options.output.native()});
+  if (options.how.polar_steps != 0 && kind.extensions.front() != ".mbsdf")
+    gonio::refuse({"--polar-steps needs an output that ends in .mbsdf, not ", options.output.native()});
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
 
@@ -34,17 +36,24 @@ void add_convert(command& app) {
   const auto options = std::make_shared<convert_options>();
   command
       .add_input("input", options->input,
-                 "Table (.binary, .binary.gz or .npy), RGL material (.bsdf) or samples (.csv, or a format of "
-                 "instruments), told by its first bytes or else by its name")
+                 "Table (.binary, .binary.gz or .npy), RGL material (.bsdf), MDL measurement (.mbsdf) or samples "
+                 "(.csv, or a format of instruments), told by its first bytes or else by its name")
       .required();
   add_measurement_options(command, options->reading);
   command
-      .add_output("output", options->output, {},
-                  "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), or samples (.csv)")
+      .add_output(
+          "output", options->output, {},
+          "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), measured BSDF of NVIDIA's "
+          "MDL (.mbsdf), or samples (.csv)")
       .required();
   command.add_flag("--spectra", options->how.as_spectra,
                    "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "
                    "of RGB; of a material in RGB, smooth ones of the same colour");
+  command
+      .add_option("--polar-steps", options->how.polar_steps,
+                  "Of a .mbsdf file: steps of each polar angle from 0 to 90 degrees, twice as many of the azimuth from "
+                  "0 to 180; by default as many as a table has of theta_d and phi_d, or 90 and 180")
+      .check(check::range(2, 1024));
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });
 }

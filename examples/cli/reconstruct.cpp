@@ -157,8 +157,8 @@ void add_reconstruct(command& app) {
       .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
       .capture_default_str();
   // Declare what is written.
-  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf"},
-                     "Table to write (.binary, .npy, or .bsdf for renderers)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                     "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
   auto image = command.add_output("--image", options->image, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");

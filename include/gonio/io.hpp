@@ -16,6 +16,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/json_reader.hpp>
+#include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
