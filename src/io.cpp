@@ -21,6 +21,7 @@
 #include <gonio/io/impl/near_field_setup.ipp>
 #include <gonio/io/impl/networks.ipp>
 #include <gonio/io/impl/npy.ipp>
+#include <gonio/io/impl/openmaterial.ipp>
 #include <gonio/io/impl/pnm.ipp>
 #include <gonio/io/impl/prior.ipp>
 #include <gonio/io/impl/reference_reflectance.ipp>

@@ -23,8 +23,8 @@ void convert(const convert_options& options) {
   const file_kind& kind = written_kind(options.output);
   if (options.how.as_spectra && kind.extensions.front() != ".bsdf")
     gonio::refuse({"--spectra needs an output that ends in .bsdf, not ", options.output.native()});
-  if (options.how.polar_steps != 0 && kind.extensions.front() != ".mbsdf")
-    gonio::refuse({"--polar-steps needs an output that ends in .mbsdf, not ", options.output.native()});
+  if (options.how.polar_steps != 0 && kind.extensions.front() != ".mbsdf" && kind.extensions.front() != ".xompt")
+    gonio::refuse({"--polar-steps needs an output that ends in .mbsdf or .xompt, not ", options.output.native()});
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
 
@@ -50,9 +50,11 @@ void add_convert(command& app) {
                    "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "
                    "of RGB; of a material in RGB, smooth ones of the same colour");
   command
-      .add_option("--polar-steps", options->how.polar_steps,
-                  "Of a .mbsdf file: steps of each polar angle from 0 to 90 degrees, twice as many of the azimuth from "
-                  "0 to 180; by default as many as a table has of theta_d and phi_d, or 90 and 180")
+      .add_option(
+          "--polar-steps", options->how.polar_steps,
+          "Of a .mbsdf or .xompt file: steps of each polar angle from 0 to 90 degrees, and twice as many of the "
+          "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
+          "theta_d and phi_d, or 90 and 180")
       .check(check::range(2, 1024));
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });

@@ -3,6 +3,7 @@
 #include "file_start.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/openmaterial.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
@@ -83,6 +84,16 @@ void write_mbsdf(const fs::path& path, const file_content& content, const writin
   io::write_mbsdf(path, as_mbsdf(path, content, how));
 }
 
+void write_openmaterial(const fs::path& path, const file_content& content, const writing& how) {
+  io::openmaterial_metadata metadata{.name = path.stem().string(), .description = "Written by gonio."};
+  if (metadata.name.ends_with("_brdf")) metadata.name.resize(metadata.name.size() - 5);
+  io::openmaterial_steps steps;
+  if (how.polar_steps != 0) steps = {how.polar_steps, 2 * how.polar_steps};
+  io::write_openmaterial(path, with_brdf(path, content, [&](const auto& f) {
+                           return io::format_openmaterial(f, metadata, steps, how.threads);
+                         }));
+}
+
 void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {
   const auto* samples = std::get_if<gonio::sample_set>(&content);
   if (samples == nullptr)
@@ -125,6 +136,7 @@ const std::vector<file_kind>& file_kinds() {
        "NVIDIA ARC MBSDF",
        [](bytes content, const std::string& name) -> file_content { return io::parse_mbsdf(content, name); },
        &write_mbsdf},
+      {"OpenMATERIAL table", {".xompt"}, "", nullptr, &write_openmaterial},
       {"table as an array",
        {".npy"},
        "\x93NUMPY",

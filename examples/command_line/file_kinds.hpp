@@ -28,7 +28,7 @@ using file_content =
 struct writing {
   bool as_spectra = false;  ///< .bsdf: reflectance at wavelengths, instead of in RGB
   Eigen::Index polar_steps =
-      0;  ///< .mbsdf: cells of each polar angle, twice as many of the azimuth; 0: as the content has
+      0;  ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
   gonio::thread_count threads;
 };
 

@@ -24,6 +24,7 @@
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
+#include <gonio/io/openmaterial.hpp>
 #include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>

@@ -76,9 +76,20 @@ TEST_CASE("convert: a table becomes a measurement of MDL, with the steps that it
   files.convert("fine.mbsdf", "table.binary");
   const gonio::brdf_table table = gonio::io::read_merl(files.path("table.binary"));
   CHECK((table(wi, wo) / files.metal(wi, wo) - 1.0).abs().maxCoeff() < 0.03);
-  const std::string said = gonio_tool("info " + files.path("fine.mbsdf")).output;
+  const std::string said = run("info " + files.path("fine.mbsdf"));
   for (const char* words : {"kind: MDL measurement", "grid: [40,40,80]", "channels: 3", "\"name\":\"fine\""})
     CHECK(said.find(words) != std::string::npos);
+}
+
+TEST_CASE("convert: a table becomes one of OpenMATERIAL, which is read as samples") {
+  const small_files files;
+  run("convert --polar-steps 4 " + files.path("t.binary") + " " + files.path("t_brdf.xompt"));
+  CHECK(scratch::get(files.here / "t_brdf.xompt").find("\"name\": \"t\"") != std::string::npos);
+  files.convert("t_brdf.xompt", "s.csv");
+  CHECK(gonio::io::read_samples(files.path("s.csv")).size() == 1 + 3 + 3 + 3 * 3 * 8);
+  CHECK(run("info " + files.path("t_brdf.xompt")).find("format: OpenMATERIAL") != std::string::npos);
+  refuses("convert " + files.path("t.binary") + " " + files.path("t.xompt"), {"t.xompt", "_brdf.xompt"});
+  refuses("convert " + files.path("s.csv") + " " + files.path("s_brdf.xompt"), {"'gonio reconstruct' completes them"});
 }
 
 TEST_CASE("convert: spectral samples become samples in RGB") {
