@@ -6,7 +6,11 @@
 #include "commands.hpp"
 #include <gonio/core/error.hpp>
 
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
 #include <memory>
+#include <string_view>
 
 namespace cli {
 
@@ -21,10 +25,14 @@ struct convert_options {
 void convert(const convert_options& options) {
   // Refused before hours of reading.
   const file_kind& kind = written_kind(options.output);
-  if (options.how.as_spectra && kind.extensions.front() != ".bsdf")
-    gonio::refuse({"--spectra needs an output that ends in .bsdf, not ", options.output.native()});
-  if (options.how.polar_steps != 0 && kind.extensions.front() != ".mbsdf" && kind.extensions.front() != ".xompt")
-    gonio::refuse({"--polar-steps needs an output that ends in .mbsdf or .xompt, not ", options.output.native()});
+  const auto needs = [&](bool asked, const char* option, std::initializer_list<std::string_view> endings) {
+    if (!asked || std::ranges::find(endings, kind.extensions.front()) != endings.end()) return;
+    gonio::refuse({option, " needs an output that ends in ", *endings.begin(), endings.size() > 1 ? " or " : "",
+                   endings.size() > 1 ? *std::prev(endings.end()) : "", ", not ", options.output.native()});
+  };
+  needs(options.how.as_spectra, "--spectra", {".bsdf"});
+  needs(options.how.polar_steps != 0, "--polar-steps", {".mbsdf", ".xompt"});
+  needs(options.how.as_halves, "--half", {".npy"});
   write_file(options.output, read_file(options.input, options.reading), options.how);
 }
 
@@ -56,6 +64,8 @@ void add_convert(command& app) {
           "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
           "theta_d and phi_d, or 90 and 180")
       .check(check::range(2, 1024));
+  command.add_flag("--half", options->how.as_halves,
+                   "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
   add_threads_option(command, options->how.threads);
   command.callback([options] { convert(*options); });
 }

@@ -68,10 +68,14 @@ void write_merl(const fs::path& path, const file_content& content, const writing
 
 /// Such an array has the values at the cells' centres.
 void write_array(const fs::path& path, const file_content& content, const writing& how) {
-  const gonio::brdf_table table = as_table(path, content, how.threads);
+  gonio::brdf_table table = as_table(path, content, how.threads);
   const gonio::grid& cells = table.cells().grid();
-  if (cells.anchor() == gonio::cell_anchor::centre) return io::write_table_npy(path, table);
-  io::write_table_npy(path, gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads));
+  if (cells.anchor() != gonio::cell_anchor::centre)
+    table = gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads);
+  if (how.as_halves)
+    io::write_table_npy_halves(path, table);
+  else
+    io::write_table_npy(path, table);
 }
 
 void write_rgl(const fs::path& path, const file_content& content, const writing& how) {

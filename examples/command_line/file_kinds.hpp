@@ -28,7 +28,8 @@ using file_content =
 struct writing {
   bool as_spectra = false;  ///< .bsdf: reflectance at wavelengths, instead of in RGB
   Eigen::Index polar_steps =
-      0;  ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
+      0;                   ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
+  bool as_halves = false;  ///< .npy: half floats instead of float32
   gonio::thread_count threads;
 };
 

@@ -12,6 +12,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -79,6 +81,20 @@ TEST_CASE("convert: a table becomes a measurement of MDL, with the steps that it
   const std::string said = run("info " + files.path("fine.mbsdf"));
   for (const char* words : {"kind: MDL measurement", "grid: [40,40,80]", "channels: 3", "\"name\":\"fine\""})
     CHECK(said.find(words) != std::string::npos);
+}
+
+TEST_CASE("convert: arrays of half floats are half as large") {
+  const small_files files;
+  files.convert("t.binary", "t.npy");
+  run("convert --half " + files.path("t.binary") + " " + files.path("h.npy"));
+  CHECK(2 * (std::filesystem::file_size(files.here / "h.npy") - 128) ==
+        std::filesystem::file_size(files.here / "t.npy") - 128);
+  files.convert("h.npy", "again.binary");
+  const gonio::brdf_table table = gonio::io::read_merl(files.path("again.binary"));
+  const gonio::direction wi(0.6, 0, 0.8), wo(-0.48, 0.2, std::sqrt(1.0 - 0.48 * 0.48 - 0.04));
+  CHECK((table(wi, wo) / gonio::io::read_merl(files.path("t.binary"))(wi, wo) - 1.0).abs().maxCoeff() < 1e-3);
+  CHECK(run("info " + files.path("h.npy")).find("bytes_of_each: 2") != std::string::npos);
+  refuses("convert --half " + files.path("t.binary") + " " + files.path("new.bsdf"), {"--half needs", ".npy"});
 }
 
 TEST_CASE("convert: a table becomes one of OpenMATERIAL, which is read as samples") {
