@@ -59,8 +59,9 @@ void write_sphere(const reconstruct_options& options, const gonio::brdf_table& t
   gonio::io::write_png(options.image, spheres.front());
 }
 
-void reconstruct_and_write(const reconstruct_options& options, const image_options& how) {
+void reconstruct_and_write(reconstruct_options options, const image_options& how) {
   const gonio::io::sample_file measured = read_measurement_file(options.samples, options.reading);
+  options.provenance = measured.provenance;
   const reconstruction result = reconstruct(options, measured.samples);
   if (!options.output.empty()) write_table(options.output, result.table);
   if (!options.image.empty()) write_sphere(options, result.table, how);
