@@ -15,7 +15,6 @@
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
-#include <gonio/io/half.hpp>
 #include <gonio/io/json_reader.hpp>
 #include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl.hpp>
