@@ -28,7 +28,19 @@ double value(const polar_grid_brdf& f, double theta_i, double theta_o, double ph
                        spherical_direction(radians(theta_o), radians(20.0 + phi)))[1];
 }
 
+/// 0.2 on one side of the plane of light and normal, 0.4 on the other.
+struct lopsided_brdf {
+  rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    return rgb::Constant(wi.x() * wo.y() - wi.y() * wo.x() > 0.0 ? 0.2 : 0.4);
+  }
+};
+
 }  // namespace
+
+TEST_CASE("polar grid: of two sides of the plane of incidence it has the mean") {
+  for (const float value : gonio::model::tabulate_polar(lopsided_brdf{}, {3, 4}).values())
+    CHECK(value == doctest::Approx(0.3));
+}
 
 TEST_CASE("polar grid: values stand at the centres, theta_i slowest and the azimuth fastest") {
   const polar_grid_brdf f = counted();

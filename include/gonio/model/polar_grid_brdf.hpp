@@ -63,8 +63,10 @@ static_assert(brdf<polar_grid_brdf>);
 /// Throws gonio::error unless there is a cell along each axis, and at most 1024 along theta and 2048 along phi.
 void require_polar_grid(const polar_grid& grid);
 
-/// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, else three. Throws gonio::error
-/// as `require_polar_grid` does, and for values that are not finite. Same bytes for any number of threads.
+/// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, else three. A grid has one value
+/// for both sides of the plane of light and normal, from which tables of measurements may differ: it is the mean.
+/// Throws gonio::error as `require_polar_grid` does, and for values that are not finite. Same bytes for any number of
+/// threads.
 template <brdf Brdf>
 [[nodiscard]] polar_grid_brdf tabulate_polar(const Brdf& f, const polar_grid& grid = {}, thread_count threads = {}) {
   require_polar_grid(grid);
@@ -73,7 +75,7 @@ template <brdf Brdf>
       grid.size(), 4096,
       [&](Eigen::Index cell) {
         const auto [wi, wo] = directions_of(grid, cell);
-        const rgb value = f(wi, wo);
+        const rgb value = 0.5 * (rgb(f(wi, wo)) + rgb(f(wi, direction(wo.x(), -wo.y(), wo.z()))));
         for (Eigen::Index c = 0; c < 3; ++c) values[3 * cell + c] = static_cast<float>(value[c]);
       },
       threads);
