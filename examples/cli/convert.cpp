@@ -63,7 +63,7 @@ void add_convert(command& app) {
           "Of a .mbsdf or .xompt file: steps of each polar angle from 0 to 90 degrees, and twice as many of the "
           "azimuth, from 0 to 180 or 360. By default .xompt has 18 and 36, .mbsdf as many as a table has of "
           "theta_d and phi_d, or 90 and 180")
-      .check(check::range(2, 1024));
+      .check(check::range(2, 360));
   command.add_flag("--half", options->how.as_halves,
                    "Of a .npy file: half floats, which have 11 bits and end at 65504, instead of float32");
   add_threads_option(command, options->how.threads);

@@ -50,7 +50,7 @@ gonio::model::polar_grid polar_grid_of(const file_content& content, const writin
   const auto* table = std::get_if<gonio::brdf_table>(&content);
   if (table == nullptr) return {};
   const gonio::grid_extents extents = table->cells().grid().extents();
-  return {std::clamp<Eigen::Index>(extents.theta_d, 2, 1024), std::clamp<Eigen::Index>(extents.phi_d, 2, 2048)};
+  return {std::clamp<Eigen::Index>(extents.theta_d, 2, 360), std::clamp<Eigen::Index>(extents.phi_d, 2, 720)};
 }
 
 io::mbsdf_material as_mbsdf(const fs::path& path, const file_content& content, const writing& how) {

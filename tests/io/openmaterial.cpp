@@ -109,8 +109,8 @@ TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as mat
   check_refused([&] { return gonio::io::write_openmaterial(here / "t.xompt", text), 0; }, {"t.xompt", "_brdf.xompt"});
   CHECK(here.entries() == 1);
   const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)};
-  check_refused([&] { return format_openmaterial(grey, {}, {181, 1}); }, {"1 to 180", "181"});
-  check_refused([&] { return format_openmaterial(grey, {}, {1, 0}); }, {"1 to 720"});
+  check_refused([&] { return format_openmaterial(grey, {}, {61, 1}); }, {"1 to 60", "61"});
+  check_refused([&] { return format_openmaterial(grey, {}, {1, 0}); }, {"1 to 120"});
 }
 
 TEST_CASE("OpenMATERIAL: what is no such file is refused by its line") {

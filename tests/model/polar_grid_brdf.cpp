@@ -102,6 +102,6 @@ TEST_CASE("polar grid: values that do not fit and grids of no cells are refused"
   check_refused([] { return polar_grid_brdf({Eigen::Index{1} << 40, 1}, values(9)); }, {"9 in all"});
   check_refused([] { return polar_grid_brdf({1, 1}, {std::numeric_limits<float>::quiet_NaN()}); }, {"not finite"});
   const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)};
-  check_refused([&] { return gonio::model::tabulate_polar(grey, {2000, 10}); }, {"1 to 1024", "2000"});
-  check_refused([&] { return gonio::model::tabulate_polar(grey, {0, 10}); }, {"1 to 1024"});
+  check_refused([&] { return gonio::model::tabulate_polar(grey, {2000, 10}); }, {"1 to 360", "2000"});
+  check_refused([&] { return gonio::model::tabulate_polar(grey, {0, 10}); }, {"1 to 360"});
 }

@@ -36,7 +36,8 @@ struct openmaterial_steps {
 namespace detail {
 
 /// The directions of the rows of one wavelength, in their order. The light's azimuth is 0, the last zenith angle is
-/// 1.570796, a little above the horizon. Throws gonio::error for fewer than 1 step or more than 180 and 720.
+/// 1.570796, a little above the horizon. Throws gonio::error for fewer than 1 step or more than 60 and 120 (half a
+/// gigabyte).
 [[nodiscard]] std::vector<direction_pair> openmaterial_directions(const openmaterial_steps& steps);
 
 /// The file of colours at these directions. Throws gonio::error for a colour that is not finite.

@@ -60,7 +60,7 @@ static_assert(brdf<polar_grid_brdf>);
 /// The directions at the centre of a cell; the light's azimuth is 0.
 [[nodiscard]] direction_pair directions_of(const polar_grid& grid, Eigen::Index cell) noexcept;
 
-/// Throws gonio::error unless there is a cell along each axis, and at most 1024 along theta and 2048 along phi.
+/// Throws gonio::error unless there is a cell along each axis, and at most 360 along theta and 720 along phi (1.1 GB).
 void require_polar_grid(const polar_grid& grid);
 
 /// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, else three. A grid has one value

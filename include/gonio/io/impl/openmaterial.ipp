@@ -53,8 +53,8 @@ void for_each_openmaterial_row(const openmaterial_steps& steps, Use&& use) {
 }
 
 GONIO_INLINE std::vector<direction_pair> openmaterial_directions(const openmaterial_steps& steps) {
-  if (steps.polar < 1 || steps.polar > 180 || steps.azimuth < 1 || steps.azimuth > 720)
-    refuse({"a table of OpenMATERIAL needs 1 to 180 steps of the zenith and 1 to 720 of the azimuth, not ", steps.polar,
+  if (steps.polar < 1 || steps.polar > 60 || steps.azimuth < 1 || steps.azimuth > 120)
+    refuse({"a table of OpenMATERIAL needs 1 to 60 steps of the zenith and 1 to 120 of the azimuth, not ", steps.polar,
             " and ", steps.azimuth});
   std::vector<direction_pair> pairs;
   for_each_openmaterial_row(steps, [&](double theta_i, double theta_o, double phi) {

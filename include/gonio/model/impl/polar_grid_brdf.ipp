@@ -86,9 +86,8 @@ GONIO_INLINE direction_pair directions_of(const polar_grid& grid, Eigen::Index c
 }
 
 GONIO_INLINE void require_polar_grid(const polar_grid& grid) {
-  if (grid.polar < 1 || grid.azimuth < 1 || grid.polar > 1024 || grid.azimuth > 2048)
-    refuse(
-        {"a polar grid needs 1 to 1024 cells of theta and 1 to 2048 of phi, not ", grid.polar, " and ", grid.azimuth});
+  if (grid.polar < 1 || grid.azimuth < 1 || grid.polar > 360 || grid.azimuth > 720)
+    refuse({"a polar grid needs 1 to 360 cells of theta and 1 to 720 of phi, not ", grid.polar, " and ", grid.azimuth});
 }
 
 }  // namespace gonio::model
