@@ -38,8 +38,8 @@ struct lopsided_brdf {
 }  // namespace
 
 TEST_CASE("polar grid: of two sides of the plane of incidence it has the mean") {
-  for (const float value : gonio::model::tabulate_polar(lopsided_brdf{}, {3, 4}).values())
-    CHECK(value == doctest::Approx(0.3));
+  const polar_grid_brdf f = gonio::model::tabulate_polar(lopsided_brdf{}, {3, 4});
+  for (const float value : f.values()) CHECK(value == doctest::Approx(0.3));
 }
 
 TEST_CASE("polar grid: values stand at the centres, theta_i slowest and the azimuth fastest") {
