@@ -13,6 +13,7 @@
 #include <gonio/io/impl/file.ipp>
 #include <gonio/io/impl/gzip.ipp>
 #include <gonio/io/impl/json_reader.ipp>
+#include <gonio/io/impl/mbsdf.ipp>
 #include <gonio/io/impl/merl.ipp>
 #include <gonio/io/impl/merl_directory.ipp>
 #include <gonio/io/impl/merl_gzip.ipp>
@@ -20,6 +21,7 @@
 #include <gonio/io/impl/near_field_setup.ipp>
 #include <gonio/io/impl/networks.ipp>
 #include <gonio/io/impl/npy.ipp>
+#include <gonio/io/impl/openmaterial.ipp>
 #include <gonio/io/impl/pnm.ipp>
 #include <gonio/io/impl/prior.ipp>
 #include <gonio/io/impl/reference_reflectance.ipp>

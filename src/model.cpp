@@ -11,6 +11,7 @@
 #include <gonio/model/impl/model_loss.ipp>
 #include <gonio/model/impl/network_brdf.ipp>
 #include <gonio/model/impl/physical_properties.ipp>
+#include <gonio/model/impl/polar_grid_brdf.ipp>
 #include <gonio/model/impl/sampling_techniques.ipp>
 #include <gonio/model/impl/smooth_spectra.ipp>
 #include <gonio/model/impl/tabulate_adaptively.ipp>

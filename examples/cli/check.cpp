@@ -31,15 +31,19 @@ struct check_options {
   gonio::thread_count threads;
 };
 
-/// The samples of a file that count: where each is in the file, and where it is on the prior's cells.
+/// The samples of a file that count: where each is in the file, and where it is on the prior's cells; and what the file
+/// says of them.
 struct measured_surface {
   gonio::sample_set counting;
   std::vector<Eigen::Index> numbers;  ///< from 1
   gonio::located_samples located;
+  json facts;
 
   measured_surface(const std::filesystem::path& path, const measurement_options& reading,
                    const gonio::log_relative_pca& prior, gonio::thread_count threads) {
-    const gonio::sample_set all = read_measurements(path, reading);
+    const gonio::io::sample_file file = read_measurement_file(path, reading);
+    const gonio::sample_set& all = file.samples;
+    facts = facts_of(file);
     for (const Eigen::Index i : counting_samples(all)) {
       counting.push_back(all[i]);
       numbers.push_back(i + 1);
@@ -163,7 +167,8 @@ json directions_as_json(const gonio::conformity& found, const measured_surface& 
   return all;
 }
 
-void print_as_json(const check_options& given, const check_result& result, const measured_surface& part) {
+void print_as_json(const check_options& given, const check_result& result, const measured_surface& part,
+                   const measured_surface& reference) {
   const gonio::conformity& found = result.conformity;
   const gonio::measurement_noise& noise = result.options.part;
   json all{{"conforms", result.conforms},
@@ -185,6 +190,8 @@ void print_as_json(const check_options& given, const check_result& result, const
                         {"components", result.familiarity.components},
                         {"discrepancy", result.familiarity.discrepancy},
                         {"errors", result.familiarity.errors}};
+  all["part"] = part.facts;
+  all["reference"] = reference.facts;
   all["directions"] = directions_as_json(found, part);
   std::cout << all.dump(2) << '\n';
 }
@@ -196,7 +203,7 @@ bool check_files(const check_options& given) {
       reference(given.reference, given.reading, prior, given.threads);
   const check_result result = check_part(given, part, reference, prior);
   if (given.print_json)
-    print_as_json(given, result, part);
+    print_as_json(given, result, part, reference);
   else
     print(given, result, part, reference);
   return result.conforms;

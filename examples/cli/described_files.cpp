@@ -11,6 +11,7 @@
 #include <gonio/io/capture_constraint.hpp>
 #include <gonio/io/exposure_times.hpp>
 #include <gonio/io/image.hpp>
+#include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
@@ -125,6 +126,20 @@ json describe_rgl(const path_type& path) {
              {"directions_of_light", theta_i.size()},
              {"theta_i", {rounded_degrees(theta_i.front()), rounded_degrees(theta_i.back())}}};
   if (file.spectra) facts["wavelengths_nm"] = file.spectra->wavelengths;
+  return facts;
+}
+
+json describe_mbsdf(const path_type& path) {
+  const gonio::io::mbsdf_material file = gonio::io::read_mbsdf(path);
+  const gonio::model::polar_grid& cells = file.reflection.grid();
+  const std::span<const float> values = file.reflection.values();
+  json facts{{"kind", "MDL measurement"},
+             {"grid", {cells.polar, cells.polar, cells.azimuth}},
+             {"channels", file.reflection.channels()},
+             {"transmission", file.has_transmission},
+             {"maximum", double{*std::ranges::max_element(values)}},
+             {"negative_values", std::ranges::count_if(values, [](float value) { return value < 0.0f; })}};
+  for (const auto& [key, value] : file.metadata) facts["metadata"][key] = value;
   return facts;
 }
 
@@ -261,6 +276,7 @@ constexpr std::array kinds{
                      return json{{"kind", "shape model"}};
                    }},
     described_kind{[](const file_look& file) { return file.start.starts_with("tensor_file"); }, describe_rgl},
+    described_kind{[](const file_look& file) { return file.start.starts_with("NVIDIA ARC MBSDF"); }, describe_mbsdf},
     described_kind{[](const file_look& file) { return file.start.starts_with("\x93NUMPY"); }, describe_array},
     described_kind{[](const file_look& file) { return file.start.starts_with("\x89PNG"); },
                    [](const path_type& path) { return code_facts("PNG image", gonio::io::read_png_codes(path)); }},

@@ -47,7 +47,8 @@ void require_given_alone(const design_command& command) {
 /// The next measurements beside samples that were made, by what these read.
 void run_given(const design_command& command) {
   require_given_alone(command);
-  const gonio::sample_set samples = read_measurements(command.given, command.reading);
+  const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
+  const gonio::sample_set& samples = measured.samples;
   const gonio::discrepancy_decomposition estimator{
       gonio::io::read_prior(command.prior), {.noise = command.design.noise}, command.design.threads};
   const gonio::measurement_chooser chooser{estimator, command.design.near_field.constraint,
@@ -58,12 +59,11 @@ void run_given(const design_command& command) {
   for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
   gonio::io::write_direction_pairs(command.output, poses);
   if (command.print_json) {
-    std::cout << json{{"measurements", poses.size()},
-                      {"given", samples.size()},
-                      {"median_deviation", deviation},
-                      {"expected_delta_e", chosen.back().expected_delta_e}}
-                     .dump(2)
-              << '\n';
+    json all{{"measurements", poses.size()}, {"given", samples.size()}};
+    all.update(facts_of(measured));
+    all["median_deviation"] = deviation;
+    all["expected_delta_e"] = chosen.back().expected_delta_e;
+    std::cout << all.dump(2) << '\n';
     return;
   }
   std::cout << samples.size() << " samples leave a median deviation of " << fixed(100.0 * deviation, 1) << " %; "

@@ -115,8 +115,8 @@ void add_expand(command& app) {
       .excludes(networks)
       .excludes(weights);
   command
-      .add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf"},
-                  "Table to write (.binary, .npy, or .bsdf for renderers)")
+      .add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                  "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)")
       .required();
   add_threads_option(command, options->threads);
   command.callback([options] {

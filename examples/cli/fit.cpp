@@ -135,8 +135,8 @@ void add_fit(command& app) {
                    "Compare reflectance without the cosine of the light");
   add_cell_weights_option(command, options->cell_weights);
   // Declare what is written.
-  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf"},
-                     "The model as a table to write (.binary, .npy, or .bsdf for renderers)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                     "The model as a table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
   auto image = command.add_output("--image", options->image, {".png"},
                                   "Spheres of measurement (if it is a table) and model to write (.png)");
   add_image_options(command, options->how, image);

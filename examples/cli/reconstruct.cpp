@@ -69,18 +69,20 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
 }
 
-void reconstruct_and_write(const reconstruct_options& options, const image_options& how) {
+void reconstruct_and_write(reconstruct_options options, const image_options& how) {
   gonio::io::sample_file measured;
   std::optional<reconstruction> found;
   if (options.fits_spectra) {
     const gonio::io::spectral_sample_file spectra = read_spectra_file(options.samples, options.reading);
     measured = as_colours(spectra, options.reading.light.value_or(gonio::illuminant::d65));
+    options.provenance = measured.provenance;
     tell_doubts(options.samples, measured);
     if (options.output.extension() == ".bsdf" && spectra.samples.bands() == 1)
       gonio::refuse({options.output.native(), ": spectra need two wavelengths or more: leave out --spectra"});
     found = reconstruct(options, spectra.samples);
   } else {
     measured = read_measurement_file(options.samples, options.reading);
+    options.provenance = measured.provenance;
     found = reconstruct(options, measured.samples);
   }
   const reconstruction& result = *found;
@@ -186,8 +188,8 @@ void add_reconstruct(command& app) {
       .check(check::range(1, static_cast<int>(gonio::scattered_options::most_neighbours)))
       .capture_default_str();
   // Declare what is written.
-  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf"},
-                     "Table to write (.binary, .npy, or .bsdf for renderers)");
+  command.add_output("-o,--output", options->output, {".binary", ".npy", ".bsdf", ".mbsdf"},
+                     "Table to write (.binary, .npy, or .bsdf or .mbsdf for renderers)");
   auto image = command.add_output("--image", options->image, {".png"}, "Image of a sphere to write (.png)");
   add_image_options(command, *how, image);
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");

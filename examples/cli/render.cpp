@@ -1,8 +1,10 @@
 /// gonio render: images of tables, side by side.
 
+#include "command_line/file_start.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include "exr_files.hpp"
 #include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
@@ -29,10 +31,16 @@ struct render_options {
   gonio::thread_count threads;
 };
 
+bool is_exr(const std::filesystem::path& path) { return lower_extension(path) == ".exr"; }
+
+gonio::image read_environment(const std::filesystem::path& path) {
+  return is_exr(path) ? read_exr(path) : gonio::io::read_hdr(path);
+}
+
 void render(const render_options& options) {
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
-    light.emplace(gonio::render::environment_map(gonio::io::read_hdr(options.environment)));
+    light.emplace(gonio::render::environment_map(read_environment(options.environment)));
   progress_bar bar;
   const auto image_of = [&](const gonio::brdf_table& table) {
     if (options.slices) return slice_image(table, options.image, options.threads);
@@ -47,7 +55,11 @@ void render(const render_options& options) {
   std::vector<gonio::image> images;
   for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(images, options.image);
-  gonio::io::write_png(options.output, gonio::render::side_by_side(images, 8));
+  const gonio::image beside = gonio::render::side_by_side(images, 8);
+  if (is_exr(options.output))
+    write_exr(options.output, beside);
+  else
+    gonio::io::write_png(options.output, beside);
 }
 
 }  // namespace
@@ -57,11 +69,14 @@ void add_render(command& app) {
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
   command.add_input("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
-  command.add_output("-o,--output", options->output, {".png"}, "Image to write (.png)").required();
+  command
+      .add_output("-o,--output", options->output, {".png", ".exr"},
+                  "Image to write: .png, or .exr for the values themselves, of slices pi times the BRDF")
+      .required();
   auto slices = command.add_flag("--slices", options->slices,
                                  "Slices at phi_d = 90 degrees: theta_h to the right, theta_d upwards");
   auto environment = command.add_input("--environment", options->environment,
-                                       "Light from all around: a latitude-longitude image (.hdr)");
+                                       "Light from all around: a latitude-longitude image (.hdr or .exr)");
   environment.excludes(slices);
   command
       .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")

@@ -3,6 +3,7 @@
 #include "file_start.hpp"
 #include <gonio/core/error.hpp>
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/openmaterial.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
@@ -22,17 +23,43 @@ using bytes = std::span<const std::byte>;
   gonio::refuse({path.native(), ": is a whole material, and samples are not one: 'gonio reconstruct' completes them"});
 }
 
-gonio::brdf_table as_table(const fs::path& path, const file_content& content, gonio::thread_count threads) {
+/// Calls `use` with the BRDF of a whole material.
+template <class Use>
+auto with_brdf(const fs::path& path, const file_content& content, Use&& use) {
   if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
+  if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return use(*table);
+  if (const auto* material = std::get_if<io::rgl_material>(&content)) return use(material->material);
+  return use(std::get<io::mbsdf_material>(content).reflection);
+}
+
+gonio::brdf_table as_table(const fs::path& path, const file_content& content, gonio::thread_count threads) {
   if (const auto* table = std::get_if<gonio::brdf_table>(&content)) return *table;
-  return gonio::tabulate(std::get<io::rgl_material>(content).material, gonio::valid_cells(), threads);
+  return with_brdf(path, content, [&](const auto& f) { return gonio::tabulate(f, gonio::valid_cells(), threads); });
 }
 
 io::rgl_material as_rgl(const fs::path& path, const file_content& content, gonio::thread_count threads) {
-  if (std::holds_alternative<gonio::sample_set>(content)) refuse_samples(path);
   if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
-  const auto& table = std::get<gonio::brdf_table>(content);
-  return {gonio::model::tabulate_adaptively(table, {}, threads), path.stem().string(), {}};
+  return with_brdf(path, content, [&](const auto& f) -> io::rgl_material {
+    return {gonio::model::tabulate_adaptively(f, {}, threads), path.stem().string(), {}};
+  });
+}
+
+/// As many cells as are asked for; else those of difference angles that a table has, or the usual ones.
+gonio::model::polar_grid polar_grid_of(const file_content& content, const writing& how) {
+  if (how.polar_steps != 0) return {how.polar_steps, 2 * how.polar_steps};
+  const auto* table = std::get_if<gonio::brdf_table>(&content);
+  if (table == nullptr) return {};
+  const gonio::grid_extents extents = table->cells().grid().extents();
+  return {std::clamp<Eigen::Index>(extents.theta_d, 2, 360), std::clamp<Eigen::Index>(extents.phi_d, 2, 720)};
+}
+
+io::mbsdf_material as_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
+  const auto* material = std::get_if<io::mbsdf_material>(&content);
+  if (material != nullptr && how.polar_steps == 0) return *material;
+  return with_brdf(path, content, [&](const auto& f) -> io::mbsdf_material {
+    return {gonio::model::tabulate_polar(f, polar_grid_of(content, how), how.threads),
+            {{"name", path.stem().string()}, {"software", "gonio"}, {"values", "BRDF in 1/sr, linear Rec. 709"}}};
+  });
 }
 
 void write_merl(const fs::path& path, const file_content& content, const writing& how) {
@@ -41,16 +68,34 @@ void write_merl(const fs::path& path, const file_content& content, const writing
 
 /// Such an array has the values at the cells' centres.
 void write_array(const fs::path& path, const file_content& content, const writing& how) {
-  const gonio::brdf_table table = as_table(path, content, how.threads);
+  gonio::brdf_table table = as_table(path, content, how.threads);
   const gonio::grid& cells = table.cells().grid();
-  if (cells.anchor() == gonio::cell_anchor::centre) return io::write_table_npy(path, table);
-  io::write_table_npy(path, gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads));
+  if (cells.anchor() != gonio::cell_anchor::centre)
+    table = gonio::resample(table, gonio::valid_cells(gonio::grid(cells.extents())), how.threads);
+  if (how.as_halves)
+    io::write_table_npy_halves(path, table);
+  else
+    io::write_table_npy(path, table);
 }
 
 void write_rgl(const fs::path& path, const file_content& content, const writing& how) {
   io::rgl_material material = as_rgl(path, content, how.threads);
   if (how.as_spectra && !material.spectra) material.spectra = io::upsampled_spectra(material.material);
   io::write_rgl(path, material);
+}
+
+void write_mbsdf(const fs::path& path, const file_content& content, const writing& how) {
+  io::write_mbsdf(path, as_mbsdf(path, content, how));
+}
+
+void write_openmaterial(const fs::path& path, const file_content& content, const writing& how) {
+  io::openmaterial_metadata metadata{.name = path.stem().string(), .description = "Written by gonio."};
+  if (metadata.name.ends_with("_brdf")) metadata.name.resize(metadata.name.size() - 5);
+  io::openmaterial_steps steps;
+  if (how.polar_steps != 0) steps = {how.polar_steps, 2 * how.polar_steps};
+  io::write_openmaterial(path, with_brdf(path, content, [&](const auto& f) {
+                           return io::format_openmaterial(f, metadata, steps, how.threads);
+                         }));
 }
 
 void write_samples(const fs::path& path, const file_content& content, const writing& /*how*/) {
@@ -90,6 +135,12 @@ const std::vector<file_kind>& file_kinds() {
        {"tensor_file\0", 12},
        [](bytes content, const std::string& name) -> file_content { return io::parse_rgl(content, name); },
        &write_rgl},
+      {"MDL measurement",
+       {".mbsdf"},
+       "NVIDIA ARC MBSDF",
+       [](bytes content, const std::string& name) -> file_content { return io::parse_mbsdf(content, name); },
+       &write_mbsdf},
+      {"OpenMATERIAL table", {".xompt"}, "", nullptr, &write_openmaterial},
       {"table as an array",
        {".npy"},
        "\x93NUMPY",

@@ -4,6 +4,7 @@
 
 #include "measurement_files.hpp"
 #include <gonio/core/parallel.hpp>
+#include <gonio/io/mbsdf.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -18,12 +19,17 @@
 
 namespace cli {
 
-/// What is in a file: a table over a grid, tables that follow the highlight, or samples.
-using file_content = std::variant<gonio::brdf_table, gonio::io::rgl_material, gonio::sample_set>;
+/// What is in a file: a table over half and difference angles, tables that follow the highlight, a table over polar
+/// angles, or samples.
+using file_content =
+    std::variant<gonio::brdf_table, gonio::io::rgl_material, gonio::io::mbsdf_material, gonio::sample_set>;
 
 /// How a file is written.
 struct writing {
   bool as_spectra = false;  ///< .bsdf: reflectance at wavelengths, instead of in RGB
+  Eigen::Index polar_steps =
+      0;                   ///< .mbsdf, .xompt: steps of each polar angle, twice as many of the azimuth; 0: the usual
+  bool as_halves = false;  ///< .npy: half floats instead of float32
   gonio::thread_count threads;
 };
 

@@ -4,6 +4,7 @@
 #include <gonio/io/astm_e1392.hpp>
 #include <gonio/io/bird.hpp>
 #include <gonio/io/cornell.hpp>
+#include <gonio/io/openmaterial.hpp>
 #include <gonio/io/ssdd.hpp>
 #include <gonio/io/zemax_bsdf.hpp>
 
@@ -13,7 +14,7 @@ namespace cli {
 
 namespace {
 
-constexpr std::array<measurement_kind, 5> kinds{{
+constexpr std::array<measurement_kind, 6> kinds{{
     {"Zemax BSDF", [](std::string_view, std::string_view start) { return gonio::io::looks_like_zemax_bsdf(start); },
      gonio::io::read_zemax_bsdf},
     {"SSDD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_ssdd(start); },
@@ -23,6 +24,11 @@ constexpr std::array<measurement_kind, 5> kinds{{
        return extension == ".astm" || gonio::io::looks_like_astm_e1392(start);
      },
      gonio::io::read_astm_e1392},
+    {"OpenMATERIAL",
+     [](std::string_view extension, std::string_view start) {
+       return extension == ".xompt" || gonio::io::looks_like_openmaterial(start);
+     },
+     gonio::io::read_openmaterial},
     {"BiRD", [](std::string_view, std::string_view start) { return gonio::io::looks_like_bird(start); },
      gonio::io::read_bird},
     {"spectral samples of Cornell", [](std::string_view extension, std::string_view) { return extension == ".brdf"; },

@@ -10,6 +10,7 @@
 #include <gonio/estimate/posterior.hpp>
 #include <gonio/estimate/screened_samples.hpp>
 #include <gonio/io/file.hpp>
+#include <gonio/io/sample_provenance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -35,10 +36,11 @@ std::string told(const gonio::outlying_sample& out, Eigen::Index number, const c
 }
 
 /// Of all samples that count: what was measured, what all others say, and by how much it is off.
-void write_residuals(const std::filesystem::path& path, const gonio::log_relative_pca& prior,
+void write_residuals(const reconstruct_options& options, const gonio::log_relative_pca& prior,
                      const gonio::located_samples& located, const gonio::left_out_predictions& others,
                      const std::vector<Eigen::Index>& numbers, const std::vector<Eigen::Index>& left_out) {
-  std::string text = "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
+  std::string text = gonio::io::comment_lines(options.provenance);
+  text += "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
   const Eigen::VectorXd disagreement = others.disagreement();
   for (Eigen::Index i = 0; i < located.size(); ++i) {
     const gonio::location& at = located.locations[i];
@@ -55,7 +57,7 @@ void write_residuals(const std::filesystem::path& path, const gonio::log_relativ
     append(disagreement[i]);
     text += std::ranges::count(left_out, i) > 0 ? ",1\n" : ",0\n";
   }
-  gonio::io::write_atomically(path, std::as_bytes(std::span(text)));
+  gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
 }
 
 using known_values = gonio::posterior<gonio::log_relative>;
@@ -153,7 +155,7 @@ reconstruction reconstruct_by(const fit_function& fit, const reconstruct_options
   gonio::screened_samples screened{located};
   if (!options.keeps_all) screened = gonio::screen(estimator, located, options.threads);
   if (!options.residuals.empty())
-    write_residuals(options.residuals, prior, located,
+    write_residuals(options, prior, located,
                     gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)), numbers,
                     screened.left_out);
 

@@ -24,6 +24,7 @@ namespace cli {
 struct reconstruct_options {
   std::filesystem::path samples, output, image, history, iteration_figure, truth;
   measurement_options reading;
+  gonio::io::sample_provenance provenance = {};  ///< of the samples: stands above the residuals
   std::string method = "pca", metric, gamma = "auto";
   double root = 2.0, angular_error = 0.0;
   std::optional<double> noise;

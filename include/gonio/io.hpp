@@ -16,6 +16,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/gzip.hpp>
 #include <gonio/io/json_reader.hpp>
+#include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/merl_directory.hpp>
 #include <gonio/io/merl_gzip.hpp>
@@ -23,6 +24,7 @@
 #include <gonio/io/near_field_setup.hpp>
 #include <gonio/io/networks.hpp>
 #include <gonio/io/npy.hpp>
+#include <gonio/io/openmaterial.hpp>
 #include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/quantise.hpp>

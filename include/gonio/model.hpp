@@ -18,6 +18,7 @@
 #include <gonio/model/network_brdf.hpp>
 #include <gonio/model/phong.hpp>
 #include <gonio/model/physical_properties.hpp>
+#include <gonio/model/polar_grid_brdf.hpp>
 #include <gonio/model/sampling_techniques.hpp>
 #include <gonio/model/smooth_spectra.hpp>
 #include <gonio/model/sum_of_lobes.hpp>

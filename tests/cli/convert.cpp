@@ -2,6 +2,7 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
+#include <gonio/io/mbsdf.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/rgl.hpp>
 #include <gonio/io/samples.hpp>
@@ -11,6 +12,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <string>
 
 namespace {
@@ -59,6 +62,52 @@ TEST_CASE("convert: tables and arrays of numpy become one another, by their firs
   CHECK(scratch::get(files.here / "third.binary") == scratch::get(files.here / "t.binary"));
 }
 
+TEST_CASE("convert: a table becomes a measurement of MDL, with the steps that it has or that are asked for") {
+  const small_files files;
+  files.convert("t.binary", "t.mbsdf");
+  const gonio::io::mbsdf_material same = gonio::io::read_mbsdf(files.path("t.mbsdf"));
+  CHECK(same.reflection.grid() == gonio::model::polar_grid{15, 30});
+  CHECK(same.metadata.at("name") == "t");
+  run("convert --polar-steps 40 " + files.path("t.binary") + " " + files.path("fine.mbsdf"));
+  const gonio::io::mbsdf_material fine = gonio::io::read_mbsdf(files.path("fine.mbsdf"));
+  CHECK(fine.reflection.grid() == gonio::model::polar_grid{40, 80});
+  const gonio::direction wi(0.6, 0, 0.8), wo(-0.48, 0.2, std::sqrt(1.0 - 0.48 * 0.48 - 0.04));
+  CHECK((fine.reflection(wi, wo) / files.metal(wi, wo) - 1.0).abs().maxCoeff() < 0.03);
+  files.convert("fine.mbsdf", "again.mbsdf");
+  CHECK(scratch::get(files.here / "again.mbsdf") == scratch::get(files.here / "fine.mbsdf"));
+  files.convert("fine.mbsdf", "table.binary");
+  const gonio::brdf_table table = gonio::io::read_merl(files.path("table.binary"));
+  CHECK((table(wi, wo) / files.metal(wi, wo) - 1.0).abs().maxCoeff() < 0.03);
+  const std::string said = run("info " + files.path("fine.mbsdf"));
+  for (const char* words : {"kind: MDL measurement", "grid: [40,40,80]", "channels: 3", "\"name\":\"fine\""})
+    CHECK(said.find(words) != std::string::npos);
+}
+
+TEST_CASE("convert: arrays of half floats are half as large") {
+  const small_files files;
+  files.convert("t.binary", "t.npy");
+  run("convert --half " + files.path("t.binary") + " " + files.path("h.npy"));
+  CHECK(2 * (std::filesystem::file_size(files.here / "h.npy") - 128) ==
+        std::filesystem::file_size(files.here / "t.npy") - 128);
+  files.convert("h.npy", "again.binary");
+  const gonio::brdf_table table = gonio::io::read_merl(files.path("again.binary"));
+  const gonio::direction wi(0.6, 0, 0.8), wo(-0.48, 0.2, std::sqrt(1.0 - 0.48 * 0.48 - 0.04));
+  CHECK((table(wi, wo) / gonio::io::read_merl(files.path("t.binary"))(wi, wo) - 1.0).abs().maxCoeff() < 1e-3);
+  CHECK(run("info " + files.path("h.npy")).find("bytes_of_each: 2") != std::string::npos);
+  refuses("convert --half " + files.path("t.binary") + " " + files.path("new.bsdf"), {"--half needs", ".npy"});
+}
+
+TEST_CASE("convert: a table becomes one of OpenMATERIAL, which is read as samples") {
+  const small_files files;
+  run("convert --polar-steps 4 " + files.path("t.binary") + " " + files.path("t_brdf.xompt"));
+  CHECK(scratch::get(files.here / "t_brdf.xompt").find("\"name\": \"t\"") != std::string::npos);
+  files.convert("t_brdf.xompt", "s.csv");
+  CHECK(gonio::io::read_samples(files.path("s.csv")).size() == 1 + 3 + 3 + 3 * 3 * 8);
+  CHECK(run("info " + files.path("t_brdf.xompt")).find("format: OpenMATERIAL") != std::string::npos);
+  refuses("convert " + files.path("t.binary") + " " + files.path("t.xompt"), {"t.xompt", "_brdf.xompt"});
+  refuses("convert " + files.path("s.csv") + " " + files.path("s_brdf.xompt"), {"'gonio reconstruct' completes them"});
+}
+
 TEST_CASE("convert: spectral samples become samples in RGB") {
   const small_files files;
   scratch::put(files.here / "s.brdf", std::string("3\n450 550 650\n0.1 0 0.2 1 0.5 0.5 0.5\n"));
@@ -84,6 +133,9 @@ TEST_CASE("convert: what cannot be is refused in one sentence, and nothing is wr
   refused("t.binary", "new.csv", {"new.csv", "'gonio sample'"});
   refused("absent.binary", "new.bsdf", {"absent.binary", "No such file"});
   refuses("convert --spectra " + files.path("t.binary") + " " + files.path("new.npy"), {"--spectra needs", ".bsdf"});
+  refuses("convert --polar-steps 9 " + files.path("t.binary") + " " + files.path("new.npy"),
+          {"--polar-steps needs", ".mbsdf"});
+  refuses("convert --polar-steps 0 " + files.path("t.binary") + " " + files.path("new.mbsdf"), {"--polar-steps"});
   refuses("convert " + files.path("t.binary") + " " + files.path("t.binary"), {"would overwrite what is read"});
 }
 

@@ -124,6 +124,31 @@ TEST_CASE("a file from a spreadsheet is read as it is") {
   run("check " + file.path + " --reference " + file.path + columns + " --noise 0.02");
 }
 
+TEST_CASE("where samples come from stands in what is found of them") {
+  const one_file file;
+  std::string scan = "# instrument: GON 360\n# date: 2026-11-25\n# conditions: 23 C\ntheta_h,theta_d,phi_d,r,g,b\n";
+  for (const char* row : {"2,10,0", "10,20,30", "20,30,60", "30,40,90", "40,20,120", "15,50,150"})
+    scan += row + std::string(",0.1,0.1,0.1\n");
+  file.put(scan);
+  const std::string residuals = (file.folder / "residuals.csv").string();
+  run("reconstruct " + file.path + " --residuals " + residuals);
+  CHECK(scratch::get(residuals).starts_with(
+      "# instrument: GON 360\n# date: 2026-11-25\n# conditions: 23 C\nsample,r,g,b,"));
+  CHECK(run("info " + residuals).find("what the others say of each sample") != std::string::npos);
+  const std::string checked = run("check " + file.path + " --reference " + file.path + " --noise 0.02 --json");
+  const std::string told = "\"instrument\": \"GON 360\"";
+  for (const char* key : {"\"part\": {", "\"reference\": {"}) {
+    const std::size_t at = checked.find(key);
+    REQUIRE(at != std::string::npos);
+    CHECK(checked.find(told, at) < checked.find('}', at));
+  }
+  const std::string designed =
+      run("design -n 1 --json --given " + file.path + " -o " + (file.folder / "next.csv").string());
+  for (const std::string& words :
+       {told, std::string("\"date\": \"2026-11-25\""), std::string("\"conditions\": \"23 C\"")})
+    CHECK(designed.find(words) != std::string::npos);
+}
+
 TEST_CASE("options on samples need samples") {
   const one_file file;
   const std::string table = (file.folder / "paint.binary").string(), out = (file.folder / "out.csv").string();

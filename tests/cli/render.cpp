@@ -2,13 +2,16 @@
 
 #include "../io/scratch.hpp"
 #include "tool.hpp"
+#include <gonio/io/exr.hpp>
 #include <gonio/io/image.hpp>
 #include <gonio/io/merl.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/render/environment_map.hpp>
+#include <gonio/render/slice.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <string>
 
 namespace {
@@ -64,6 +67,33 @@ TEST_CASE("gonio render: bright spheres are not blown out, and all of an image a
   // The red sphere beside the bright one is darker than by itself.
   CHECK(gonio::pixel(both, 40, 112).x() < 0.9 * gonio::pixel(draw(given.at("red.binary")), 40, 40).x());
 }
+
+#if defined(GONIO_HAS_EXR)
+TEST_CASE("gonio render: an .exr image has the values themselves, and may be the environment") {
+  const rendered_folder given;
+  run("render --slices --size 64 " + given.table + " -o " + given.at("slice.exr"));
+  const gonio::image slice = gonio::io::read_exr(given.at("slice.exr"));
+  const gonio::brdf_table table = gonio::io::read_merl(given.table);
+  const gonio::image expected = gonio::render::render_slice(table, {.rows = 64, .columns = 64});
+  REQUIRE(slice.shape(0) == 80u);
+  double worst = 0.0, brightest = 0.0;
+  for (std::size_t row = 0; row < 64; ++row)
+    for (std::size_t column = 0; column < 64; ++column) {
+      const gonio::rgb value = gonio::pixel(slice, row + 8, column + 8);
+      worst = std::max(worst, (value - gonio::pixel(expected, row, column)).abs().maxCoeff());
+      brightest = std::max(brightest, value.maxCoeff());
+    }
+  CHECK(worst == 0.0);
+  CHECK(brightest > 1.0);  // a PNG ends there
+  const std::string sky = given.at("sky.exr");
+  gonio::io::write_exr(sky, gonio::io::read_hdr(given.sky));
+  const std::string rest = " --quality 2 --size 32 " + given.table + " -o " + given.at("s.exr");
+  run("render --environment " + given.sky + rest);
+  const std::string by_hdr = scratch::get(given.at("s.exr"));
+  run("render --environment " + sky + rest);
+  CHECK(scratch::get(given.at("s.exr")) == by_hdr);
+}
+#endif
 
 TEST_CASE("a table as an array of numpy") {
   const rendered_folder given;

@@ -64,8 +64,14 @@ def merl(h, d, p):
 def npy(values, shape, descr="<f4", version=1):
     dictionary = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': {shape}, }}\n"
     length = struct.pack("<H" if version == 1 else "<I", len(dictionary))
-    code = "f" if descr.endswith("4") else "d"
+    code = {"2": "e", "4": "f", "8": "d"}[descr[-1]]
     return b"\x93NUMPY" + bytes([version, 0]) + length + dictionary.encode() + struct.pack(f"<{len(values)}{code}", *values)
+
+
+def mbsdf_block(ident, channels, polar, azimuth):
+    count = channels * polar * polar * azimuth
+    head = f"MBSDF_DATA{ident}=\n".encode() + struct.pack("<3I", channels // 3, polar, azimuth)
+    return head + struct.pack(f"<{count}f", *(0.1 * (i % 7) for i in range(count)))
 
 
 def tensor_file(arrays):
@@ -215,6 +221,15 @@ put("exposure_times", "times.csv", "# two\nfile,seconds\na.png,0.004\nb.png, 1/2
 put("exposure_times", "one.csv", "file,seconds\r\na b.ppm,4e-3\r\n")
 put("pnm", "rgb.ppm", b"P6\n# made up\n2 2\n255\n" + bytes(range(12)))
 put("pnm", "grey16.pgm", b"P5 3 1 4095\n" + struct.pack(">3H", 0, 7, 4095))
+mbsdf = b"NVIDIA ARC MBSDF V1\n"
+put("mbsdf", "scalar.mbsdf", mbsdf + mbsdf_block("", 1, 2, 3))
+put("mbsdf", "rgb.mbsdf", mbsdf + b'name="red \\"car\\" paint"\nnote="a\\nb"\n' + mbsdf_block("_REFLECTION", 3, 2, 2))
+put("mbsdf", "both.mbsdf", mbsdf + mbsdf_block("_REFLECTION", 1, 1, 1) + mbsdf_block("_TRANSMISSION", 1, 2, 1))
+xompt = '{"metadata": {"name": "x", "openMaterial3dVersion": "1.0.0"}, "brdf": {"wavelengths": [%s], "lookupTable": [%s]}}'
+put("openmaterial", "lidar_brdf.xompt", xompt % ("9.05e-07", "[9.05e-07, 0.5, 0, 0, 0.02], [9.05e-07, 0.5, 0.25, 3.141593, null]"))
+rows = ",\n".join(f"[{nm}e-9, 0.4, {theta}, 6.283185, 0.{nm}]" for nm in (450, 550, 650) for theta in (0, 0.5, 1.570796))
+put("openmaterial", "camera_brdf.xompt", xompt % ("450e-9, 550e-9, 650e-9", rows))
+put("npy", "half.npy", npy([1.0, -2.0, 65504.0], "(3,)", "<f2"))
 put("exr", "small.exr", exr(3, 2))
 put("exr", "one.exr", exr(1, 1))
 put("tiff", "rgb16.tif", tiff(3, 2, 16, 3, 2))
@@ -252,7 +267,7 @@ words = {
     "gzip": ['\\x1F\\x8B\\x08', '\\x78\\x9C', '\\x78\\xDA', '\\x00\\x00\\xFF\\xFF', '\\x03\\x00'],
     "prior": ['gonio-pca', 'gonio-split', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x10\\x00\\x00', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F', '\\x00\\x00\\xC0\\x7F'],
     "shape_model": ['gonio-shapes', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x00\\x80', '\\x78\\xDA', '\\x00\\x00\\x80\\x7F'],
-    "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
+    "npy": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f2'", "'<f4'", "'<f8'", "'>f4'", 'True', 'False', '(', ')', ',', '{', '}', ':', '18446744073709551615', '\\x1B'],
     "networks": ['\\x93NUMPY', "'descr'", "'fortran_order'", "'shape'", "'<f4'", "'<f8'", '(1, 675)', '(2, 675)', '(0, 675)', '\\x0A', '\\x00', '\\x1B'],
     "samples": ['theta_h', 'theta_d', 'phi_d', 'theta_i', 'phi_i', 'theta_o', 'phi_o', 'wi_x', 'wi_y', 'wi_z', 'wo_x', 'wo_y', 'wo_z', 'weight', 'r,g,b', ',', '\\x0A', '#', '1e308', '-0', 'nan', 'inf', '89.9999999', '-89.9999989', '1e-320', '\\xEF\\xBB\\xBF', 'value', 'brdf', 'quantity', 'wavelength', 'percent', 'reflectance-factor', '# quantity: ', '# instrument: ', '[rad]', '[%]', '%', ';', '\\x09', '"', '0,5', ' '],
     "zemax_bsdf": ['Source', 'Measured', 'Symmetry', 'SpectralContent', 'Monochrome', 'XYZ', 'TristimulusX', 'ScatterType', 'BRDF', 'SampleRotation', 'AngleOfIncidence', 'ScatterAzimuth', 'ScatterRadial', 'DataBegin', 'DataEnd', 'TIS', '1000000', '1e308', '-360', '180', 'nan', '#', '\\x0A'],
@@ -260,6 +275,8 @@ words = {
     "ssdd": ['VERSION 0.3', 'DATA_TYPE', 'brdf', 'btdf', 'specular_reflectance', 'COLOR_MODEL', 'monochrome', 'rgb', 'xyz', 'spectrum', 'WAVELENGTH_LIST', 'PARAM_TYPE', 'spherical_coordinate_system', 'specular_coordinate_system', 'half_difference_coordinate_system', 'REDUCTION_TYPE', 'PARAM0_LIST', 'PARAM1_LIST', 'PARAM2_LIST', 'PARAM3_LIST', 'PARAM4_LIST', 'DATA', 'ascii', 'binary', '1e308', '360', 'nan', '# ', '\\x0A', '\\x00\\x00\\x80\\x7F'],
     "bird": ['"metadata"', '"data"', '"theta_i"', '"phi_i"', '"theta_r"', '"phi_r"', '"BRDF"', '"uBRDF"', '"wavelength_i"', '"wavelength_r"', '"polarization_i"', '"polarization_r"', '"adhoc_variables"', '"unit"', '"values"', '"uncertainty"', '"value"', '"deg"', '"rad"', '"sr^-1"', '"%"', '"nm"', '"s"', '"p"', '"u"', '[1,-1,0,0]', '{', '}', '[', ']', ':', ',', '1e308', 'null', '\\\\u001b', '\\\\ud83d'],
     "spectral_samples": ['theta_h,theta_d,phi_d', 'theta_i,phi_i,theta_o,phi_o', '400nm', '[nm]', 'w500', 'lambda_600', ',700', 'wavelength', 'value', 'weight', '# quantity: brdf', '# quantity: percent', '1e308', 'nan', '-0', '\\x0A', ';', '%', '"'],
+    "mbsdf": ['NVIDIA ARC MBSDF V1\\x0A', 'MBSDF_DATA=\\x0A', 'MBSDF_DATA_REFLECTION=\\x0A', 'MBSDF_DATA_TRANSMISSION=\\x0A', '="', '"\\x0A', '\\x01\\x00\\x00\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x00\\x80\\x7F'],
+    "openmaterial": ['"metadata"', '"openMaterial3dVersion"', '"brdf"', '"lookupTable"', '"wavelengths"', '[9.05e-07, ', '4.5e-07', '1.570796', '6.283185', '3.141593', '0.01716', 'null', '1e308', '{', '}', '[', ']', ':', ',', '\\x0A'],
     "cornell": ['400', '700', '1.5707963267948966', '6.2831853', '10000', '1e308', 'nan', '\\x0A', '#', '-0'],
     "capture_constraint": ['light', 'viewer', 'separation', 'light_step', 'forbid', '#', '\\x0A', '90', '180', '-1', '1e308', 'nan'],
     "near_field_setup": ['size', 'focal_length', 'principal_point', 'position', 'target', 'up', 'rotation', 'light', 'light_angles', 'irradiance', 'lamp', 'intensity', 'field_of_view', 'distortion', 'white_reflectance', 'white_plane', 'region', 'window', 'saturation', 'block', '#', '\\x0A', '1000000', '1e308', '1e-308', '0', '-1'],

@@ -169,3 +169,33 @@ TEST_CASE("damaged npy files are read or refused") {
   scratch::check_survives_damage(bytes_of(npy(dictionary, six)), 5000,
                                  [](auto bytes) { return parse_npy<double, 2>(bytes, "x"); });
 }
+
+TEST_CASE("npy: half floats are read and written, rounded to the nearest") {
+  const std::string halves = "{'descr': '<f2', 'fortran_order': False, 'shape': (6,), }\n";
+  // numpy.array([1, -2, 65504, 2**-24, 0.1, 2**-14], dtype='<f2').tobytes()
+  const std::string bytes("\x00\x3c\x00\xc0\xff\x7b\x01\x00\x66\x2e\x00\x04", 12);
+  const auto array = parse_npy<float, 1>(bytes_of(npy(halves, bytes)), "a.npy");
+  CHECK(array(0) == 1.0f);
+  CHECK(array(1) == -2.0f);
+  CHECK(array(2) == 65504.0f);
+  CHECK(array(3) == 0x1p-24f);
+  CHECK(array(4) == 0.0999755859375f);
+  CHECK(array(5) == 0x1p-14f);
+  CHECK(parse_npy<double, 1>(bytes_of(npy(halves, bytes)), "a.npy")(4) == 0.0999755859375);
+  int other = 0;
+  for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
+    const float value = gonio::io::detail::from_half(static_cast<std::uint16_t>(bits));
+    other += std::isnan(value) || gonio::io::detail::to_half(value) == bits ? 0 : 1;
+  }
+  CHECK(other == 0);
+  const scratch::folder here;
+  gonio::io::write_npy_halves(here / "h.npy", array);
+  const std::string written = scratch::get(here / "h.npy");
+  CHECK(written.size() == 128 + 12);
+  CHECK(written.ends_with(bytes));
+  CHECK(same(read_npy<float, 1>(here / "h.npy"), array));
+  const xt::xtensor<float, 2> large{{1.0f, 65519.0f}, {7e4f, 0.0f}};
+  check_refused([&] { return gonio::io::write_npy_halves(here / "l.npy", large), 0; },
+                {"l.npy", "element 2 is 70000", "65504"});
+  CHECK(here.entries() == 1);
+}

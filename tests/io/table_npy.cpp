@@ -2,6 +2,8 @@
 #include <gonio/io/table_npy.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <limits>
 
 using gonio::io::read_npy;
@@ -51,4 +53,18 @@ TEST_CASE("an array is read as the table that it was written of") {
   wrong(0, 0, 0, 1) = std::numeric_limits<float>::infinity();
   gonio::io::write_npy(folder / "wrong.npy", wrong);
   scratch::check_refused([&] { return parse(folder / "wrong.npy"); }, {"wrong.npy", "cell 0", "not finite"});
+}
+
+TEST_CASE("a table as half floats takes half the room, and each value 11 bits") {
+  const scratch::folder folder;
+  gonio::brdf_table table(gonio::valid_cells(gonio::grid({8, 5, 6})));
+  for (std::size_t i = 0; i < table.values().size(); ++i) table.values()[i] = 0.1f * static_cast<float>(i);
+  gonio::io::write_table_npy_halves(folder / "h.npy", table);
+  CHECK(std::filesystem::file_size(folder / "h.npy") == 128 + 2 * 3 * 8 * 5 * 6);
+  const auto again = gonio::io::parse_table_npy(gonio::io::read_bytes(folder / "h.npy"), "h.npy");
+  for (std::size_t i = 0; i < table.values().size(); ++i)
+    CHECK(std::abs(again.values()[i] - table.values()[i]) <= 0x1p-11f * table.values()[i]);
+  table.values()[4] = 1e5f;
+  scratch::check_refused([&] { return gonio::io::write_table_npy_halves(folder / "l.npy", table), 0; },
+                         {"l.npy", "100000", "half floats"});
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Arrays of float32 or float64 in numpy's .npy format, in C order. The caller says the number of
+/// Arrays of float32, float64 or, of halves, float16 in numpy's .npy format, in C order. The caller says the number of
 /// dimensions: `read_npy<float, 2>("networks.npy")` is an xt::xtensor<float, 2>.
 /// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 ///
@@ -100,12 +100,30 @@ void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std
   }
 }
 
+/// The number that the bits of a half float stand for, and the bits of the nearest half float (IEEE 754 binary16: 11
+/// bits of precision, up to 65504, in steps of 2^-24 below 2^-14; infinity beyond).
+[[nodiscard]] float from_half(std::uint16_t bits) noexcept;
+[[nodiscard]] std::uint16_t to_half(float value) noexcept;
+
+/// The same of half floats.
+template <std::floating_point T>
+void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    std::uint16_t bits = 0;
+    std::memcpy(&bits, bytes.data() + i * sizeof bits, sizeof bits);
+    out[i] = from_half(bits);
+  }
+}
+
+/// What stands before the elements of a file of version 1.0, as numpy writes it: they begin at a multiple of 64 bytes.
+[[nodiscard]] std::string npy_header(std::string_view type, const std::string& shape);
+
 }  // namespace detail
 
 template <class T>
 concept npy_element = std::same_as<T, float> || std::same_as<T, double>;
 
-/// An array from the bytes of an .npy file, converted to T where it holds the other type; `name` is what
+/// An array from the bytes of an .npy file, converted to T where it holds another type; `name` is what
 /// errors call it. NaN and infinity are left to whoever uses the array.
 template <npy_element T, std::size_t Rank>
 [[nodiscard]] xt::xtensor<T, Rank> parse_npy(std::span<const std::byte> bytes, const std::string& name) {
@@ -120,7 +138,9 @@ template <npy_element T, std::size_t Rank>
   std::ranges::copy(layout.shape, shape.begin());
   xt::xtensor<T, Rank> array(shape);
   const std::span<T> elements(array.data(), layout.count);
-  if (layout.word_size == sizeof(float))
+  if (layout.word_size == sizeof(std::uint16_t))
+    detail::copy_halves(bytes, elements);
+  else if (layout.word_size == sizeof(float))
     detail::copy_elements<float>(bytes, elements, name);
   else
     detail::copy_elements<double>(bytes, elements, name);
@@ -136,18 +156,29 @@ template <npy_element T, std::size_t Rank>
 /// Writes an array as numpy itself would (version 1.0).
 template <npy_element T, std::size_t Rank>
 void write_npy(const std::filesystem::path& path, const xt::xtensor<T, Rank>& array) {
-  std::string dictionary = std::string("{'descr': '<f") + (sizeof(T) == 4 ? "4" : "8") +
-                           "', 'fortran_order': False, 'shape': " + detail::npy_shape_text(array.shape()) + ", }";
-  // The elements begin at a multiple of 64 bytes, after a line feed.
-  const std::size_t before = detail::npy_magic.size() + 4;
-  dictionary.resize((before + dictionary.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
-  dictionary += '\n';
-  const std::string header = std::string(detail::npy_magic) + '\x01' + '\x00' +
-                             static_cast<char>(dictionary.size() % 256) + static_cast<char>(dictionary.size() / 256) +
-                             dictionary;
+  const std::string header = detail::npy_header(sizeof(T) == 4 ? "<f4" : "<f8", detail::npy_shape_text(array.shape()));
   write_atomically(path, [&](file_writer& file) {
     file.write(std::as_bytes(std::span(header)));
     file.write(std::as_bytes(std::span(array.data(), array.size())));
+  });
+}
+
+/// Writes an array as half floats, half as large; each number is rounded to 11 bits. Throws gonio::error naming the
+/// first that is beyond their range.
+template <std::size_t Rank>
+void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float, Rank>& array) {
+  std::vector<std::uint16_t> halves(array.size());
+  for (std::size_t i = 0; i < halves.size(); ++i) {
+    const float value = array.data()[i];
+    halves[i] = detail::to_half(value);
+    if (std::isfinite(value) && !std::isfinite(detail::from_half(halves[i])))
+      gonio::refuse({path.native(), ": element ", i, " is ", double{value},
+                     ", beyond the range of half floats, 65504: write float32"});
+  }
+  const std::string header = detail::npy_header("<f2", detail::npy_shape_text(array.shape()));
+  write_atomically(path, [&](file_writer& file) {
+    file.write(std::as_bytes(std::span(header)));
+    file.write(std::as_bytes(std::span(halves)));
   });
 }
 

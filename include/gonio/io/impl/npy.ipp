@@ -5,6 +5,7 @@
 #include <gonio/io/file.hpp>
 #include <gonio/io/npy.hpp>
 
+#include <Eigen/Core>
 #include <xtensor/xtensor.hpp>
 
 #include <algorithm>
@@ -55,10 +56,11 @@ GONIO_INLINE void npy_header_parser::parse_entry() {
 }
 
 GONIO_INLINE npy_layout npy_header_parser::layout() const {
-  if (*descr_ != "<f4" && *descr_ != "<f8")
-    refuse("holds elements of type '" + std::string(*descr_) + "', expected '<f4' or '<f8' (little-endian floats)");
+  if (*descr_ != "<f2" && *descr_ != "<f4" && *descr_ != "<f8")
+    refuse("holds elements of type '" + std::string(*descr_) +
+           "', expected '<f2', '<f4' or '<f8' (little-endian floats)");
   if (*order_) refuse("holds an array in Fortran order, expected C order (numpy.ascontiguousarray makes it so)");
-  npy_layout found{*descr_ == "<f4" ? std::size_t{4} : std::size_t{8}, *shape_};
+  npy_layout found{static_cast<std::size_t>(descr_->back() - '0'), *shape_};
   constexpr std::size_t most = std::numeric_limits<std::ptrdiff_t>::max() / 8;
   // An extent of 0 must not hide that the others overflow.
   std::size_t product = 1;
@@ -145,6 +147,23 @@ GONIO_INLINE npy_layout take_npy_header(std::span<const std::byte>& bytes, const
   npy_layout layout = npy_header_parser(text.substr(begin, length), name).parse();
   bytes = bytes.subspan(begin + length);
   return layout;
+}
+
+GONIO_INLINE float from_half(std::uint16_t bits) noexcept {
+  return static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(bits)));
+}
+
+GONIO_INLINE std::uint16_t to_half(float value) noexcept { return static_cast<Eigen::half>(value).x; }
+
+GONIO_INLINE std::string npy_header(std::string_view type, const std::string& shape) {
+  std::string dictionary = message_of({"{'descr': '", type, "', 'fortran_order': False, 'shape': ", shape, ", }"});
+  const std::size_t before = npy_magic.size() + 4;
+  dictionary.resize((before + dictionary.size() + 1 + 63) / 64 * 64 - before - 1, ' ');
+  dictionary += '\n';
+  std::string header(npy_magic);
+  for (const std::size_t byte : {std::size_t{1}, std::size_t{0}, dictionary.size() % 256, dictionary.size() / 256})
+    header += static_cast<char>(byte);
+  return header + dictionary;
 }
 
 }  // namespace gonio::io::detail

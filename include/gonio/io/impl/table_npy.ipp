@@ -14,7 +14,9 @@
 
 namespace gonio::io {
 
-GONIO_INLINE void write_table_npy(const std::filesystem::path& path, const brdf_table& table) {
+namespace detail {
+
+[[nodiscard]] inline xt::xtensor<float, 4> table_as_array(const brdf_table& table) {
   const grid& cells = table.cells().grid();
   const auto [theta_h, theta_d, phi_d] = cells.extents();
   const auto wide = [](int extent) { return static_cast<std::size_t>(extent); };
@@ -24,7 +26,17 @@ GONIO_INLINE void write_table_npy(const std::filesystem::path& path, const brdf_
     for (std::size_t channel = 0; channel < 3; ++channel)
       array.data()[3 * cell + channel] = static_cast<float>(value[channel]);
   }
-  write_npy(path, array);
+  return array;
+}
+
+}  // namespace detail
+
+GONIO_INLINE void write_table_npy(const std::filesystem::path& path, const brdf_table& table) {
+  write_npy(path, detail::table_as_array(table));
+}
+
+GONIO_INLINE void write_table_npy_halves(const std::filesystem::path& path, const brdf_table& table) {
+  write_npy_halves(path, detail::table_as_array(table));
 }
 
 GONIO_INLINE brdf_table parse_table_npy(std::span<const std::byte> bytes, const std::string& name) {

@@ -1,0 +1,96 @@
+#pragma once
+/// Isotropic materials on a uniform grid of both polar angles and the difference of the azimuths, as renderers of
+/// NVIDIA's Material Definition Language hold measurements (MDL specification 1.10.2, appendix B).
+
+#include <gonio/core/brdf.hpp>
+#include <gonio/core/parallel.hpp>
+
+#include <Eigen/Core>
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace gonio::model {
+
+/// How many cells there are, all of the same size in angle. An azimuth of 0 is the light's own side, 180 degrees that
+/// of the mirror direction.
+struct polar_grid {
+  Eigen::Index polar = 90;     ///< of theta_i from 0 to 90 degrees, and of theta_o
+  Eigen::Index azimuth = 180;  ///< of |phi_o - phi_i| from 0 to 180 degrees
+
+  [[nodiscard]] Eigen::Index size() const noexcept { return polar * polar * azimuth; }
+
+  friend bool operator==(const polar_grid&, const polar_grid&) = default;
+};
+
+/// A BRDF in sr^-1 given at the centres of the cells of a polar grid, trilinear between them, constant beyond the
+/// outermost. A value type whose copies share the values.
+///
+/// Measurements are not reciprocal. As the `brdf` concept asks for it, and as MDL's renderers do, the value is the mean
+/// of both orders of the directions; `as_measured` has each.
+class polar_grid_brdf {
+ public:
+  /// Takes one value for each cell, or three (linear Rec. 709), theta_i slowest, then theta_o, then the azimuth. Throws
+  /// gonio::error unless there are that many, all finite.
+  polar_grid_brdf(const polar_grid& grid, std::vector<float> values);
+
+  [[nodiscard]] const polar_grid& grid() const noexcept { return grid_; }
+  [[nodiscard]] std::span<const float> values() const noexcept { return *values_; }
+  /// 1 or 3.
+  [[nodiscard]] Eigen::Index channels() const noexcept { return channels_; }
+
+  /// Zero below the horizon. O(1).
+  [[nodiscard]] rgb operator()(const direction& wi, const direction& wo) const noexcept {
+    return 0.5 * (as_measured(wi, wo) + as_measured(wo, wi));
+  }
+
+  /// The same with the light at `wi` and the viewer at `wo`.
+  [[nodiscard]] rgb as_measured(const direction& wi, const direction& wo) const noexcept;
+
+ private:
+  polar_grid grid_;
+  Eigen::Index channels_ = 3;
+  std::shared_ptr<const std::vector<float>> values_;
+};
+
+static_assert(brdf<polar_grid_brdf>);
+
+/// The directions at the centre of a cell; the light's azimuth is 0.
+[[nodiscard]] direction_pair directions_of(const polar_grid& grid, Eigen::Index cell) noexcept;
+
+/// Throws gonio::error unless there is a cell along each axis, and at most 360 along theta and 720 along phi (1.1 GB).
+void require_polar_grid(const polar_grid& grid);
+
+/// Evaluates a BRDF at the centres of all cells: one channel if it is grey everywhere, else three. A grid has one value
+/// for both sides of the plane of light and normal, from which tables of measurements may differ: it is the mean.
+/// Throws gonio::error as `require_polar_grid` does, and for values that are not finite. Same bytes for any number of
+/// threads.
+template <brdf Brdf>
+[[nodiscard]] polar_grid_brdf tabulate_polar(const Brdf& f, const polar_grid& grid = {}, thread_count threads = {}) {
+  require_polar_grid(grid);
+  std::vector<float> values(3 * grid.size());
+  for_each_index(
+      grid.size(), 4096,
+      [&](Eigen::Index cell) {
+        const auto [wi, wo] = directions_of(grid, cell);
+        const rgb value = 0.5 * (rgb(f(wi, wo)) + rgb(f(wi, direction(wo.x(), -wo.y(), wo.z()))));
+        for (Eigen::Index c = 0; c < 3; ++c) values[3 * cell + c] = static_cast<float>(value[c]);
+      },
+      threads);
+  bool grey = true;
+  for (Eigen::Index cell = 0; grey && cell < grid.size(); ++cell)
+    grey = values[3 * cell] == values[3 * cell + 1] && values[3 * cell] == values[3 * cell + 2];
+  if (grey) {
+    for (Eigen::Index cell = 0; cell < grid.size(); ++cell) values[cell] = values[3 * cell];
+    values.resize(grid.size());
+  }
+  return {grid, std::move(values)};
+}
+
+}  // namespace gonio::model
+
+#if !defined(GONIO_COMPILED)
+#include <gonio/model/impl/polar_grid_brdf.ipp>
+#endif

@@ -1,0 +1,133 @@
+#include "scratch.hpp"
+#include <gonio/io/openmaterial.hpp>
+#include <gonio/model/ggx.hpp>
+#include <gonio/model/lambert.hpp>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+using gonio::degrees;
+using gonio::rgb;
+using gonio::io::format_openmaterial;
+using gonio::io::parse_openmaterial;
+using scratch::check_refused;
+
+namespace {
+
+std::string file_of(const std::string& rows) {
+  return "{\"metadata\": {\"name\": \"x\", \"openMaterial3dVersion\": \"1.0.0\"},\n\"brdf\": {\"wavelengths\": "
+         "[9e-07],\n"
+         "\"lookupTable\": [\n" +
+         rows + "\n]}}\n";
+}
+
+gonio::sample_set parsed(const std::string& rows) { return parse_openmaterial(file_of(rows), "asphalt_brdf.xompt"); }
+
+void check_xompt_refused(const std::string& text, std::initializer_list<std::string> words) {
+  CAPTURE(text);
+  check_refused([&] { return parse_openmaterial(text, "asphalt_brdf.xompt"); }, {"asphalt_brdf.xompt"});
+  check_refused([&] { return parse_openmaterial(text, "asphalt_brdf.xompt"); }, words);
+}
+
+/// The same value everywhere, which is below zero.
+struct negative_brdf {
+  rgb operator()(const gonio::direction&, const gonio::direction&) const noexcept { return rgb::Constant(-0.5); }
+};
+
+}  // namespace
+
+TEST_CASE("OpenMATERIAL: rows of one wavelength are grey samples of light and viewer") {
+  const auto samples = parsed("[9.05e-07, 0.5, 0.25, 3.141593, 0.02],\n[9.05e-07, 0.5, 0.75, 1.570796, 0.03]");
+  REQUIRE(samples.size() == 2);
+  CHECK(gonio::polar_angle(samples[0].directions.pair().wi) == doctest::Approx(0.5));
+  CHECK(gonio::polar_angle(samples[0].directions.pair().wo) == doctest::Approx(0.25));
+  CHECK(samples[0].directions.pair().wo.x() < 0.0);  // on the mirror direction's side
+  CHECK(degrees(gonio::azimuth(samples[1].directions.pair().wo)) == doctest::Approx(90.0));
+  CHECK((samples[0].value == 0.02).all());
+  CHECK((samples[1].value == 0.03).all());
+}
+
+TEST_CASE("OpenMATERIAL: a direction is one sample; rows with null and at the horizon are none") {
+  const auto samples = parsed(
+      "[9e-7, 0, 0.25, 0, 0.1], [9e-7, 0, 0.25, 1.5, 0.3], [9e-7, 0.4, 0.25, 0, 1], [9e-7, 0.4, 0.25, 6.283185, 3],"
+      "[9e-7, 0.4, 0.25, 1, null], [null, 0.4, 0.2, 1, 5], [9e-7, 1.570796, 0.25, 1, 7], [9e-7, 0.4, 1.570796, 1, 7]");
+  REQUIRE(samples.size() == 2);
+  CHECK(samples[0].value[0] == doctest::Approx(0.2));
+  CHECK(samples[1].value[0] == doctest::Approx(2.0));
+}
+
+TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order") {
+  const auto flat = parsed("[4.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.3], [6.5e-7, 0.4, 0.2, 0, 0.3]");
+  REQUIRE(flat.size() == 1);
+  CHECK((flat[0].value - 0.3).abs().maxCoeff() < 1e-6);
+  const auto red = parsed("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1], [4.5e-7, 0.4, 0.2, 0, 0.1]");
+  CHECK(red[0].value[0] > 1.5 * red[0].value[2]);
+}
+
+TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material") {
+  const gonio::model::ggx gold{.alpha = 0.5, .f0 = rgb(0.9, 0.6, 0.3)};
+  const std::string text = format_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8});
+  CHECK(gonio::io::looks_like_openmaterial(text.substr(0, 1000)));
+  for (const char* words : {"\"name\": \"gold \\\"leaf\\\"\"", "without the cosine", "\"license\": \"NOASSERTION\"",
+                            "\"wavelengths\": [380e-9, 400e-9,", "[380e-9, 1.570796, 1.570796, 6.283185, "})
+    CHECK_MESSAGE(text.find(words) != std::string::npos, words);
+  const auto samples = parse_openmaterial(text, "gold_brdf.xompt");
+  CHECK(samples.size() == 1 + 5 + 5 + 5 * 5 * 8);
+  double worst = 0.0;
+  for (const auto& each : samples) {
+    const auto pair = each.directions.pair();
+    worst = std::max(worst, (each.value / gold(pair.wi, pair.wo) - 1.0).abs().maxCoeff());
+  }
+  CHECK(worst < 0.02);  // renderers' spectra are linear between wavelengths, ours of samples are trapezoids
+  CHECK(format_openmaterial(gold, {.name = "gold \"leaf\""}, {6, 8}, gonio::thread_count{3}) == text);
+}
+
+TEST_CASE("OpenMATERIAL: identifiers follow from name and numbers") {
+  const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)}, white{.albedo = rgb::Constant(0.9)};
+  const auto uuid = [](const std::string& text) {
+    const std::size_t at = text.find("\"uuid\": \"") + 9;
+    return text.substr(at, text.find('"', at) - at);
+  };
+  const std::string one = uuid(format_openmaterial(grey, {.name = "a"}, {2, 2}));
+  REQUIRE(one.size() == 36);
+  CHECK(one[8] == '-');
+  CHECK(one[14] == '8');
+  CHECK(std::string("89ab").find(one[19]) != std::string::npos);
+  CHECK(uuid(format_openmaterial(grey, {.name = "a"}, {2, 2})) == one);
+  CHECK(uuid(format_openmaterial(grey, {.name = "b"}, {2, 2})) != one);
+  CHECK(uuid(format_openmaterial(white, {.name = "a"}, {2, 2})) != one);
+}
+
+TEST_CASE("OpenMATERIAL: the schema has no negative values, and names end as materials refer to them") {
+  const std::string text = format_openmaterial(negative_brdf{}, {}, {1, 1});
+  CHECK(text.find(", -") == std::string::npos);
+  CHECK(text.find(", 0]") != std::string::npos);
+  const scratch::folder here;
+  gonio::io::write_openmaterial(here / "t_brdf.xompt", text);
+  CHECK(scratch::get(here / "t_brdf.xompt") == text);
+  check_refused([&] { return gonio::io::write_openmaterial(here / "t.xompt", text), 0; }, {"t.xompt", "_brdf.xompt"});
+  CHECK(here.entries() == 1);
+  const gonio::model::lambertian grey{.albedo = rgb::Constant(0.5)};
+  check_refused([&] { return format_openmaterial(grey, {}, {61, 1}); }, {"1 to 60", "61"});
+  check_refused([&] { return format_openmaterial(grey, {}, {1, 0}); }, {"1 to 120"});
+}
+
+TEST_CASE("OpenMATERIAL: what is no such file is refused by its line") {
+  scratch::check_refuses_non_files([](const auto& path) { return gonio::io::read_openmaterial(path); });
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0]"), {"line 4", "4 numbers, expected 5"});
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0, 1, 2]"), {"more than 5"});
+  check_xompt_refused(file_of("[905, 0.4, 0.2, 0, 1]"), {"wavelength", "905"});
+  check_xompt_refused(file_of("[9e-7, 40, 0.2, 0, 1]"), {"zenith angle of the light", "40"});
+  check_xompt_refused(file_of("[9e-7, 0.4, -0.2, 0, 1]"), {"zenith angle of the viewer", "-0.2"});
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 180, 1]"), {"azimuth", "180"});
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0, 1e39]"), {"range of float"});
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0, \"x\"]"), {"line 4"});
+  check_xompt_refused(file_of("[9e-7, 0.4, 0.2, 0, 1], [8e-7, 0.4, 0.2, 0, 1]"), {"visible"});
+  check_xompt_refused(file_of(""), {"no sample above the horizon"});
+  check_xompt_refused("{\"metadata\": {}, \"opticalProperties\": []}", {"no brdf.lookupTable"});
+  check_xompt_refused("{\"brdf\": {\"lookupTable\": [], \"lookupTable\": []}}", {"appears twice"});
+  check_xompt_refused("{\"brdf\": {", {"cut off"});
+  CHECK(!gonio::io::looks_like_openmaterial("{\"metadata\": {}, \"data\": {}}"));
+  CHECK(!gonio::io::looks_like_openmaterial("theta_i, \"lookupTable\""));
+}
