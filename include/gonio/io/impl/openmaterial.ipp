@@ -195,10 +195,12 @@ class openmaterial_parser {
     json_.open_array("a row");
     for (; json_.next_element(); ++count) {
       if (count == values.size()) json_.refuse({"a row has more than 5 numbers"});
-      if (json_.peek() == 'n')
-        has_null = !json_.skip().empty();
-      else
+      if (json_.peek() == 'n') {
+        json_.skip();
+        has_null = true;
+      } else {
         values[count] = json_.take_number("a row");
+      }
     }
     if (count != values.size()) json_.refuse({"a row has ", count, " numbers, expected 5"});
     if (has_null) return std::nullopt;
