@@ -52,7 +52,7 @@ void add_convert(command& app) {
       .add_output(
           "output", options->output, {},
           "Table (.binary or .npy), RGL material as Mitsuba and pbrt read it (.bsdf), measured BSDF of NVIDIA's "
-          "MDL (.mbsdf), or samples (.csv)")
+          "MDL (.mbsdf), table of OpenMATERIAL (_brdf.xompt), or samples (.csv)")
       .required();
   command.add_flag("--spectra", options->how.as_spectra,
                    "Of a .bsdf file: write spectra, as pbrt-v4 and the spectral variants of Mitsuba want them, instead "

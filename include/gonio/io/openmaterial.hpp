@@ -68,8 +68,8 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 
 /// Samples from the text of such a file; `name` is what errors call it. Rows of the same directions become one sample:
 /// the mean of those of the same wavelength, then the colour of the spectrum (linear Rec. 709 under D65; grey for a
-/// single wavelength). Rows with a null and directions at the horizon are none. Throws gonio::error naming the line of
-/// what is wrong, and for tables of other properties.
+/// single wavelength); samples ascend by their angles. Rows with a null and directions at the horizon are none. Throws
+/// gonio::error naming the line of what is wrong, and for tables of other properties. O(rows log rows).
 [[nodiscard]] sample_set parse_openmaterial(std::string_view text, const std::string& name);
 
 /// Reads such a file.

@@ -18,7 +18,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -170,15 +169,9 @@ class openmaterial_parser {
   }
 
  private:
-  /// Wavelength, zenith angles of light and viewer, azimuth of the viewer, value.
+  /// In a file wavelength, zenith angles of light and viewer, azimuth of the viewer, value; here the wavelength, in
+  /// nanometres, comes after the angles.
   using row = std::array<double, 5>;
-  struct mean {
-    double sum = 0.0, count = 0.0;
-  };
-  struct spectrum_of_pair {
-    direction_pair pair;
-    std::map<double, mean> spectrum;  ///< by nanometres
-  };
 
   void read_brdf() {
     json_.open_object("brdf");
@@ -190,7 +183,7 @@ class openmaterial_parser {
       if (std::exchange(has_table_, true)) json_.refuse({"brdf.lookupTable appears twice"});
       json_.open_array("brdf.lookupTable");
       while (json_.next_element())
-        if (const std::optional<row> values = take_row()) add(*values);
+        if (const std::optional<row> values = take_row()) rows_.push_back(checked(*values));
     }
   }
 
@@ -202,17 +195,19 @@ class openmaterial_parser {
     json_.open_array("a row");
     for (; json_.next_element(); ++count) {
       if (count == values.size()) json_.refuse({"a row has more than 5 numbers"});
-      if (json_.peek() == 'n')
-        has_null = !json_.skip().empty();
-      else
+      if (json_.peek() == 'n') {
+        json_.skip();
+        has_null = true;
+      } else {
         values[count] = json_.take_number("a row");
+      }
     }
     if (count != values.size()) json_.refuse({"a row has ", count, " numbers, expected 5"});
     if (has_null) return std::nullopt;
     return values;
   }
 
-  void add(const row& values) {
+  [[nodiscard]] row checked(const row& values) const {
     const auto [wavelength, theta_i, theta_o, phi, value] = values;
     require("wavelength in metres", wavelength, 1e-9, 17.16e-3);
     // Limits that were rounded up are met.
@@ -222,12 +217,8 @@ class openmaterial_parser {
     if (std::abs(value) > double{std::numeric_limits<float>::max()})
       json_.refuse({shortest(value), " sr^-1 is beyond the range of float"});
     // The same direction has one azimuth.
-    const double azimuth = theta_i == 0.0 || theta_o == 0.0 || phi >= 6.28318 ? 0.0 : phi;
-    const auto [at, is_new] = known_.try_emplace({theta_i, theta_o, azimuth}, spectra_.size());
-    if (is_new) spectra_.push_back({{spherical_direction(theta_i, 0.0), spherical_direction(theta_o, azimuth)}, {}});
-    mean& sum = spectra_[at->second].spectrum[1e9 * wavelength];
-    sum.sum += value;
-    sum.count += 1.0;
+    const bool is_none = theta_i == 0.0 || theta_o == 0.0 || phi >= 6.28318;
+    return {theta_i, theta_o, is_none ? 0.0 : phi, 1e9 * wavelength, value};
   }
 
   void require(std::string_view what, double value, double least, double most) const {
@@ -235,19 +226,27 @@ class openmaterial_parser {
       json_.refuse({"a ", what, " of ", shortest(value), ", expected ", shortest(least), " to ", shortest(most)});
   }
 
-  [[nodiscard]] sample_set samples() const {
+  [[nodiscard]] sample_set samples() {
+    std::ranges::sort(rows_);
+    const auto have_same = [](const row& one, const row& other, std::size_t numbers) {
+      return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(numbers), other.begin());
+    };
     sample_collector collector;
     std::vector<double> known, wavelengths, values;
     std::optional<colour_channels> channels;
-    for (const auto& [pair, spectrum] : spectra_) {
+    for (std::size_t i = 0; i < rows_.size();) {
+      const row first = rows_[i];
       wavelengths.clear();
       values.clear();
-      for (const auto& [wavelength, of_rows] : spectrum) {
-        wavelengths.push_back(wavelength);
-        values.push_back(of_rows.sum / of_rows.count);
+      while (i < rows_.size() && have_same(rows_[i], first, 3)) {
+        const row& at = rows_[i];
+        double sum = 0.0, count = 0.0;
+        for (; i < rows_.size() && have_same(rows_[i], at, 4); ++i, count += 1.0) sum += rows_[i][4];
+        wavelengths.push_back(at[3]);
+        values.push_back(sum / count);
       }
       if (!channels || wavelengths != known) channels = channels_of(known = wavelengths);
-      collector.add(pair, (*channels)(values));
+      collector.add({spherical_direction(first[0], 0.0), spherical_direction(first[1], first[2])}, (*channels)(values));
     }
     return std::move(collector).take(place_.name);
   }
@@ -263,8 +262,7 @@ class openmaterial_parser {
   json_reader json_;
   const text_place& place_;
   bool has_table_ = false;
-  std::map<std::array<double, 3>, std::size_t> known_;
-  std::vector<spectrum_of_pair> spectra_;
+  std::vector<row> rows_;
 };
 
 }  // namespace gonio::io::detail
