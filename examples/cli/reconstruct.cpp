@@ -129,6 +129,16 @@ void add_correction_options(command& to, reconstruct_options& options) {
       .capture_default_str();
 }
 
+void add_spectra_options(command& to, reconstruct_options& options) {
+  to.add_flag("--spectra", options.fits_spectra,
+              "Fit each wavelength of spectral samples (.csv with columns like 400nm, or .brdf) as a grey "
+              "material; .bsdf has the spectra then, other formats their colours");
+  to.add_choice(
+      "--illuminant", [&options](int light) { options.reading.light = static_cast<gonio::illuminant>(light); },
+      {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},
+      "Under which spectra become colours: D65, daylight (the default), or A, incandescent");
+}
+
 }  // namespace
 
 void add_reconstruct(command& app) {
@@ -138,13 +148,7 @@ void add_reconstruct(command& app) {
   // Declare the samples and the method.
   command.add_input("samples", options->samples, "Measurements (.csv, or .brdf in Cornell's text format)").required();
   add_measurement_options(command, options->reading);
-  command.add_flag("--spectra", options->fits_spectra,
-                   "Fit each wavelength of spectral samples (.csv with columns like 400nm, or .brdf) as a grey "
-                   "material; .bsdf has the spectra then, other formats their colours");
-  command.add_choice(
-      "--illuminant", [options](int light) { options->reading.light = static_cast<gonio::illuminant>(light); },
-      {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},
-      "Under which spectra become colours: D65, daylight (the default), or A, incandescent");
+  add_spectra_options(command, *options);
   add_method_option(command, options->method);
   add_prior_option(command, options->materials.prior);
   add_material_options(command, options->materials);

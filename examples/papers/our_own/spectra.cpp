@@ -223,20 +223,28 @@ void print_rows(const std::string& material, Eigen::Index count, const compariso
   print_row("wavelengths nearer than XYZ", [&](const measure& one) { return wins(found.wavelengths, found.xyz, one); });
 }
 
+/// All files, before anything is printed. Throws gonio::error for one that has too few measurements.
+std::vector<gonio::spectral_samples> read_all(const spectra_options& given) {
+  std::vector<gonio::spectral_samples> all;
+  for (const std::filesystem::path& file : given.samples) {
+    all.push_back(read_spectra_file(file).samples);
+    const Eigen::Index most = std::ranges::max(given.counts);
+    if (most >= all.back().size())
+      gonio::refuse({file.native(), ": no sample is left to judge by after ", most, " of ", all.back().size()});
+  }
+  return all;
+}
+
 void run(const spectra_options& given) {
+  const std::vector<gonio::spectral_samples> files = read_all(given);
   const spectral_fit_estimator estimator{gonio::io::read_prior(given.prior), {}, given.threads};
   std::cout << "Directions that were not fitted, means (medians) of " << given.repetitions << " random sets each.\n\n"
             << "| material | fitted | what is fitted |";
   for (const measure& one : measures) std::cout << ' ' << one.title << " |";
   std::cout << "\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const std::filesystem::path& file : given.samples) {
-    const gonio::spectral_samples all = read_spectra_file(file).samples;
-    for (const Eigen::Index count : given.counts) {
-      if (count >= all.size())
-        gonio::refuse({file.native(), ": no sample is left to judge by after ", count, " of ", all.size()});
-      print_rows(file.stem().string(), count, compare(estimator, all, count, given));
-    }
-  }
+  for (Eigen::Index file = 0; file < std::ssize(files); ++file)
+    for (const Eigen::Index count : given.counts)
+      print_rows(given.samples[file].stem().string(), count, compare(estimator, files[file], count, given));
 }
 
 }  // namespace

@@ -1,0 +1,35 @@
+/// gonio-papers spectra, on spectra that are made up.
+
+#include "../io/scratch.hpp"
+#include "papers_tool.hpp"
+#include <gonio/io/spectral_samples.hpp>
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <string>
+
+TEST_CASE("spectra are fitted by wavelengths and by colours, and judged by what was not fitted") {
+  gonio::spectral_samples samples{{420, 480, 540, 600, 660}, {}, gonio::cell_matrix(30, 5)};
+  for (Eigen::Index i = 0; i < samples.values.rows(); ++i) {
+    const double theta_h = 0.04 * static_cast<double>(i % 10), theta_d = 0.3 + 0.3 * static_cast<double>(i / 10);
+    samples.directions.push_back({theta_h, theta_d, 1.0});
+    for (Eigen::Index band = 0; band < 5; ++band)
+      samples.values(i, band) = static_cast<float>(0.05 * static_cast<double>(band + 1) + std::exp(-30.0 * theta_h));
+  }
+  const scratch::folder here;
+  const auto file = here / "paint.csv";
+  gonio::io::write_spectral_samples(file, samples);
+  const auto result = gonio_papers("spectra --samples " + file.string() + " --counts 20 --repetitions 2");
+  REQUIRE_MESSAGE(result.exit_code == 0, result.output);
+  CHECK(result.output.find("| paint | 20 | wavelengths | 0.") != std::string::npos);
+  CHECK(result.output.find("| paint | 20 | XYZ | 0.") != std::string::npos);
+  CHECK(result.output.find("nan") == std::string::npos);
+  CHECK(result.output == gonio_papers("spectra --samples " + file.string() + " --counts 20 --repetitions 2").output);
+
+  check_refusal(gonio_papers("spectra --samples " + file.string() + " --counts 30"),
+                {"paint.csv", "no sample is left to judge by", "30"});
+  scratch::put(here / "grey.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n1,2,3,1,1,1\n"));
+  check_refusal(gonio_papers("spectra --samples " + (here / "grey.csv").string()),
+                {"grey.csv", "names no wavelengths"});
+}
