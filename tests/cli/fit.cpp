@@ -92,7 +92,7 @@ TEST_CASE("a table, an image beside the measurement, and materials of renderers"
   std::getline(std::ifstream(at("paint.pbrt")), pbrt);
   std::getline(std::ifstream(at("paint.xml")), mitsuba);
   CHECK(pbrt == "Material \"coateddiffuse\"");
-  CHECK(mitsuba == "<bsdf type=\"roughplastic\">");
+  CHECK(mitsuba == "<bsdf type=\"blendbsdf\">");
 }
 
 TEST_CASE("what cannot be fitted is refused in one line, and nothing is written") {

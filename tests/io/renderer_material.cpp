@@ -29,15 +29,29 @@ analytic_brdf metal() {
 TEST_CASE("a rough lobe over a diffuse one as a material of pbrt") {
   CHECK(gonio::io::pbrt_material(paint("ggx")) ==
         "Material \"coateddiffuse\"\n"
-        "  \"rgb reflectance\" [ 0.5 0.25 0.125 ]\n"
-        "  \"float roughness\" [ 0.25 ]\n"
-        "  \"bool remaproughness\" false\n"
-        "  \"float eta\" [ 3 ]\n");
+        "  \"rgb reflectance\" [ " +
+            gonio::io::detail::three_numbers(gonio::io::detail::base_below_coat({0.5, 0.25, 0.125}, 3.0), " ") +
+            " ]\n"
+            "  \"float roughness\" [ 0.25 ]\n"
+            "  \"bool remaproughness\" false\n"
+            "  \"float eta\" [ 3 ]\n"
+            "  \"float thickness\" [ 0 ]\n"
+            "  \"integer maxdepth\" [ 100 ]\n");
   CHECK(gonio::io::pbrt_material(metal()) ==
         "Material \"conductor\"\n"
         "  \"rgb reflectance\" [ 0.5 0.25 0.125 ]\n"
         "  \"float roughness\" [ 0.25 ]\n"
         "  \"bool remaproughness\" false\n");
+}
+
+TEST_CASE("a base has the albedo that is seen below a coat that lets no light stay") {
+  using gonio::io::detail::base_below_coat;
+  const rgb seen(0.5, 0.25, 0.125);
+  CHECK((base_below_coat(seen, 1.0) - seen).abs().maxCoeff() < 1e-12);
+  // A dielectric of index 1.5 reflects 9.2 % of diffuse light outside and 59.6 % inside (Saunderson 1942: 60 %).
+  const rgb base = base_below_coat(seen, 1.5), back = 0.908 * 0.404 * base / (1.0 - 0.596 * base);
+  CHECK((back - seen).abs().maxCoeff() < 1e-3);
+  CHECK((base_below_coat(rgb(1.0, 0.99, 0.0), 2.0) == rgb(1.0, 1.0, 0.0)).all());
 }
 
 TEST_CASE("the same of Mitsuba: the sum of both lobes") {

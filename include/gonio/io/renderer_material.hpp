@@ -38,6 +38,11 @@ struct conductor {
 /// to Schlick's approximation up to 85 degrees: within 0.5 % from f0 = 0.6, within 31 % for a dielectric's 0.03.
 [[nodiscard]] conductor conductor_like_schlick(double f0);
 
+/// The albedo of a Lambertian base that has the albedo `seen` in diffuse light through a smooth dielectric, at most 1:
+/// what the dielectric reflects back inside counts. J. L. Saunderson, "Calculation of the Color of Pigmented Plastics",
+/// JOSA 32(12), 1942 (doi:10.1364/JOSA.32.000727), with what diffuse light meets by Fresnel's equations.
+[[nodiscard]] rgb base_below_coat(const rgb& seen, double index);
+
 /// Throws gonio::error unless the model is one lobe of GGX or Torrance-Sparrow, beside a Lambertian one or not.
 [[nodiscard]] rough_surface as_rough_surface(const model::analytic_brdf& model);
 
@@ -50,10 +55,11 @@ struct conductor {
 
 }  // namespace detail
 
-/// A `Material` of pbrt-v4, linear sRGB. GGX beside Lambert becomes `coateddiffuse`: albedo, roughness (not remapped)
-/// and refractive index are carried over; the colour of the highlight is not, because the coat has none, nor is there
-/// light that it keeps from the base in the sum of lobes. GGX by itself becomes `conductor` with the reflectance at
-/// normal incidence, colour times f0. Throws gonio::error for other models: pbrt has no Beckmann distribution.
+/// A `Material` of pbrt-v4, linear sRGB. GGX beside Lambert becomes `coateddiffuse`: roughness (not remapped) and
+/// refractive index are carried over, and a base that has the albedo in diffuse light below a coat that absorbs
+/// nothing; the colour of the highlight is not, because the coat has none. GGX by itself becomes `conductor` with the
+/// reflectance at normal incidence, colour times f0. Throws gonio::error for other models: pbrt has no Beckmann
+/// distribution.
 [[nodiscard]] std::string pbrt_material(const model::analytic_brdf& model);
 
 /// A `bsdf` of Mitsuba 3, linear sRGB: the sum of the lobes, as a `blendbsdf` of equal shares of a `diffuse` and a

@@ -34,6 +34,18 @@ GONIO_INLINE rough_surface bounded(rough_surface surface) {
   return surface;
 }
 
+GONIO_INLINE rgb base_below_coat(const rgb& seen, double index) {
+  // What a dielectric lets in of diffuse light, and by reciprocity what it reflects back of light from inside.
+  constexpr int steps = 1000;
+  double enters = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    const double cosine = (step + 0.5) / steps;
+    enters += (1.0 - model::fresnel_dielectric(cosine, index)) * 2.0 * cosine / steps;
+  }
+  const double leaves = enters / (index * index);
+  return (seen / (enters * leaves + seen * (1.0 - leaves))).min(1.0);
+}
+
 GONIO_INLINE conductor conductor_like_schlick(double f0) {
   const double bounded = std::clamp(f0, 1e-4, 0.999), root = std::sqrt(bounded);
   const double least = (1.0 - bounded) / (1.0 + bounded), most = (1.0 + root) / (1.0 - root);
@@ -97,8 +109,12 @@ GONIO_INLINE std::string pbrt_material(const model::analytic_brdf& model) {
   if (surface.metal())
     return "Material \"conductor\"\n  \"rgb reflectance\" [ " +
            detail::three_numbers((surface.specular * surface.f0).min(1.0), " ") + " ]\n" + roughness;
-  return "Material \"coateddiffuse\"\n  \"rgb reflectance\" [ " + detail::three_numbers(surface.diffuse.min(1.0), " ") +
-         " ]\n" + roughness + "  \"float eta\" [ " + detail::shortest(surface.refractive_index()) + " ]\n";
+  // A thick coat absorbs, and ten bounces are too few below a dense one.
+  const double index = surface.refractive_index();
+  return "Material \"coateddiffuse\"\n  \"rgb reflectance\" [ " +
+         detail::three_numbers(detail::base_below_coat(surface.diffuse, index), " ") + " ]\n" + roughness +
+         "  \"float eta\" [ " + detail::shortest(index) +
+         " ]\n  \"float thickness\" [ 0 ]\n  \"integer maxdepth\" [ 100 ]\n";
 }
 
 GONIO_INLINE std::string mitsuba_material(const model::analytic_brdf& model) {
