@@ -30,8 +30,7 @@ struct report_options {
 
 /// The command line as a shell takes it.
 std::string as_typed(const std::vector<std::string>& words) {
-  constexpr std::string_view plain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
   std::string line = "gonio";
   for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
     line += ' ';
@@ -57,7 +56,7 @@ json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
   add("Version", "gonio " GONIO_VERSION);
   add("Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
                      std::to_string(counting_samples(measured.samples).size()) + " count");
-  add("Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf (not stated)") +
+  add("Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
                       (measured.wavelength ? ", at " + fixed(*measured.wavelength, 1) + " nm" : ""));
   add("Instrument", measured.provenance.instrument);
   add("Date", measured.provenance.date);
@@ -89,10 +88,10 @@ void write_report(const report_options& options, const std::vector<std::string>&
 
 void add_report(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand(
-      "report", "Complete a BRDF from samples and write a page that shows it, how sure it is, and which samples disagree");
+      "report",
+      "Complete a BRDF from samples and write a page that shows it, how sure it is, and which samples disagree");
   const auto options = std::make_shared<report_options>();
-  command
-      .add_input("samples", options->fit.samples, "Measurements (.csv, or a format that gonio reconstruct reads)")
+  command.add_input("samples", options->fit.samples, "Measurements (.csv, or a format that gonio reconstruct reads)")
       .required();
   command
       .add_output("-o,--output", options->page, {".html"},
@@ -101,8 +100,7 @@ void add_report(command& app, const std::vector<std::string>& words) {
   command.add_option("--title", options->title, "Heading of the page (default: the name of the file)");
   add_measurement_options(command, options->fit.reading);
   add_prior_option(command, options->fit.materials.prior);
-  command
-      .add_option("--noise", options->fit.noise, "Relative deviation of the measured values (0.02 is 2 %)")
+  command.add_option("--noise", options->fit.noise, "Relative deviation of the measured values (0.02 is 2 %)")
       .check(check::range(0.0, 1.0));
   add_threads_option(command, options->fit.threads);
   command.callback([options, words] {

@@ -13,15 +13,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <set>
 #include <vector>
 
 namespace cli {
 
 namespace {
 
-using gonio::degrees;
 using gonio::radians;
 
 /// Five digits: more are not known, and would only make the page longer.
@@ -64,29 +65,31 @@ double in_plane_angle(const gonio::direction_pair& pair) {
   return std::atan2(-wo.x(), wo.z());
 }
 
-/// Which samples of the file are shown.
+/// Which samples of the file are shown: if they are many, some at random and the worst of those that were left out.
 std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
-  std::vector<Eigen::Index> numbers = counting_samples(fit.measured.samples);
+  const std::vector<Eigen::Index> numbers = counting_samples(fit.measured.samples);
   if (std::ssize(numbers) <= most_residuals) return numbers;
-  std::vector<Eigen::Index> some;
-  for (const Eigen::Index i : gonio::random_choice(std::ssize(numbers), most_residuals, 0)) some.push_back(numbers[i]);
-  std::ranges::sort(some);
-  return some;
+  std::set<Eigen::Index> some;
+  for (const Eigen::Index i : gonio::random_choice(std::ssize(numbers), most_residuals, 0)) some.insert(numbers[i]);
+  const auto& worst = fit.found.left_out;
+  some.insert(worst.begin(), worst.begin() + std::min(std::ssize(worst), most_residuals / 4));
+  return {some.begin(), some.end()};
 }
 
-/// The numbers of those that the others contradict, left out or not.
-std::vector<Eigen::Index> disagreeing(const json& details) {
-  std::vector<Eigen::Index> numbers;
-  for (const char* key : {"left_out", "disagreeing"})
-    if (details.contains(key))
-      for (const json& each : details[key].elements()) numbers.push_back(std::lround(each["sample"].number()));
+/// The numbers of those that the others contradict, from 1: left out, or kept beside so few.
+std::set<Eigen::Index> disagreeing(const reconstruction& found) {
+  std::set<Eigen::Index> numbers;
+  for (const Eigen::Index i : found.left_out) numbers.insert(i + 1);
+  if (found.details.contains("disagreeing"))
+    for (const json& each : found.details["disagreeing"].elements())
+      numbers.insert(std::lround(each["sample"].number()));
   return numbers;
 }
 
 json samples_of(const reported_fit& fit, const known_fit& known) {
   std::map<Eigen::Index, const checked_sample*> checked;
   for (const checked_sample& each : fit.found.checked) checked[each.number] = &each;
-  const std::vector<Eigen::Index> off = disagreeing(fit.found.details);
+  const std::set<Eigen::Index> off = disagreeing(fit.found);
   json all = json::array();
   for (const Eigen::Index i : shown_samples(fit)) {
     const gonio::sample& sample = fit.measured.samples[i];
@@ -105,50 +108,67 @@ json samples_of(const reported_fit& fit, const known_fit& known) {
       told["others"] = five_digits(found->second->others);
       told["deviation"] = five_digits(found->second->relative_deviation);
       told["disagreement"] = five_digits(found->second->disagreement);
-      told["left_out"] = found->second->left_out;
     }
-    told["disagrees"] = std::ranges::count(off, i + 1) > 0;
+    told["disagrees"] = off.contains(i + 1);
     all.push_back(std::move(told));
   }
   return all;
 }
 
-/// Angles of the light, in tenths of a degree, of which three or more of the samples shown lie in the light's plane;
-/// at most six, those of most samples.
-std::vector<long> scanned_lights(const json& samples) {
-  std::map<long, long> counts;
+/// Samples in the plane of lights that are less than half a degree apart.
+struct in_plane_scan {
+  double lowest = 0.0, sum = 0.0;  ///< of theta_i, degrees
+  std::vector<json> samples;       ///< their numbers
+
+  [[nodiscard]] double theta_i() const { return sum / static_cast<double>(samples.size()); }
+};
+
+/// The scans of three samples or more, at most six, those of most samples; by the angle of the light.
+std::vector<in_plane_scan> find_scans(const json& samples) {
+  std::vector<std::pair<double, json>> in_plane;
   for (const json& each : samples.elements())
-    if (each.contains("in_plane")) ++counts[std::lround(10.0 * each["theta_i"].number())];
-  std::vector<std::pair<long, long>> most;
-  for (const auto& [light, count] : counts)
-    if (count >= 3) most.emplace_back(-count, light);
-  std::ranges::sort(most);
-  most.resize(std::min<std::size_t>(most.size(), 6));
-  std::vector<long> lights;
-  for (const auto& [count, light] : most) lights.push_back(light);
-  std::ranges::sort(lights);
-  return lights;
+    if (each.contains("in_plane")) in_plane.emplace_back(each["theta_i"].number(), each["sample"]);
+  std::ranges::sort(in_plane, [](const auto& a, const auto& b) {
+    return std::pair(a.first, a.second.number()) < std::pair(b.first, b.second.number());
+  });
+  std::vector<in_plane_scan> all;
+  for (const auto& [theta_i, number] : in_plane) {
+    if (all.empty() || theta_i >= all.back().lowest + 0.5)
+      all.push_back({.lowest = theta_i, .sum = 0.0, .samples = {}});
+    all.back().sum += theta_i;
+    all.back().samples.push_back(number);
+  }
+  std::erase_if(all, [](const in_plane_scan& scan) { return scan.samples.size() < 3; });
+  std::ranges::sort(all, [](const in_plane_scan& a, const in_plane_scan& b) {
+    return std::pair(b.samples.size(), a.lowest) < std::pair(a.samples.size(), b.lowest);
+  });
+  all.resize(std::min<std::size_t>(all.size(), 6));
+  std::ranges::sort(all, {}, &in_plane_scan::lowest);
+  return all;
+}
+
+/// The fit in the plane of a light, in degrees from the normal, at -87 to 87 degrees of the viewer.
+json curve_of(double theta_i, const known_fit& known) {
+  const gonio::direction wi = gonio::spherical_direction(radians(theta_i), 0.0);
+  json curve = json::array();
+  for (int half = -2 * 87; half <= 2 * 87; ++half) {
+    json told{{"angle", 0.5 * half}};
+    known.describe(wi, gonio::spherical_direction(radians(-0.5 * half), 0.0), told);
+    curve.push_back(std::move(told));
+  }
+  return curve;
 }
 
 /// The fit in the planes of the lights that were scanned, or of three others if none was.
 json scans_of(const json& samples, const known_fit& known) {
-  std::vector<long> lights = scanned_lights(samples);
-  const bool measured = !lights.empty();
-  if (!measured) lights = {150, 450, 700};
   json all = json::array();
-  for (const long light : lights) {
-    const gonio::direction wi = gonio::spherical_direction(radians(0.1 * static_cast<double>(light)), 0.0);
-    json numbers = json::array(), curve = json::array();
-    for (std::size_t i = 0; measured && i < samples.size(); ++i)
-      if (samples[i].contains("in_plane") && std::lround(10.0 * samples[i]["theta_i"].number()) == light)
-        numbers.push_back(samples[i]["sample"]);
-    for (int half = -2 * 87; half <= 2 * 87; ++half) {
-      json told{{"angle", 0.5 * half}};
-      known.describe(wi, gonio::spherical_direction(radians(-0.5 * half), 0.0), told);
-      curve.push_back(std::move(told));
-    }
-    all.push_back({{"theta_i", 0.1 * static_cast<double>(light)}, {"samples", numbers}, {"curve", curve}});
-  }
+  for (const in_plane_scan& scan : find_scans(samples))
+    all.push_back({{"theta_i", std::round(10.0 * scan.theta_i()) / 10.0},
+                   {"samples", scan.samples},
+                   {"curve", curve_of(scan.theta_i(), known)}});
+  if (!all.empty()) return all;
+  for (const double theta_i : {15.0, 45.0, 70.0})
+    all.push_back({{"theta_i", theta_i}, {"samples", json::array()}, {"curve", curve_of(theta_i, known)}});
   return all;
 }
 
@@ -193,6 +213,14 @@ json albedo_of(const known_fit& known) {
   return all;
 }
 
+/// Numbers of the samples that were left out, or count less than half, the worst first: a dozen.
+json worst_of(const reconstruction& found) {
+  json numbers = json::array();
+  for (const Eigen::Index i : found.left_out)
+    if (numbers.size() < 12) numbers.push_back(i + 1);
+  return numbers;
+}
+
 json warnings_of(const reported_fit& fit) {
   std::vector<std::string> all = doubts_of(fit.measured);
   all.insert(all.end(), fit.found.warnings.begin(), fit.found.warnings.end());
@@ -207,6 +235,7 @@ json report_data(const reported_fit& fit) {
             {"count", counting_samples(fit.measured.samples).size()},
             {"sphere", sphere_url(fit.found, fit.options.threads)},
             {"details", fit.found.details},
+            {"worst", worst_of(fit.found)},
             {"warnings", warnings_of(fit)},
             {"samples", samples_of(fit, known)}};
   data["scans"] = scans_of(data["samples"], known);

@@ -171,14 +171,15 @@ reconstruction reconstruct_by(const fit_function& fit, const reconstruct_options
   if (!options.keeps_all) screened = gonio::screen(estimator, located, options.threads);
   std::vector<checked_sample> checked;
   if (!options.residuals.empty() || (options.keeps_residuals && located.size() <= most_residuals))
-    checked = check_samples(
-        prior, located, gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)),
-        numbers, screened.left_out);
+    checked = check_samples(prior, located,
+                            gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)),
+                            numbers, screened.left_out);
   if (!options.residuals.empty()) write_residuals(options, checked);
 
   // Fit the rest.
   reconstruction result = fit(estimator, screened);
   result.checked = std::move(checked);
+  for (const Eigen::Index i : screened.left_out) result.left_out.push_back(numbers[i]);
   result.details["discrepancy"] = options.discrepancy;
   if (!options.keeps_all) describe(screened, located.size(), numbers, result);
   const gonio::posterior known(estimator, screened.kept);

@@ -69,6 +69,7 @@ struct reconstruction {
   std::vector<std::string> warnings{};             ///< sentences, for people: on standard error
   std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
   std::vector<checked_sample> checked{};           ///< the samples that count, if it is asked for
+  std::vector<Eigen::Index> left_out{};            ///< positions in the file, the worst first: of pca
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
   std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` is its colours

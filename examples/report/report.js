@@ -5,7 +5,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 // ---- numbers and elements --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 const digits = (value) => (value === null || !Number.isFinite(value) ? "-" : String(Number(value.toPrecision(3))));
-const percent = (share) => (share >= 9.995 ? `${digits(share + 1)} times` : `${digits(100 * share)} %`);
+const percent = (share) => (share >= 9.95 ? `a factor of ${digits(share + 1)}` : `${Number((100 * share).toPrecision(2))} %`);
 const angle = (value) => `${Number(value.toFixed(1))}\u00b0`;
 const channels = (value) => value.map(digits).join(", ");
 const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
@@ -35,14 +35,14 @@ function figure(chart, description, caption, head, rows) {
 }
 
 const by_number = new Map(data.samples.map((each) => [each.sample, each]));
-const off = data.samples.filter((each) => each.disagrees || each.left_out);
-const is_off = (each) => each.disagrees || each.left_out;
+const is_off = (each) => each.disagrees;
+const off = data.samples.filter(is_off);
 const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
 function told(each) {
   const lines = [`sample ${each.sample}: ${where(each)}`, `measured ${channels(each.measured)}`,
     `fit ${channels(each.fit)}, known to ${percent(each.known_to)}`];
   if (each.others) lines.push(`the others say ${channels(each.others)}`, `off by ${digits(Math.sqrt(each.disagreement))} deviations`);
-  if (each.left_out) lines.push("left out of the fit");
+  if (each.disagrees) lines.push("disagrees with the others");
   return lines.join("\n");
 }
 // Samples as dots, and those that disagree as crosses with their numbers.
@@ -50,8 +50,8 @@ function samples_as_marks(samples, x, y, title = told) {
   const wrong = samples.filter(is_off);
   return [
     Plot.dot(samples.filter((each) => !is_off(each)), { x, y, r: 3.5, fill: "var(--ink)", stroke: "var(--paper)" }),
-    Plot.dot(wrong, { x, y, r: 6, symbol: "times", stroke: "var(--wrong)", strokeWidth: 2.5 }),
-    Plot.text(wrong.slice(0, 12), { x, y, text: (each) => String(each.sample), dx: 8, dy: -8, textAnchor: "start",
+    Plot.dot(wrong, { x, y, r: wrong.length > 12 ? 4 : 6, symbol: "times", stroke: "var(--wrong)", strokeWidth: 2.5 }),
+    Plot.text(wrong.length > 4 ? [] : wrong, { x, y, text: (each) => String(each.sample), dx: 8, dy: -8, textAnchor: "start",
       fill: "var(--wrong)", fontWeight: 700, stroke: "var(--paper)", strokeWidth: 3 }),
     Plot.tip(samples, Plot.pointer({ x, y, title })),
   ];
@@ -64,8 +64,7 @@ function verdict() {
   if (details.outliers !== undefined) {
     box.append(paragraph(`About ${percent(details.outliers)} of ${count} samples are outliers; ` +
       `${percent(details.down_weighted)} count less than half.`));
-    const worst = [...off].sort((a, b) => (b.disagreement || 0) - (a.disagreement || 0)).slice(0, 12);
-    if (worst.length) box.append(paragraph("The worst: samples " + worst.map((each) => each.sample).join(", ") + "."));
+    if (data.worst.length) box.append(paragraph(`\u2715 The worst: ${data.worst.length === 1 ? "sample" : "samples"} ${data.worst.join(", ")}.`));
     return box;
   }
   const contradicted = details.left_out || details.disagreeing || [];
@@ -92,7 +91,8 @@ function answer() {
     verdict(),
     paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
       "within 6 % of the fit, for materials like those that the prior knows.", "soft"));
-  for (const sentence of data.warnings) words.append(paragraph("Note: " + sentence, "soft"));
+  const repeats = /^sample \d+ disagrees/; // which the verdict says
+  for (const sentence of data.warnings.filter((each) => !repeats.test(each))) words.append(paragraph("Note: " + sentence, "soft"));
   add(element("h1", {}, data.name), element("div", { className: "answer" },
     element("img", { src: data.sphere, alt: "A sphere of the reconstructed material under two lights", width: 260, height: 260 }), words));
 }
@@ -102,7 +102,7 @@ function answer() {
 // round values.
 function radius_of(values) {
   const largest = Math.max(...values), smallest = Math.min(...values.filter((value) => value > 0));
-  if (largest / smallest < 12) {
+  if (largest / smallest < 6) {
     const step = [1, 2, 5, 10].map((k) => k * 10 ** Math.floor(Math.log10(largest / 4))).find((k) => largest / k <= 4.5);
     const end = Math.ceil(largest / step) * step, rings = [];
     for (let k = 1; k * step <= end * 1.0001; ++k) rings.push(k * step);
@@ -134,8 +134,8 @@ function polar_plot(scan) {
   const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
   const xy = { x: (each) => each[0], y: (each) => each[1] };
   return Plot.plot({
-    width: 520, height: 310, margin: 10, marginBottom: 22, axis: null,
-    x: { domain: [-1.16, 1.16] }, y: { domain: [0, 1.2] },
+    width: 520, height: 284, margin: 10, marginBottom: 24, axis: null,
+    x: { domain: [-1.16, 1.16] }, y: { domain: [0, 1.16] },
     marks: [
       ...rings.map((value) => Plot.line(ring(radius(value)), { ...xy, stroke: "var(--line)" })),
       ...[-90, -60, -30, 0, 30, 60, 90].map((at) => spoke(at, { stroke: "var(--line)" })),
@@ -178,9 +178,9 @@ function scans() {
 // ---- where ----------------------------------------------------------------------------------------------------
 function uncertainty_map() {
   add(element("h2", {}, "Where was measured, and where the fit is unsure"),
-    paragraph("Each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. " +
+    paragraph("The number in each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. " +
       "Left: the highlight; top: grazing light and viewer."));
-  const cells = data.map.map((each) => ({ ...each, percent: 100 * each.known_to }));
+  const cells = data.map.map((each) => ({ ...each, percent: 100 * each.known_to })), many = data.samples.length > 200;
   const chart = Plot.plot({
     width: 1040, height: 430, marginLeft: 50, marginBottom: 42,
     x: { type: "sqrt", domain: [0, 90], ticks: [0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90], label: "half angle theta_h, degrees from the normal" },
@@ -192,16 +192,16 @@ function uncertainty_map() {
       Plot.text(cells, { x: (each) => (0.5 * (Math.sqrt(each.theta_h[0]) + Math.sqrt(each.theta_h[1]))) ** 2,
         y: (each) => 0.5 * (each.theta_d[0] + each.theta_d[1]), text: (each) => (each.percent >= 999.5 ? ">999" : each.percent.toFixed(0)),
         fill: (each) => (each.percent > 18 ? "#ffffff" : "#1b1d21"), fontSize: 11 }),
-      Plot.dot(data.samples.filter((each) => !is_off(each)), { x: "theta_h", y: "theta_d", r: 4, fill: "#ffffff", stroke: "#000000", strokeWidth: 1.5 }),
-      Plot.dot(off, { x: "theta_h", y: "theta_d", r: 7, symbol: "times", stroke: "#ffffff", strokeWidth: 6 }),
-      Plot.dot(off, { x: "theta_h", y: "theta_d", r: 7, symbol: "times", stroke: "#c2410c", strokeWidth: 3 }),
+      Plot.dot(data.samples.filter((each) => !is_off(each)), { x: "theta_h", y: "theta_d", r: many ? 2 : 4, fill: "#ffffff", stroke: "#000000", strokeWidth: many ? 1 : 1.5 }),
+      Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#ffffff", strokeWidth: 5 }),
+      Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#c2410c", strokeWidth: 2.5 }),
       Plot.tip(data.samples, Plot.pointer({ x: "theta_h", y: "theta_d", title: told })),
     ],
   });
   const worst = cells.reduce((a, b) => (a.percent > b.percent ? a : b)), best = cells.reduce((a, b) => (a.percent < b.percent ? a : b));
   const place = (each) => `theta_h ${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}, theta_d ${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`;
   add(figure(chart, `Map of uncertainty over half and difference angle: best known at ${place(best)}, to ${digits(best.percent)} %; worst at ${place(worst)}, to ${digits(worst.percent)} %`,
-    `Best known: ${place(best)}, to ${percent(best.known_to)}. Least: ${place(worst)}, to ${percent(worst.known_to)}: measure there next.`,
+    `Best known: ${place(best)}, to ${percent(best.known_to)}. Least: ${place(worst)}, to ${percent(worst.known_to)}. gonio design --given says which directions to measure next.`,
     ["theta_h", "theta_d", "known to"],
     cells.map((each) => [`${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}`, `${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`, percent(each.known_to)])));
 }
@@ -216,7 +216,7 @@ function residuals() {
     .filter((each) => Number.isFinite(each.residual));
   add(element("h2", {}, "Residuals by direction"),
     paragraph(has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
-      : `By how many percent each sample is above or below the fit; ${data.samples.length} of ${data.count} samples, at random.`));
+      : `By how many percent each sample is above or below the fit; ${data.samples.length} of ${data.count} samples: 1000 at random, and the worst.`));
   const largest = Math.max(3, ...shown.map((each) => Math.abs(each.residual)));
   const chart = (x, label) => Plot.plot({
     width: 520, height: 280, marginLeft: 52, marginBottom: 40, x: { domain: [0, 90], label, grid: false },
@@ -241,18 +241,24 @@ function residuals() {
 // ---- albedo ----------------------------------------------------------------------------------------------------
 function albedo() {
   add(element("h2", {}, "Albedo by angle"),
-    paragraph("What share of the light is reflected in all directions together. Band: what the luminance would be if all directions were off together."));
+    paragraph("What share of the light is reflected in all directions together. Band, and thin line: the luminance, and what it would be if all directions were off together."));
   const grey = data.albedo.every((each) => is_grey(each.albedo)), names = grey ? ["grey"] : ["red", "green", "blue"];
   const dashes = ["none", "8 3", "2 3"], last = data.albedo[data.albedo.length - 1];
   const bands = data.albedo.filter((each) => each.known_to !== null);
   const highest = Math.max(...data.albedo.flatMap((each) => each.albedo));
+  const top = Math.max(1.05, Math.min(1.1 * highest, 20));
+  // The lines' names at their ends, kept apart.
+  const ends = names.map((name, c) => ({ name, y: last.albedo[c] })).sort((a, b) => a.y - b.y);
+  for (let i = 1; i < ends.length; ++i) ends[i].y = Math.max(ends[i].y, ends[i - 1].y + 0.06 * top);
   const chart = Plot.plot({
     width: 1040, height: 300, marginLeft: 50, marginRight: 60, marginBottom: 40,
     x: { domain: [0, 90], label: "angle of the light from the normal, degrees", ticks: [0, 15, 30, 45, 60, 75, 90] },
-    y: { domain: [0, Math.max(1.05, Math.min(1.1 * highest, 20))], label: "albedo", grid: true, clamp: true },
+    y: { domain: [0, top], label: "albedo", grid: true, clamp: true },
     marks: [
       Plot.areaY(bands, { x: "theta_i", y1: (each) => luminance(each.albedo) / (1 + each.known_to),
         y2: (each) => luminance(each.albedo) * (1 + each.known_to), fill: "var(--fit)", fillOpacity: 0.18, clip: true }),
+      ...(grey ? [] : [Plot.line(data.albedo, { x: "theta_i", y: (each) => luminance(each.albedo), stroke: "var(--soft)", strokeWidth: 1 })]),
+      Plot.text(ends, { x: last.theta_i, y: "y", text: "name", dx: 8, textAnchor: "start" }),
       Plot.ruleY([1], { stroke: "var(--soft)", strokeDasharray: "6 4" }),
       Plot.text([0], { x: 1, y: 1, text: () => "all light", dy: -8, textAnchor: "start", fill: "var(--soft)" }),
       ...names.map((name, c) => Plot.line(data.albedo, { x: "theta_i", y: (each) => each.albedo[c], stroke: grey ? "var(--ink)" : `var(--${name})`,
