@@ -14,8 +14,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,8 +48,7 @@ struct page_files {
                                     const std::string& arguments = "") const {
     scratch::put(folder / name, text);
     run("report '" + path(name) + "' -o '" + path("page.html") + "' " + arguments);
-    std::ifstream file(path("page.html"), std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
+    return scratch::get(folder / "page.html");
   }
 };
 
