@@ -5,7 +5,7 @@ const data = JSON.parse(document.getElementById("data").textContent);
 // ---- numbers and elements --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 const digits = (value) => (value === null || !Number.isFinite(value) ? "-" : String(Number(value.toPrecision(3))));
-const percent = (share) => (share >= 9.95 ? `a factor of ${digits(share + 1)}` : `${Number((100 * share).toPrecision(2))} %`);
+const percent = (share) => !Number.isFinite(share) ? "no limit" : (share >= 9.95 ? `a factor of ${digits(share + 1)}` : `${Number((100 * share).toPrecision(2))} %`);
 const angle = (value) => `${Number(value.toFixed(1))}\u00b0`;
 const channels = (value) => value.map(digits).join(", ");
 const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
@@ -102,6 +102,7 @@ function answer() {
 // round values.
 function radius_of(values) {
   const largest = Math.max(...values), smallest = Math.min(...values.filter((value) => value > 0));
+  if (!(largest > 0)) return { rings: [], radius: () => 0, kind: "of no meaning: nothing is reflected" };
   if (largest / smallest < 6) {
     const step = [1, 2, 5, 10].map((k) => k * 10 ** Math.floor(Math.log10(largest / 4))).find((k) => largest / k <= 4.5);
     const end = Math.ceil(largest / step) * step, rings = [];
