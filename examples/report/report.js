@@ -45,15 +45,15 @@ function told(each) {
   if (each.disagrees) lines.push("disagrees with the others");
   return lines.join("\n");
 }
-// Samples as dots, and those that disagree as crosses with their numbers.
-function samples_as_marks(samples, x, y, title = told) {
+// Samples as dots, and those that disagree as crosses with their numbers; `others` have a tip as well.
+function samples_as_marks(samples, x, y, others = []) {
   const wrong = samples.filter(is_off);
   return [
     Plot.dot(samples.filter((each) => !is_off(each)), { x, y, r: 3.5, fill: "var(--ink)", stroke: "var(--paper)" }),
     Plot.dot(wrong, { x, y, r: wrong.length > 12 ? 4 : 6, symbol: "times", stroke: "var(--wrong)", strokeWidth: 2.5 }),
     Plot.text(wrong.length > 4 ? [] : wrong, { x, y, text: (each) => String(each.sample), dx: 8, dy: -8, textAnchor: "start",
       fill: "var(--wrong)", fontWeight: 700, stroke: "var(--paper)", strokeWidth: 3 }),
-    Plot.tip(samples, Plot.pointer({ x, y, title })),
+    Plot.tip([...samples, ...others], Plot.pointer({ x, y, title: (each) => each.tip ?? told(each) })),
   ];
 }
 
@@ -131,6 +131,10 @@ function polar_plot(scan) {
   const outer = fit.map((each) => project(each.angle, each.y * (1 + each.known_to)));
   const inner = fit.map((each) => project(each.angle, each.y / (1 + each.known_to))).reverse();
   const placed = points.map((each) => ({ ...each, at: project(each.in_plane, luminance(each.measured)) }));
+  // The fit has tips of its own where no sample is.
+  const between = fit.filter((each) => points.every((point) => Math.abs(point.in_plane - each.angle) > 1.5)).map((each) => ({
+    at: project(each.angle, each.y),
+    tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}\nknown to ${percent(each.known_to)}` }));
   const ray = (degrees, r) => ({ x: r * Math.sin(degrees * Math.PI / 180), y: r * Math.cos(degrees * Math.PI / 180) });
   const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
   const xy = { x: (each) => each[0], y: (each) => each[1] };
@@ -148,9 +152,7 @@ function polar_plot(scan) {
       Plot.text(rings, { x: radius, y: 0, text: digits, dy: 11, fill: "var(--soft)" }),
       Plot.text([{ at: -scan.theta_i, name: "light" }, { at: scan.theta_i, name: "mirror" }].filter((_, i) => i === 0 || scan.theta_i > 8), {
         x: (each) => ray(each.at, 0.9).x, y: (each) => ray(each.at, 0.9).y, text: "name", fill: "var(--soft)", stroke: "var(--paper)", strokeWidth: 4 }),
-      ...samples_as_marks(placed, (each) => each.at.x, (each) => each.at.y),
-      Plot.tip(points.length ? [] : fit, Plot.pointer({ x: (each) => project(each.angle, each.y).x, y: (each) => project(each.angle, each.y).y,
-        title: (each) => `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}\nknown to ${percent(each.known_to)}` })),
+      ...samples_as_marks(placed, (each) => each.at.x, (each) => each.at.y, between),
     ],
     ariaDescription: kind,
   });
