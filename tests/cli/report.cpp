@@ -5,6 +5,7 @@
 #include "command_line/report_page.hpp"
 #include "tool.hpp"
 #include <gonio/core/direction.hpp>
+#include <gonio/io/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
@@ -14,6 +15,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
+#include <random>
 #include <span>
 #include <string>
 #include <vector>
@@ -166,6 +168,35 @@ TEST_CASE("gonio report: one sample") {
   CHECK(data["worst"].empty());
   REQUIRE(data["scans"].size() == 3);  // of the fit alone
   CHECK(data["scans"][0]["samples"].empty());
+}
+
+TEST_CASE("gonio report: of many samples some are shown, the worst among them") {
+  const page_files files;
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share;
+  gonio::sample_set samples;
+  for (int i = 0; i < 1100; ++i) {
+    const gonio::half_difference angles{0.8 * share(random), 0.7 * share(random), 3.0 * share(random)};
+    const auto [wi, wo] = gonio::to_directions(angles);
+    samples.push_back({angles, paint(wi, wo) * (i % 50 == 0 ? 20.0 : 1.0), 1.0});
+  }
+  gonio::io::write_samples(files.folder / "many.csv", samples);
+  run("report '" + files.path("many.csv") + "' --noise 0.02 -o '" + files.path("page.html") + "'");
+  const std::string page = scratch::get(files.folder / "page.html");
+  CHECK(page.size() < 4'000'000);
+  const auto data = parse_json(data_text(page));
+  CHECK(data["count"] == 1100);
+  CHECK(data["worst"].size() == 12);
+  CHECK(data["samples"].size() >= 1000);
+  CHECK(data["samples"].size() < 1100);
+  int disagreeing = 0;
+  for (const auto& each : data["samples"]) {
+    CHECK_FALSE(each.contains("others"));
+    if (each["disagrees"] == true) ++disagreeing;
+    if (each["sample"].get<int>() % 50 == 1) CHECK(each["disagrees"] == true);
+  }
+  CHECK(disagreeing >= 22);
 }
 
 TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
