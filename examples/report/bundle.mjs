@@ -1,4 +1,5 @@
-// npm run bundle: writes bundle.js, what report.js draws with, and bundle.LICENSE.txt, the licences of what is in it.
+// npm run bundle: writes bundle.js, what report.js draws with, and bundle.LICENSE.txt, the licences of what is in it,
+// which bundle.js begins with: they ask for it, and the bundle is copied into every page.
 import { build } from "esbuild";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 
@@ -14,4 +15,7 @@ const licences = [...packages].sort().map((name) => {
   const file = readdirSync(folder).find((each) => /^licen[cs]e/i.test(each));
   return `${name} ${version} (${license})\n\n${file ? readFileSync(`${folder}/${file}`, "utf8").trim() : "no licence file"}\n`;
 });
-writeFileSync("bundle.LICENSE.txt", licences.join("\n" + "-".repeat(80) + "\n\n"));
+const text = licences.join("\n" + "-".repeat(80) + "\n\n");
+if (text.includes("*/") || text.includes("</")) throw new Error("the licences cannot stand in a comment of a page");
+writeFileSync("bundle.LICENSE.txt", text);
+writeFileSync("bundle.js", `/*!\n${text}*/\n${readFileSync("bundle.js", "utf8")}`);
