@@ -3,6 +3,9 @@
 
 #include "command_line/command.hpp"
 
+#include <string>
+#include <vector>
+
 namespace cli {
 
 void add_learn(command& app);
@@ -13,6 +16,8 @@ void add_sample(command& app);
 void add_near_field(command& app);
 void add_sphere(command& app);
 void add_reconstruct(command& app);
+/// `words` is the whole command line, which the page repeats.
+void add_report(command& app, const std::vector<std::string>& words);
 void add_fit(command& app);
 void add_compare(command& app);
 void add_convert(command& app);

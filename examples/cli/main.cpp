@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   cli::add_near_field(app);
   cli::add_sphere(app);
   cli::add_reconstruct(app);
+  cli::add_report(app, {argv, argv + argc});
   cli::add_fit(app);
   cli::add_compare(app);
   cli::add_convert(app);

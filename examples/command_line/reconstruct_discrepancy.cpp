@@ -23,9 +23,6 @@ namespace cli {
 
 namespace {
 
-/// What all others say of each sample is told of so many.
-constexpr Eigen::Index most_residuals = 1000;
-
 /// Of the green channel, which has most of the luminance: "sample 6 disagrees, left out: measured 2.09, the others say
 /// 0.140 (0.110 to 0.170)".
 std::string told(const gonio::outlying_sample& out, Eigen::Index number, const char* what_is_done) {
@@ -35,27 +32,45 @@ std::string told(const gonio::outlying_sample& out, Eigen::Index number, const c
          reflectance(low) + " to " + reflectance(high) + ", green)";
 }
 
-/// Of all samples that count: what was measured, what all others say, and by how much it is off.
-void write_residuals(const reconstruct_options& options, const gonio::log_relative_pca& prior,
-                     const gonio::located_samples& located, const gonio::left_out_predictions& others,
-                     const std::vector<Eigen::Index>& numbers, const std::vector<Eigen::Index>& left_out) {
-  std::string text = gonio::io::comment_lines(options.provenance);
-  text += "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
+/// Of all samples that count: what was measured, what all others say, and by how much it is off. `numbers` are their
+/// positions in the file.
+std::vector<checked_sample> check_samples(const gonio::log_relative_pca& prior, const gonio::located_samples& located,
+                                          const gonio::left_out_predictions& others,
+                                          const std::vector<Eigen::Index>& numbers,
+                                          const std::vector<Eigen::Index>& left_out) {
+  std::vector<checked_sample> all(located.size());
   const Eigen::VectorXd disagreement = others.disagreement();
   for (Eigen::Index i = 0; i < located.size(); ++i) {
     const gonio::location& at = located.locations[i];
     const double offset = gonio::offset_at(prior, at);
-    text += std::to_string(numbers[i] + 1);
+    all[i] = {.number = numbers[i],
+              .measured = located.values.row(i).transpose().array(),
+              .others = {},
+              .relative_deviation = std::expm1(others.deviation[i]),
+              .disagreement = disagreement[i],
+              .left_out = std::ranges::count(left_out, i) > 0};
+    for (Eigen::Index c = 0; c < 3; ++c)
+      all[i].others[c] = std::max(prior.metric().inverse(others.mean(i, c) + offset, at), 0.0);
+  }
+  return all;
+}
+
+/// docs/reference/formats.md has the columns.
+void write_residuals(const reconstruct_options& options, const std::vector<checked_sample>& checked) {
+  std::string text = gonio::io::comment_lines(options.provenance);
+  text += "sample,r,g,b,others_r,others_g,others_b,relative_deviation,disagreement,left_out\n";
+  for (const checked_sample& each : checked) {
+    text += std::to_string(each.number + 1);
     const auto append = [&](double value) {
       std::array<char, 40> digits{};
       std::snprintf(digits.data(), digits.size(), ",%.6g", value);
       text += digits.data();
     };
-    for (Eigen::Index c = 0; c < 3; ++c) append(located.values(i, c));
-    for (Eigen::Index c = 0; c < 3; ++c) append(std::max(prior.metric().inverse(others.mean(i, c) + offset, at), 0.0));
-    append(std::expm1(others.deviation[i]));
-    append(disagreement[i]);
-    text += std::ranges::count(left_out, i) > 0 ? ",1\n" : ",0\n";
+    for (const double value : each.measured) append(value);
+    for (const double value : each.others) append(value);
+    append(each.relative_deviation);
+    append(each.disagreement);
+    text += each.left_out ? ",1\n" : ",0\n";
   }
   gonio::io::write_atomically(options.residuals, std::as_bytes(std::span(text)));
 }
@@ -154,13 +169,17 @@ reconstruction reconstruct_by(const fit_function& fit, const reconstruct_options
   // Find out which samples the others contradict.
   gonio::screened_samples screened{located};
   if (!options.keeps_all) screened = gonio::screen(estimator, located, options.threads);
-  if (!options.residuals.empty())
-    write_residuals(options, prior, located,
-                    gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)), numbers,
-                    screened.left_out);
+  std::vector<checked_sample> checked;
+  if (!options.residuals.empty() || (options.keeps_residuals && located.size() <= most_residuals))
+    checked = check_samples(prior, located,
+                            gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)),
+                            numbers, screened.left_out);
+  if (!options.residuals.empty()) write_residuals(options, checked);
 
   // Fit the rest.
   reconstruction result = fit(estimator, screened);
+  result.checked = std::move(checked);
+  for (const Eigen::Index i : screened.left_out) result.left_out.push_back(numbers[i]);
   result.details["discrepancy"] = options.discrepancy;
   if (!options.keeps_all) describe(screened, located.size(), numbers, result);
   const gonio::posterior known(estimator, screened.kept);

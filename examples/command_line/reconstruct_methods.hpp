@@ -32,6 +32,7 @@ struct reconstruct_options {
   bool keeps_all = false;
   std::filesystem::path residuals, uncertainty, uncertainty_image;
   bool keeps_uncertainty = false;  ///< beside those that are written: in the result
+  bool keeps_residuals = false;    ///< the same of at most `most_residuals` samples
   bool fits_spectra = false;       ///< each wavelength instead of colours
   bool has_own_options = false;    ///< the method was asked for something beside what all methods have
   bool as_printed = false;         ///< correction as Noell et al. 2014 print it
@@ -48,6 +49,18 @@ struct reconstruct_options {
   }
 };
 
+/// What all others say of each sample is told of so many.
+inline constexpr Eigen::Index most_residuals = 1000;
+
+/// A sample, and what all others and the prior say of it.
+struct checked_sample {
+  Eigen::Index number = 0;          ///< its position in the file
+  gonio::rgb measured, others;      ///< sr^-1
+  double relative_deviation = 0.0;  ///< of measurement and prediction together
+  double disagreement = 0.0;        ///< mean square over the channels, in deviations; about 1 is expected
+  bool left_out = false;            ///< the fit does without it
+};
+
 /// A fit on its way to the user.
 struct reconstruction {
   gonio::brdf_table table;
@@ -55,6 +68,8 @@ struct reconstruction {
   std::string sentence{};                          ///< the same for people
   std::vector<std::string> warnings{};             ///< sentences, for people: on standard error
   std::optional<gonio::brdf_table> uncertainty{};  ///< relative, if it is asked for
+  std::vector<checked_sample> checked{};           ///< the samples that count, if it is asked for
+  std::vector<Eigen::Index> left_out{};            ///< positions in the file, the worst first: of pca
   std::vector<gonio::correction_round> history{};
   std::optional<gonio::image> iteration_figure{};
   std::optional<gonio::spectral_table> spectra{};  ///< if each wavelength is fitted; `table` is its colours

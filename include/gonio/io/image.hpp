@@ -126,6 +126,9 @@ struct stb_extents {
 /// Reads the codes of a PNG of 8 or 16 bits as they are: grey becomes three equal channels, alpha is dropped.
 [[nodiscard]] stored_codes read_png_codes(const std::filesystem::path& path);
 
+/// A PNG as the bytes of a file, as `write_png` writes it; `name` is what an error calls it.
+[[nodiscard]] std::vector<std::byte> encode_png(const image& picture, const std::string& name);
+
 /// Writes a PNG: clipped to [0, 1], sRGB-encoded, rounded to 8 bits. NaN is refused.
 void write_png(const std::filesystem::path& path, const image& picture);
 

@@ -231,16 +231,20 @@ GONIO_INLINE stored_codes read_png_codes(const std::filesystem::path& path) {
   return codes;
 }
 
-GONIO_INLINE void write_png(const std::filesystem::path& path, const image& picture) {
-  const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), path.string());
+GONIO_INLINE std::vector<std::byte> encode_png(const image& picture, const std::string& name) {
+  const auto [columns, rows] = detail::check_pixels(picture, std::numeric_limits<float>::infinity(), name);
   std::vector<stbi_uc> codes(picture.size());
   std::transform(picture.data(), picture.data() + picture.size(), codes.begin(),
                  [](float value) { return static_cast<stbi_uc>(std::lround(255.0 * encode_srgb(double{value}))); });
   detail::byte_sink sink;
   if (stbi_write_png_to_func(detail::byte_sink::write, &sink, columns, rows, 3, codes.data(), 3 * columns) == 0 ||
       sink.failed)
-    gonio::refuse({path.string(), ": the image cannot be encoded"});
-  write_atomically(path, sink.bytes);
+    gonio::refuse({name, ": the image cannot be encoded"});
+  return std::move(sink.bytes);
+}
+
+GONIO_INLINE void write_png(const std::filesystem::path& path, const image& picture) {
+  write_atomically(path, encode_png(picture, path.string()));
 }
 
 GONIO_INLINE image read_hdr(const std::filesystem::path& path) {

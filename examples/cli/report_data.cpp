@@ -1,0 +1,247 @@
+#include "report_data.hpp"
+
+#include "command_line/measurement_files.hpp"
+#include "command_line/measures_as_json.hpp"
+#include "command_line/report_page.hpp"
+#include "command_line/sample_facts.hpp"
+#include "command_line/sample_warnings.hpp"
+#include "images.hpp"
+#include <gonio/core/random.hpp>
+#include <gonio/core/statistics.hpp>
+#include <gonio/model/physical_properties.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+using gonio::radians;
+
+/// Five digits: more are not known, and would only make the page longer.
+double five_digits(double value) {
+  if (value == 0.0 || !std::isfinite(value)) return value;
+  const double unit = std::pow(10.0, 4.0 - std::floor(std::log10(std::abs(value))));
+  return std::round(value * unit) / unit;
+}
+
+json five_digits(const gonio::rgb& value) {
+  return {five_digits(value.x()), five_digits(value.y()), five_digits(value.z())};
+}
+
+/// A fit and how well it is known, in any directions.
+struct known_fit {
+  gonio::render::horizon_lookup value, relative;
+
+  explicit known_fit(const reconstruction& found) : value(found.table), relative(*found.uncertainty) {}
+
+  /// Adds both to what is told of a pair.
+  void describe(const gonio::direction& wi, const gonio::direction& wo, json& told) const {
+    told["fit"] = five_digits(gonio::rgb(value(wi, wo).max(0.0)));
+    told["known_to"] = five_digits(relative(wi, wo).y());
+  }
+};
+
+std::string sphere_url(const reconstruction& found, gonio::thread_count threads) {
+  const image_options how{.size = 320, .exposure = {}};
+  std::array spheres{sphere_image(found.table, how, threads)};
+  expose_spheres(spheres, how);
+  return data_url("image/png", gonio::io::encode_png(spheres.front(), "the sphere"));
+}
+
+/// The angle of the viewer in the light's plane, radians: positive on the far side from the light. NaN if it is more
+/// than a degree off the plane.
+double in_plane_angle(const gonio::direction_pair& pair) {
+  const double azimuth = std::hypot(pair.wi.x(), pair.wi.y()) > 1e-4 ? std::atan2(pair.wi.y(), pair.wi.x()) : 0.0;
+  const gonio::direction wo = gonio::turned_about_normal(pair.wo, -azimuth);
+  if (std::abs(wo.y()) > std::sin(radians(1.0))) return std::numeric_limits<double>::quiet_NaN();
+  return std::atan2(-wo.x(), wo.z());
+}
+
+/// Which samples of the file are shown: if they are many, some at random and the worst of those that were left out.
+std::vector<Eigen::Index> shown_samples(const reported_fit& fit) {
+  const std::vector<Eigen::Index> numbers = counting_samples(fit.measured.samples);
+  if (std::ssize(numbers) <= most_residuals) return numbers;
+  std::set<Eigen::Index> some;
+  for (const Eigen::Index i : gonio::random_choice(std::ssize(numbers), most_residuals, 0)) some.insert(numbers[i]);
+  const auto& worst = fit.found.left_out;
+  some.insert(worst.begin(), worst.begin() + std::min(std::ssize(worst), most_residuals / 4));
+  return {some.begin(), some.end()};
+}
+
+/// The numbers of those that the others contradict, from 1: left out, or kept beside so few.
+std::set<Eigen::Index> disagreeing(const reconstruction& found) {
+  std::set<Eigen::Index> numbers;
+  for (const Eigen::Index i : found.left_out) numbers.insert(i + 1);
+  if (found.details.contains("disagreeing"))
+    for (const json& each : found.details["disagreeing"].elements())
+      numbers.insert(std::lround(each["sample"].number()));
+  return numbers;
+}
+
+json samples_of(const reported_fit& fit, const known_fit& known) {
+  std::map<Eigen::Index, const checked_sample*> checked;
+  for (const checked_sample& each : fit.found.checked) checked[each.number] = &each;
+  const std::set<Eigen::Index> off = disagreeing(fit.found);
+  json all = json::array();
+  for (const Eigen::Index i : shown_samples(fit)) {
+    const gonio::sample& sample = fit.measured.samples[i];
+    const auto& [wi, wo] = sample.directions.pair();
+    const auto [theta_h, theta_d, phi_d] = sample.angles();
+    json told{{"sample", i + 1},
+              {"theta_i", rounded_degrees(gonio::polar_angle(wi))},
+              {"theta_o", rounded_degrees(gonio::polar_angle(wo))},
+              {"theta_h", rounded_degrees(theta_h)},
+              {"theta_d", rounded_degrees(theta_d)},
+              {"phi_d", rounded_degrees(phi_d)},
+              {"measured", five_digits(sample.value)}};
+    if (const double angle = in_plane_angle({wi, wo}); !std::isnan(angle)) told["in_plane"] = rounded_degrees(angle);
+    known.describe(wi, wo, told);
+    if (const auto found = checked.find(i); found != checked.end()) {
+      told["others"] = five_digits(found->second->others);
+      told["deviation"] = five_digits(found->second->relative_deviation);
+      told["disagreement"] = five_digits(found->second->disagreement);
+    }
+    told["disagrees"] = off.contains(i + 1);
+    all.push_back(std::move(told));
+  }
+  return all;
+}
+
+/// Samples in the plane of lights that are less than half a degree apart.
+struct in_plane_scan {
+  double lowest = 0.0, sum = 0.0;  ///< of theta_i, degrees
+  std::vector<json> samples;       ///< their numbers
+
+  [[nodiscard]] double theta_i() const { return sum / static_cast<double>(samples.size()); }
+};
+
+/// The scans of three samples or more, at most six, those of most samples; by the angle of the light.
+std::vector<in_plane_scan> find_scans(const json& samples) {
+  std::vector<std::pair<double, json>> in_plane;
+  for (const json& each : samples.elements())
+    if (each.contains("in_plane")) in_plane.emplace_back(each["theta_i"].number(), each["sample"]);
+  std::ranges::sort(in_plane, [](const auto& a, const auto& b) {
+    return std::pair(a.first, a.second.number()) < std::pair(b.first, b.second.number());
+  });
+  std::vector<in_plane_scan> all;
+  for (const auto& [theta_i, number] : in_plane) {
+    if (all.empty() || theta_i >= all.back().lowest + 0.5)
+      all.push_back({.lowest = theta_i, .sum = 0.0, .samples = {}});
+    all.back().sum += theta_i;
+    all.back().samples.push_back(number);
+  }
+  std::erase_if(all, [](const in_plane_scan& scan) { return scan.samples.size() < 3; });
+  std::ranges::sort(all, [](const in_plane_scan& a, const in_plane_scan& b) {
+    return std::pair(b.samples.size(), a.lowest) < std::pair(a.samples.size(), b.lowest);
+  });
+  all.resize(std::min<std::size_t>(all.size(), 6));
+  std::ranges::sort(all, {}, &in_plane_scan::lowest);
+  return all;
+}
+
+/// The fit in the plane of a light, in degrees from the normal, at -87 to 87 degrees of the viewer.
+json curve_of(double theta_i, const known_fit& known) {
+  const gonio::direction wi = gonio::spherical_direction(radians(theta_i), 0.0);
+  json curve = json::array();
+  for (int half = -2 * 87; half <= 2 * 87; ++half) {
+    json told{{"angle", 0.5 * half}};
+    known.describe(wi, gonio::spherical_direction(radians(-0.5 * half), 0.0), told);
+    curve.push_back(std::move(told));
+  }
+  return curve;
+}
+
+/// The fit in the planes of the lights that were scanned, or of three others if none was.
+json scans_of(const json& samples, const known_fit& known) {
+  json all = json::array();
+  for (const in_plane_scan& scan : find_scans(samples))
+    all.push_back({{"theta_i", std::round(10.0 * scan.theta_i()) / 10.0},
+                   {"samples", scan.samples},
+                   {"curve", curve_of(scan.theta_i(), known)}});
+  if (!all.empty()) return all;
+  for (const double theta_i : {15.0, 45.0, 70.0})
+    all.push_back({{"theta_i", theta_i}, {"samples", json::array()}, {"curve", curve_of(theta_i, known)}});
+  return all;
+}
+
+/// The median over phi_d of how well directions are known: columns of theta_h, denser near highlights, and rows of
+/// theta_d. Those that are below the horizon are left out.
+json map_of(const known_fit& known) {
+  constexpr int columns = 18, rows = 12, azimuths = 12;
+  const auto edge = [](int column) { return 90.0 * column * column / (columns * columns); };
+  json all = json::array();
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < rows; ++row) {
+      const double theta_h = 0.5 * (edge(column) + edge(column + 1)), theta_d = 90.0 * (row + 0.5) / rows;
+      std::vector<double> found;
+      for (int k = 0; k < azimuths; ++k) {
+        const double phi_d = (k + 0.5) * std::numbers::pi / azimuths;
+        const auto [wi, wo] = gonio::to_directions({radians(theta_h), radians(theta_d), phi_d});
+        if (wi.z() > 0.0 && wo.z() > 0.0) found.push_back(known.relative(wi, wo).y());
+      }
+      if (found.empty()) continue;
+      all.push_back({{"theta_h", {five_digits(edge(column)), five_digits(edge(column + 1))}},
+                     {"theta_d", {90.0 * row / rows, 90.0 * (row + 1) / rows}},
+                     {"known_to", five_digits(gonio::median(found))}});
+    }
+  return all;
+}
+
+/// Albedo by angle; `known_to` is what it would be off by if all directions were off together.
+json albedo_of(const known_fit& known) {
+  constexpr int bins = 120;
+  const auto unsure = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+    return known.value(wi, wo) * known.relative(wi, wo);
+  };
+  const auto values = gonio::model::albedo_by_angle(known.value, bins),
+             deviations = gonio::model::albedo_by_angle(unsure, bins);
+  json all = json::array();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double albedo = gonio::luminance(values[i].value), off = gonio::luminance(deviations[i].value);
+    all.push_back({{"theta_i", rounded_degrees(values[i].theta)},
+                   {"albedo", five_digits(values[i].value)},
+                   {"known_to", albedo > 0.0 ? json(five_digits(off / albedo)) : json(nullptr)}});
+  }
+  return all;
+}
+
+/// Numbers of the samples that were left out, or count less than half, the worst first: a dozen.
+json worst_of(const reconstruction& found) {
+  json numbers = json::array();
+  for (const Eigen::Index i : found.left_out)
+    if (numbers.size() < 12) numbers.push_back(i + 1);
+  return numbers;
+}
+
+json warnings_of(const reported_fit& fit) {
+  std::vector<std::string> all = doubts_of(fit.measured);
+  all.insert(all.end(), fit.found.warnings.begin(), fit.found.warnings.end());
+  return all;
+}
+
+}  // namespace
+
+json report_data(const reported_fit& fit) {
+  const known_fit known(fit.found);
+  json data{{"name", fit.options.samples.stem().string()},
+            {"count", counting_samples(fit.measured.samples).size()},
+            {"sphere", sphere_url(fit.found, fit.options.threads)},
+            {"details", fit.found.details},
+            {"worst", worst_of(fit.found)},
+            {"warnings", warnings_of(fit)},
+            {"samples", samples_of(fit, known)}};
+  data["scans"] = scans_of(data["samples"], known);
+  data["map"] = map_of(known);
+  data["albedo"] = albedo_of(known);
+  return data;
+}
+
+}  // namespace cli

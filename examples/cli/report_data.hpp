@@ -1,0 +1,21 @@
+#pragma once
+/// What the page of `gonio report` shows, as the JSON that examples/report/report.js reads.
+
+#include "command_line/json.hpp"
+#include "command_line/reconstruct_choice.hpp"
+#include <gonio/io/samples.hpp>
+
+namespace cli {
+
+/// A fit, and what it was fitted to.
+struct reported_fit {
+  const reconstruct_options& options;
+  const gonio::io::sample_file& measured;
+  const reconstruction& found;  ///< with its uncertainty
+};
+
+/// Directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a probability
+/// of 68 %. Of more than `most_residuals` samples, so many at random are shown, and those that were left out.
+[[nodiscard]] json report_data(const reported_fit& fit);
+
+}  // namespace cli

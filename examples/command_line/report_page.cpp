@@ -1,0 +1,97 @@
+#include "report_page.hpp"
+
+#include "report_parts.hpp"
+
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+
+namespace cli {
+
+namespace {
+
+/// Every `from` of a text becomes `to`.
+std::string replaced(std::string_view text, std::string_view from, std::string_view to) {
+  std::string result;
+  std::size_t position = 0;
+  while (true) {
+    const std::size_t found = text.find(from, position);
+    result.append(text.substr(position, found - position));
+    if (found == std::string_view::npos) return result;
+    result.append(to);
+    position = found + from.size();
+  }
+}
+
+std::string joined(std::span<const std::string_view> pieces) {
+  std::string all;
+  for (const std::string_view piece : pieces) all.append(piece);
+  return all;
+}
+
+}  // namespace
+
+std::string escape_html(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&#39;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+std::string escape_script(std::string_view json_text) {
+  return replaced(replaced(json_text, "</", "<\\/"), "<!", "\\u003c!");
+}
+
+std::string data_url(std::string_view media_type, std::span<const std::byte> bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string url = "data:";
+  url.append(media_type).append(";base64,");
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = (group << 8) | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) url += k <= count ? digits[(group >> (18 - 6 * k)) & 63U] : '=';
+  }
+  return url;
+}
+
+std::string report_page(const std::string& title, const json& data) {
+  // What is put in is not searched for further marks.
+  const std::pair<std::string_view, std::string> parts[] = {{"@TITLE@", escape_html(title)},
+                                                            {"@STYLE@", joined(report_style())},
+                                                            {"@DATA@", escape_script(data.dump())},
+                                                            {"@BUNDLE@", joined(report_bundle())},
+                                                            {"@SCRIPT@", joined(report_script())}};
+  const std::string form = joined(report_form());
+  std::string page;
+  std::size_t position = 0;
+  for (const auto& [mark, text] : parts) {
+    const std::size_t found = form.find(mark, position);
+    if (found == std::string::npos) throw std::logic_error("examples/report/page.html lacks a mark");
+    page.append(form, position, found - position).append(text);
+    position = found + mark.size();
+  }
+  return page.append(form, position);
+}
+
+}  // namespace cli

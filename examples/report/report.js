@@ -1,0 +1,290 @@
+// The page of gonio report: draws what the JSON above holds. Text of files becomes text nodes, never HTML.
+"use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
+
+// ---- numbers and elements --------------------------------------------------------------------------------------
+const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
+const digits = (value) => (value === null || !Number.isFinite(value) ? "-" : String(Number(value.toPrecision(3))));
+const percent = (share) => !Number.isFinite(share) ? "no limit" : (share >= 9.95 ? `a factor of ${digits(share + 1)}` : `${Number((100 * share).toPrecision(2))} %`);
+const angle = (value) => `${Number(value.toFixed(1))}\u00b0`;
+const channels = (value) => value.map(digits).join(", ");
+const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
+
+function element(name, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...children);
+  return made;
+}
+const page = document.getElementById("page");
+const add = (...children) => page.append(...children);
+const paragraph = (text, className = "") => element("p", { className }, text);
+
+function table(head, rows) {
+  const row = (cells, kind) => element("tr", {}, ...cells.map((cell) => element(kind, {}, cell)));
+  return element("table", {}, element("thead", {}, row(head, "th")),
+    element("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
+}
+
+// A chart with a caption, and its values as a table: whoever cannot see the one reads the other.
+function figure(chart, description, caption, head, rows) {
+  const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
+  image.setAttribute("role", "img");
+  image.setAttribute("aria-label", description);
+  return element("figure", {}, chart, element("figcaption", {}, caption),
+    element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
+}
+
+const by_number = new Map(data.samples.map((each) => [each.sample, each]));
+const is_off = (each) => each.disagrees;
+const off = data.samples.filter(is_off);
+const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
+function told(each) {
+  const lines = [`sample ${each.sample}: ${where(each)}`, `measured ${channels(each.measured)}`,
+    `fit ${channels(each.fit)}, known to ${percent(each.known_to)}`];
+  if (each.others) lines.push(`the others say ${channels(each.others)}`, `off by ${digits(Math.sqrt(each.disagreement))} deviations`);
+  if (each.disagrees) lines.push("disagrees with the others");
+  return lines.join("\n");
+}
+// Samples as dots, and those that disagree as crosses with their numbers; `others` have a tip as well.
+function samples_as_marks(samples, x, y, others = []) {
+  const wrong = samples.filter(is_off);
+  return [
+    Plot.dot(samples.filter((each) => !is_off(each)), { x, y, r: 3.5, fill: "var(--ink)", stroke: "var(--paper)" }),
+    Plot.dot(wrong, { x, y, r: wrong.length > 12 ? 4 : 6, symbol: "times", stroke: "var(--wrong)", strokeWidth: 2.5 }),
+    Plot.text(wrong.length > 4 ? [] : wrong, { x, y, text: (each) => String(each.sample), dx: 8, dy: -8, textAnchor: "start",
+      fill: "var(--wrong)", fontWeight: 700, stroke: "var(--paper)", strokeWidth: 3 }),
+    Plot.tip([...samples, ...others], Plot.pointer({ x, y, title: (each) => each.tip ?? told(each) })),
+  ];
+}
+
+// ---- the answer ------------------------------------------------------------------------------------------------
+function verdict() {
+  const { details, count } = data;
+  const box = element("div", { className: off.length || details.down_weighted > 0 ? "disagree" : "agree" });
+  if (details.outliers !== undefined) {
+    box.append(paragraph(`About ${percent(details.outliers)} of ${count} samples are outliers; ` +
+      `${percent(details.down_weighted)} count less than half.`));
+    if (data.worst.length) box.append(paragraph(`\u2715 The worst: ${data.worst.length === 1 ? "sample" : "samples"} ${data.worst.join(", ")}.`));
+    return box;
+  }
+  const contradicted = details.left_out || details.disagreeing || [];
+  if (contradicted.length === 0) {
+    box.append(paragraph(count === 1 ? "One sample: there is no other that could disagree." : `None of the ${count} samples disagrees with the others.`));
+    return box;
+  }
+  box.append(paragraph(`${contradicted.length} of ${count} samples ` + (contradicted.length === 1 ? "disagrees" : "disagree") +
+    (details.left_out ? " with the others and the fit leaves " + (contradicted.length === 1 ? "it" : "them") + " out:" : "; of so few, none is left out:")));
+  for (const each of contradicted) {
+    const sample = by_number.get(each.sample);
+    box.append(paragraph(`\u2715 Sample ${each.sample} (${sample ? where(sample) : ""}): measured ${channels(each.measured)}, ` +
+      `the others say ${channels(each.others)} (red, green, blue, sr\u207b\u00b9).`));
+  }
+  return box;
+}
+
+function answer() {
+  const { details, count } = data;
+  const words = element("div", {},
+    paragraph(`Half of all directions are known to ${percent(details.known_to)}.`, "headline"),
+    paragraph(`Half of those beyond 80\u00b0 are known to ${percent(details.known_to_beyond_80_degrees)}; the highlight to a factor of ` +
+      `${digits(details.highlight_known_to_factor)} (95 of 100 cases).`),
+    verdict(),
+    paragraph(`From ${count} ${count === 1 ? "sample" : "samples"}. \u201cKnown to 6 %\u201d: in 68 of 100 cases the true value is ` +
+      "within 6 % of the fit, for materials like those that the prior knows.", "soft"));
+  const repeats = /^sample \d+ disagrees/; // which the verdict says
+  for (const sentence of data.warnings.filter((each) => !repeats.test(each))) words.append(paragraph("Note: " + sentence, "soft"));
+  add(element("h1", {}, data.name), element("div", { className: "answer" },
+    element("img", { src: data.sphere, alt: "A sphere of the reconstructed material under two lights", width: 260, height: 260 }), words));
+}
+
+// ---- polar plots -----------------------------------------------------------------------------------------------
+// Radius of a reflectance: logarithmic if it varies much, so that a highlight does not hide all else. Rings are at
+// round values.
+function radius_of(values) {
+  const largest = Math.max(...values), smallest = Math.min(...values.filter((value) => value > 0));
+  if (!(largest > 0)) return { rings: [], radius: () => 0, kind: "of no meaning: nothing is reflected" };
+  if (largest / smallest < 6) {
+    const step = [1, 2, 5, 10].map((k) => k * 10 ** Math.floor(Math.log10(largest / 4))).find((k) => largest / k <= 4.5);
+    const end = Math.ceil(largest / step) * step, rings = [];
+    for (let k = 1; k * step <= end * 1.0001; ++k) rings.push(k * step);
+    return { rings, radius: (value) => Math.max(value, 0) / end, kind: "linear" };
+  }
+  const low = Math.floor(Math.log10(Math.max(smallest, largest * 1e-7))), high = Math.ceil(Math.log10(largest));
+  const rings = [];
+  for (let k = low + 1; k <= high; ++k) rings.push(10 ** k);
+  return { rings, radius: (value) => Math.max(Math.log10(Math.max(value, 1e-30)) - low, 0) / (high - low), kind: `logarithmic, ${digits(10 ** low)} in the middle` };
+}
+
+const ring = (radius, size = 90) => Array.from({ length: 2 * size + 1 }, (_, i) => {
+  const at = (i / size - 1) * Math.PI / 2;
+  return [radius * Math.sin(at), radius * Math.cos(at)];
+});
+
+function polar_plot(scan) {
+  const points = scan.samples.map((number) => by_number.get(number));
+  const fit = scan.curve.map((each) => ({ ...each, y: luminance(each.fit) }));
+  const { rings, radius, kind } = radius_of([...fit.map((each) => each.y), ...points.map((each) => luminance(each.measured))]);
+  const project = (degrees, value) => {
+    const r = Math.min(radius(value), 1.12), at = degrees * Math.PI / 180;
+    return { x: r * Math.sin(at), y: r * Math.cos(at) };
+  };
+  const outer = fit.map((each) => project(each.angle, each.y * (1 + each.known_to)));
+  const inner = fit.map((each) => project(each.angle, each.y / (1 + each.known_to))).reverse();
+  const placed = points.map((each) => ({ ...each, at: project(each.in_plane, luminance(each.measured)) }));
+  // The fit has tips of its own where no sample is.
+  const between = fit.filter((each) => points.every((point) => Math.abs(point.in_plane - each.angle) > 1.5)).map((each) => ({
+    at: project(each.angle, each.y),
+    tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}\nknown to ${percent(each.known_to)}` }));
+  const ray = (degrees, r) => ({ x: r * Math.sin(degrees * Math.PI / 180), y: r * Math.cos(degrees * Math.PI / 180) });
+  const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
+  const xy = { x: (each) => each[0], y: (each) => each[1] };
+  return Plot.plot({
+    width: 520, height: 284, margin: 10, marginBottom: 24, axis: null,
+    x: { domain: [-1.16, 1.16] }, y: { domain: [0, 1.16] },
+    marks: [
+      ...rings.map((value) => Plot.line(ring(radius(value)), { ...xy, stroke: "var(--line)" })),
+      ...[-90, -60, -30, 0, 30, 60, 90].map((at) => spoke(at, { stroke: "var(--line)" })),
+      Plot.text([-60, -30, 0, 30, 60], { x: (at) => ray(at, 1.09).x, y: (at) => ray(at, 1.09).y, text: (at) => `${at}\u00b0`, fill: "var(--soft)" }),
+      spoke(-scan.theta_i, { stroke: "var(--soft)", strokeDasharray: "7 4", strokeWidth: 1.5 }),
+      spoke(scan.theta_i, { stroke: "var(--soft)", strokeDasharray: "2 4", strokeWidth: 1.5 }),
+      Plot.line([...outer, ...inner], { x: "x", y: "y", fill: "var(--fit)", fillOpacity: 0.22, stroke: "none", curve: "linear-closed" }),
+      Plot.line(fit.map((each) => project(each.angle, each.y)), { x: "x", y: "y", stroke: "var(--fit)", strokeWidth: 2 }),
+      Plot.text(rings, { x: radius, y: 0, text: digits, dy: 11, fill: "var(--soft)" }),
+      Plot.text([{ at: -scan.theta_i, name: "light" }, { at: scan.theta_i, name: "mirror" }].filter((_, i) => i === 0 || scan.theta_i > 8), {
+        x: (each) => ray(each.at, 0.9).x, y: (each) => ray(each.at, 0.9).y, text: "name", fill: "var(--soft)", stroke: "var(--paper)", strokeWidth: 4 }),
+      ...samples_as_marks(placed, (each) => each.at.x, (each) => each.at.y, between),
+    ],
+    ariaDescription: kind,
+  });
+}
+
+function scans() {
+  const measured = data.scans.some((scan) => scan.samples.length);
+  add(element("h2", {}, measured ? "In-plane scans" : "In the plane of incidence"),
+    paragraph((measured ? "Dots: samples; crosses: those that disagree. " : "No three samples lie in the plane of one light: this is the fit alone. ") +
+      "Line: the fit. Band: in 68 of 100 cases the truth is within. The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
+  const charts = element("div", { className: "charts" });
+  for (const scan of data.scans) {
+    const chart = polar_plot(scan), every_tenth = scan.curve.filter((each) => each.angle % 5 === 0);
+    const peak = scan.curve.reduce((best, each) => (luminance(each.fit) > luminance(best.fit) ? each : best));
+    const rows = scan.samples.length
+      ? scan.samples.map((number) => by_number.get(number)).sort((a, b) => a.in_plane - b.in_plane).map((each) => [angle(each.in_plane), String(each.sample), channels(each.measured), channels(each.fit), percent(each.known_to)])
+      : every_tenth.map((each) => [angle(each.angle), "", "", channels(each.fit), percent(each.known_to)]);
+    charts.append(figure(chart,
+      `Polar plot for light at ${angle(scan.theta_i)}: ${scan.samples.length} samples; the fit is largest at ${angle(peak.angle)}, ${digits(luminance(peak.fit))} per steradian`,
+      `Light at ${angle(scan.theta_i)}; radius ${chart.getAttribute("aria-description")}`,
+      ["viewer", "sample", "measured", "fit", "known to"], rows));
+  }
+  add(charts);
+}
+
+// ---- where ----------------------------------------------------------------------------------------------------
+function uncertainty_map() {
+  add(element("h2", {}, "Where was measured, and where the fit is unsure"),
+    paragraph("The number in each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. " +
+      "Left: the highlight; top: grazing light and viewer."));
+  const cells = data.map.map((each) => ({ ...each, percent: 100 * each.known_to })), many = data.samples.length > 200;
+  const chart = Plot.plot({
+    width: 1040, height: 430, marginLeft: 50, marginBottom: 42,
+    x: { type: "sqrt", domain: [0, 90], ticks: [0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90], label: "half angle theta_h, degrees from the normal" },
+    y: { domain: [0, 90], ticks: [0, 15, 30, 45, 60, 75, 90], label: "difference angle theta_d, degrees" },
+    color: { type: "log", domain: [2, 100], clamp: true, range: ["#f3ecd2", "#123a63"], interpolate: "rgb" },
+    marks: [
+      Plot.rect(cells, { x1: (each) => each.theta_h[0], x2: (each) => each.theta_h[1], y1: (each) => each.theta_d[0], y2: (each) => each.theta_d[1],
+        fill: "percent", inset: 0.5 }),
+      Plot.text(cells, { x: (each) => (0.5 * (Math.sqrt(each.theta_h[0]) + Math.sqrt(each.theta_h[1]))) ** 2,
+        y: (each) => 0.5 * (each.theta_d[0] + each.theta_d[1]), text: (each) => (each.percent >= 999.5 ? ">999" : each.percent.toFixed(0)),
+        fill: (each) => (each.percent > 18 ? "#ffffff" : "#1b1d21"), fontSize: 11 }),
+      Plot.dot(data.samples.filter((each) => !is_off(each)), { x: "theta_h", y: "theta_d", r: many ? 2 : 4, fill: "#ffffff", stroke: "#000000", strokeWidth: many ? 1 : 1.5 }),
+      Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#ffffff", strokeWidth: 5 }),
+      Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#c2410c", strokeWidth: 2.5 }),
+      Plot.tip(data.samples, Plot.pointer({ x: "theta_h", y: "theta_d", title: told })),
+    ],
+  });
+  const worst = cells.reduce((a, b) => (a.percent > b.percent ? a : b)), best = cells.reduce((a, b) => (a.percent < b.percent ? a : b));
+  const place = (each) => `theta_h ${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}, theta_d ${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`;
+  add(figure(chart, `Map of uncertainty over half and difference angle: best known at ${place(best)}, to ${digits(best.percent)} %; worst at ${place(worst)}, to ${digits(worst.percent)} %`,
+    `Best known: ${place(best)}, to ${percent(best.known_to)}. Least: ${place(worst)}, to ${percent(worst.known_to)}. gonio design --given says which directions to measure next.`,
+    ["theta_h", "theta_d", "known to"],
+    cells.map((each) => [`${angle(each.theta_h[0])} to ${angle(each.theta_h[1])}`, `${angle(each.theta_d[0])} to ${angle(each.theta_d[1])}`, percent(each.known_to)])));
+}
+
+// ---- residuals -------------------------------------------------------------------------------------------------
+function residuals() {
+  const has_others = data.samples.some((each) => each.others);
+  const residual = (each) => has_others
+    ? Math.sign(luminance(each.measured) - luminance(each.others)) * Math.sqrt(each.disagreement)
+    : 100 * (luminance(each.measured) / luminance(each.fit) - 1);
+  const shown = data.samples.map((each) => ({ ...each, residual: residual(each), grazing: Math.max(each.theta_i, each.theta_o) }))
+    .filter((each) => Number.isFinite(each.residual));
+  add(element("h2", {}, "Residuals by direction"),
+    paragraph(has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
+      : `By how many percent each sample is above or below the fit; ${data.samples.length} of ${data.count} samples: 1000 at random, and the worst.`));
+  const largest = Math.max(3, ...shown.map((each) => Math.abs(each.residual)));
+  const chart = (x, label) => Plot.plot({
+    width: 520, height: 280, marginLeft: 52, marginBottom: 40, x: { domain: [0, 90], label, grid: false },
+    y: { type: largest > 10 ? "symlog" : "linear", domain: [-largest * 1.1, largest * 1.1], label: has_others ? "deviations" : "percent", grid: true,
+      ticks: largest > 10 ? [-1000, -100, -30, -10, -3, -1, 0, 1, 3, 10, 30, 100, 1000].filter((tick) => Math.abs(tick) <= largest * 1.1) : undefined },
+    marks: [
+      ...(has_others ? [Plot.rect([0], { x1: 0, x2: 90, y1: -2, y2: 2, fill: "var(--fit)", fillOpacity: 0.14 })] : []),
+      Plot.ruleY([0], { stroke: "var(--soft)" }),
+      ...samples_as_marks(shown, x, "residual"),
+    ],
+  });
+  const worst = shown.length ? shown.reduce((a, b) => (Math.abs(a.residual) > Math.abs(b.residual) ? a : b)) : null;
+  const summary = worst ? `largest for sample ${worst.sample}, ${digits(worst.residual)}` : "none";
+  const one = (x, label, name) => figure(chart(x, label), `Residuals against ${name}: ${summary}`, `Against ${name}`,
+    ["sample", name, "measured", has_others ? "the others" : "fit", has_others ? "deviations" : "percent"],
+    shown.map((each) => [String(each.sample), angle(each[x]), channels(each.measured), channels(has_others ? each.others : each.fit), digits(each.residual)]));
+  add(element("div", { className: "charts" },
+    one("theta_h", "half angle theta_h, degrees", "the half angle (0 is the highlight)"),
+    one("grazing", "larger of theta_i and theta_o, degrees", "the larger angle from the normal")));
+}
+
+// ---- albedo ----------------------------------------------------------------------------------------------------
+function albedo() {
+  add(element("h2", {}, "Albedo by angle"),
+    paragraph("What share of the light is reflected in all directions together. Band, and thin line: the luminance, and what it would be if all directions were off together."));
+  const grey = data.albedo.every((each) => is_grey(each.albedo)), names = grey ? ["grey"] : ["red", "green", "blue"];
+  const dashes = ["none", "8 3", "2 3"], last = data.albedo[data.albedo.length - 1];
+  const bands = data.albedo.filter((each) => each.known_to !== null);
+  const highest = Math.max(...data.albedo.flatMap((each) => each.albedo));
+  const top = Math.max(1.05, Math.min(1.1 * highest, 20));
+  // The lines' names at their ends, kept apart.
+  const ends = names.map((name, c) => ({ name, y: last.albedo[c] })).sort((a, b) => a.y - b.y);
+  for (let i = 1; i < ends.length; ++i) ends[i].y = Math.max(ends[i].y, ends[i - 1].y + 0.06 * top);
+  const chart = Plot.plot({
+    width: 1040, height: 300, marginLeft: 50, marginRight: 60, marginBottom: 40,
+    x: { domain: [0, 90], label: "angle of the light from the normal, degrees", ticks: [0, 15, 30, 45, 60, 75, 90] },
+    y: { domain: [0, top], label: "albedo", grid: true, clamp: true },
+    marks: [
+      Plot.areaY(bands, { x: "theta_i", y1: (each) => luminance(each.albedo) / (1 + each.known_to),
+        y2: (each) => luminance(each.albedo) * (1 + each.known_to), fill: "var(--fit)", fillOpacity: 0.18, clip: true }),
+      ...(grey ? [] : [Plot.line(data.albedo, { x: "theta_i", y: (each) => luminance(each.albedo), stroke: "var(--soft)", strokeWidth: 1 })]),
+      Plot.text(ends, { x: last.theta_i, y: "y", text: "name", dx: 8, textAnchor: "start" }),
+      Plot.ruleY([1], { stroke: "var(--soft)", strokeDasharray: "6 4" }),
+      Plot.text([0], { x: 1, y: 1, text: () => "all light", dy: -8, textAnchor: "start", fill: "var(--soft)" }),
+      ...names.map((name, c) => Plot.line(data.albedo, { x: "theta_i", y: (each) => each.albedo[c], stroke: grey ? "var(--ink)" : `var(--${name})`,
+        strokeWidth: 2, strokeDasharray: dashes[c] })),
+      Plot.tip(data.albedo, Plot.pointer({ x: "theta_i", y: (each) => luminance(each.albedo),
+        title: (each) => `light at ${angle(each.theta_i)}\n${names.map((name, c) => `${name} ${digits(each.albedo[c])}`).join("\n")}` })),
+    ],
+  });
+  const key = names.length === 1 ? "" : " Red: solid; green: dashes; blue: dots.";
+  add(figure(chart, `Albedo by angle: ${channels(data.albedo[0].albedo)} at 0 degrees, ${channels(last.albedo)} at ${angle(last.theta_i)}`,
+    `At normal incidence ${channels(data.albedo[0].albedo)} (red, green, blue).` + key, ["light", ...names, "known to"],
+    data.albedo.map((each) => [angle(each.theta_i), ...names.map((_, c) => digits(each.albedo[c])), each.known_to === null ? "-" : percent(each.known_to)])));
+}
+
+// ---- what was done ---------------------------------------------------------------------------------------------
+function record() {
+  const rows = data.record.map(([name, text]) => element("tr", {}, element("th", { scope: "row" }, name), element("td", {}, text)));
+  add(element("h2", {}, "What was done"), element("table", { className: "record" }, element("tbody", {}, ...rows)));
+}
+
+answer();
+scans();
+uncertainty_map();
+residuals();
+albedo();
+record();

@@ -1,0 +1,217 @@
+/// gonio report: a page that a browser shows without a network, whatever the text of the measurements is.
+
+#include "../io/scratch.hpp"
+#include "../json.hpp"
+#include "command_line/report_page.hpp"
+#include "tool.hpp"
+#include <gonio/core/direction.hpp>
+#include <gonio/io/samples.hpp>
+#include <gonio/model/formula_materials.hpp>
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// A scan of red paint in the plane of a light at 45 degrees; the seventh sample of `wrong` is five times too bright.
+std::string in_plane_scan(const std::string& comments, bool wrong) {
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+  const gonio::direction light = gonio::spherical_direction(gonio::radians(45.0), 0.0);
+  std::string text = comments + "theta_i,phi_i,theta_o,phi_o,r,g,b\n";
+  for (int i = 0; i < 15; ++i) {
+    const int degrees = -70 + 10 * i;
+    const double phi = degrees < 0 ? 0.0 : 180.0;
+    const gonio::direction view = gonio::spherical_direction(gonio::radians(std::abs(degrees)), gonio::radians(phi));
+    const gonio::rgb value = paint(light, view) * (wrong && i == 6 ? 5.0 : 1.0);
+    std::array<char, 160> line{};
+    std::snprintf(line.data(), line.size(), "45,0,%d,%.0f,%.6g,%.6g,%.6g\n", std::abs(degrees), phi, value.x(),
+                  value.y(), value.z());
+    text += line.data();
+  }
+  return text;
+}
+
+struct page_files {
+  scratch::folder folder;
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
+
+  /// The page that is made of a file of this name and text.
+  [[nodiscard]] std::string page_of(const std::string& name, const std::string& text,
+                                    const std::string& arguments = "") const {
+    scratch::put(folder / name, text);
+    run("report '" + path(name) + "' -o '" + path("page.html") + "' " + arguments);
+    return scratch::get(folder / "page.html");
+  }
+};
+
+std::size_t occurrences(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+std::string data_text(const std::string& page) {
+  const std::string opening = R"(<script id="data" type="application/json">)";
+  const std::size_t start = page.find(opening);
+  REQUIRE(start != std::string::npos);
+  const std::size_t end = page.find("</script>", start);
+  REQUIRE(end != std::string::npos);
+  return page.substr(start + opening.size(), end - start - opening.size());
+}
+
+}  // namespace
+
+TEST_CASE("gonio report: text is escaped") {
+  CHECK(cli::escape_html("a<b> & \"c\" 'd'") == "a&lt;b&gt; &amp; &quot;c&quot; &#39;d&#39;");
+  CHECK(cli::escape_script(R"(["</script>","<!--<script>"])") == R"(["<\/script>","\u003c!--<script>"])");
+  const cli::json texts{"</script><!-- </ <\\/ <", "@STYLE@"};
+  CHECK(cli::json::parse(cli::escape_script(texts.dump())) == texts);
+}
+
+TEST_CASE("gonio report: bytes as a URL") {
+  const auto url = [](std::vector<unsigned char> bytes) {
+    return cli::data_url("image/png", std::as_bytes(std::span(bytes)));
+  };
+  // RFC 4648, section 10.
+  CHECK(url({}) == "data:image/png;base64,");
+  CHECK(url({'f'}) == "data:image/png;base64,Zg==");
+  CHECK(url({'f', 'o'}) == "data:image/png;base64,Zm8=");
+  CHECK(url({'f', 'o', 'o', 'b', 'a', 'r'}) == "data:image/png;base64,Zm9vYmFy");
+  CHECK(url({0xff, 0xef, 0xbe}) == "data:image/png;base64,/+++");
+}
+
+TEST_CASE("gonio report: an in-plane scan with a wrong sample") {
+  const page_files files;
+  const std::string page = files.page_of("scan.csv", in_plane_scan("# instrument: arm\n", true), "--noise 0.02");
+  CHECK(page.size() < 4'000'000);
+  const auto data = parse_json(data_text(page));
+  CHECK(data["name"] == "scan");
+  CHECK(data["count"] == 15);
+  CHECK(data["worst"] == parse_json("[7]"));
+  CHECK(data["details"]["left_out"][0]["sample"] == 7);
+  REQUIRE(data["samples"].size() == 15);
+  CHECK(data["samples"][6]["disagrees"] == true);
+  CHECK(data["samples"][7]["disagrees"] == false);
+  CHECK(data["samples"][6]["disagreement"].get<double>() > 9.0);
+  CHECK(data["samples"][0]["in_plane"] == -70.0);
+  CHECK(data["samples"][14]["in_plane"] == 70.0);  // on the far side from the light
+  REQUIRE(data["scans"].size() == 1);
+  CHECK(data["scans"][0]["theta_i"] == 45.0);
+  CHECK(data["scans"][0]["samples"].size() == 15);
+  // The fit is near what was measured, where nothing was wrong, and the mirror direction is where it is bright.
+  double brightest = 0.0, where = 0.0;
+  for (const auto& each : data["scans"][0]["curve"])
+    if (std::abs(each["angle"].get<double>()) < 60.0 && each["fit"][1].get<double>() > brightest) {
+      brightest = each["fit"][1].get<double>();
+      where = each["angle"].get<double>();
+    }
+  CHECK(where > 30.0);
+  const auto& sample = data["samples"][2];
+  CHECK(sample["fit"][0].get<double>() == doctest::Approx(sample["measured"][0].get<double>()).epsilon(0.1));
+  CHECK(data["albedo"].size() == 19);
+  CHECK(data["sphere"].get<std::string>().starts_with("data:image/png;base64,iVBORw0KGgo"));
+  const std::string record = data["record"].dump();
+  for (const char* word : {"gonio report ", "--noise 0.02", "2.00 % (stated)", "arm", "materials.prior"}) {
+    CAPTURE(word);
+    CHECK(record.find(word) != std::string::npos);
+  }
+}
+
+TEST_CASE("gonio report: the page asks no network") {
+  const page_files files;
+  const std::string page =
+      files.page_of("scan.csv", in_plane_scan("# conditions: see http://example.org/\n", false), "--noise 0.02");
+  CHECK(page.find("default-src 'none'") != std::string::npos);
+  for (const char* word : {"src=\"http", "href=\"http", "src='http", "href='http", "url(http", "url(\"http", "@import",
+                           "<link", "<iframe", "fetch(", "XMLHttpRequest", "importScripts", "src=\"//"}) {
+    CAPTURE(word);
+    CHECK(page.find(word) == std::string::npos);
+  }
+  // What is left are names, not addresses: of XML's vocabularies, in a licence, and the text of the measurements.
+  CHECK(occurrences(page, "http://") == occurrences(page, "http://www.w3.org/") +
+                                            occurrences(page, "\nhttp://www.apache.org/licenses/LICENSE-2.0\n") +
+                                            occurrences(page, "http://example.org/"));
+  CHECK(page.find("Copyright 2020-2025 Observable, Inc.") != std::string::npos);
+  CHECK(occurrences(page, "https://") == 0);
+}
+
+TEST_CASE("gonio report: text of files and of the command line is text in the page") {
+  const page_files files;
+  const std::string evil = "</script><script>alert(1)</script>";
+  const std::string plain = files.page_of("scan.csv", in_plane_scan("", false));
+  const std::string page = files.page_of("<b>&.csv", in_plane_scan("# instrument: " + evil + "<!--\n", false),
+                                         "--title '" + evil + "@DATA@'");
+  // No script is added or ended, and the title is no mark of the page's form.
+  CHECK(occurrences(page, "</script>") == occurrences(plain, "</script>"));
+  CHECK(occurrences(page, "<script>alert") == occurrences(data_text(page), "<script>alert"));
+  CHECK(page.find("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;@DATA@</title>") != std::string::npos);
+  CHECK(data_text(page).find("<\\/script>") != std::string::npos);
+  CHECK(data_text(page).find("<!--") == std::string::npos);
+  const auto data = parse_json(data_text(page));
+  CHECK(data["name"] == evil + "@DATA@");
+  CHECK(data["record"].dump().find("<b>&.csv") != std::string::npos);
+}
+
+TEST_CASE("gonio report: one sample") {
+  const page_files files;
+  const std::string page = files.page_of("one.csv", "theta_h,theta_d,phi_d,r,g,b\n9,12,69,0.2,0.1,0.1\n");
+  const auto data = parse_json(data_text(page));
+  CHECK(data["count"] == 1);
+  CHECK(data["worst"].empty());
+  REQUIRE(data["scans"].size() == 3);  // of the fit alone
+  CHECK(data["scans"][0]["samples"].empty());
+}
+
+TEST_CASE("gonio report: of many samples some are shown, the worst among them") {
+  const page_files files;
+  const gonio::model::formula_brdf paint = gonio::model::formula_material("red-paint");
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share;
+  gonio::sample_set samples;
+  for (int i = 0; i < 1100; ++i) {
+    const gonio::half_difference angles{0.8 * share(random), 0.7 * share(random), 3.0 * share(random)};
+    const auto [wi, wo] = gonio::to_directions(angles);
+    samples.push_back({angles, paint(wi, wo) * (i % 50 == 0 ? 20.0 : 1.0), 1.0});
+  }
+  gonio::io::write_samples(files.folder / "many.csv", samples);
+  run("report '" + files.path("many.csv") + "' --noise 0.02 -o '" + files.path("page.html") + "'");
+  const std::string page = scratch::get(files.folder / "page.html");
+  CHECK(page.size() < 4'000'000);
+  const auto data = parse_json(data_text(page));
+  CHECK(data["count"] == 1100);
+  CHECK(data["worst"].size() == 12);
+  CHECK(data["samples"].size() >= 1000);
+  CHECK(data["samples"].size() < 1100);
+  int disagreeing = 0;
+  for (const auto& each : data["samples"]) {
+    CHECK_FALSE(each.contains("others"));
+    if (each["disagrees"] == true) ++disagreeing;
+    if (each["sample"].get<int>() % 50 == 1) CHECK(each["disagrees"] == true);
+  }
+  CHECK(disagreeing >= 22);
+}
+
+TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
+  const page_files files;
+  scratch::put(files.folder / "bad.csv", std::string("theta_h,theta_d,phi_d,r,g,b\n9,12,69,nan,.3,.3\n"));
+  scratch::put(files.folder / "good.csv", in_plane_scan("", false));
+  const std::string bad = "'" + files.path("bad.csv") + "'", good = "'" + files.path("good.csv") + "'";
+  refuses("report " + bad + " -o '" + files.path("bad.html") + "'", {"bad.csv", "line 2", "not finite"});
+  CHECK_FALSE(std::filesystem::exists(files.folder / "bad.html"));
+  refuses("report " + good + " -o '" + files.path("page.pdf") + "'", {"page.pdf", ".html"});
+  CHECK_FALSE(std::filesystem::exists(files.folder / "page.pdf"));
+  refuses("report " + good, {"--output"});
+  refuses("report absent.csv -o '" + files.path("page.html") + "'", {"absent.csv"});
+  refuses("report " + good + " --noise 2 -o '" + files.path("page.html") + "'", {"--noise"});
+  CHECK_FALSE(std::filesystem::exists(files.folder / "page.html"));
+}
