@@ -1,8 +1,7 @@
 # cmake [-D GUARD=ON] [-D OUTPUT=docs/results/compile-cost.md] -P cmake/compile_times.cmake: what README's program and each
 # header that has all of a module cost a compiler, in CPU seconds and megabytes, beside a plain Eigen program with one
 # product and one Cholesky decomposition, which is compiled again before each: the median of three ratios. GUARD:
-# README's program and gonio.hpp
-# alone, which fail where they are 30 % above their goals.
+# README's program and gonio.hpp alone, which fail where they are 30 % above their goals.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(${gonio_library_packages} ${gonio_shape_packages} time)
 find_program(time time REQUIRED NO_CACHE)

@@ -8,10 +8,11 @@ materials of the networks. Needs g++ and git."""
 
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
+
+from fetched_sources import between, git
 
 TOOL = os.environ.get("GONIO", "gonio")
 NAMES = os.environ.get("NAMES", "white-fabric blue-rubber gold-metallic-paint").split()
@@ -142,18 +143,10 @@ int main(int, char** arguments) {
 """
 
 
-def between(text, begin, end):
-    """The lines from the one that begins so up to the one that begins so."""
-    found = re.search(rf"^{begin}.*?(?=^{end})", text, re.MULTILINE | re.DOTALL)
-    if not found:
-        sys.exit(f"mdl_measured.py: the SDK's sources have no lines from '{begin}' to '{end}'")
-    return found.group()
-
-
 def compiled(sdk, folder):
     """The program, of the SDK's sources at HEAD."""
     def show(path):
-        return subprocess.run(["git", "-C", sdk, "show", f"HEAD:{path}"], check=True, capture_output=True, text=True).stdout
+        return git(sdk, "show", f"HEAD:{path}")
 
     loader = show("src/io/scene/bsdf_measurement/bsdf_measurement.cpp")
     runtime = show("src/render/mdl/runtime/mdlrt_bsdf_measurement.cpp")

@@ -54,7 +54,6 @@ def compare(name, source, environment, scratch):
     kind = text.split('"')[1]
     rough = mi.load_string(text.replace("<bsdf", '<bsdf version="3.0.0"', 1))
     off = max(np.abs(albedo(rough, angle) / by_angle[angle] - 1).max() for angle in (0, 20, 40, 60))
-    # A scene takes the parameters, not the object, which `scene_of` would share between scenes.
     delta = [sphere_difference(truth, bsdf, environment, scratch)
              for bsdf in (rough, mi.load_dict(as_principled(gltf))) for truth in (fitted, table)]
     best = sphere_difference(table, own, environment, scratch)

@@ -9,10 +9,11 @@ A git repository of github.com/mmp/pbrt-v4, and tables; three materials by formu
 import json
 import os
 import pathlib
-import re
 import subprocess
 import sys
 import tempfile
+
+from fetched_sources import between, git
 
 TOOL = os.environ.get("GONIO", "gonio")
 ANGLES = (0, 40, 60, 80)
@@ -272,26 +273,15 @@ int main(int count, char** arguments) {
 """
 
 
-def between(text, begin, end):
-    """The lines from the one that begins so up to the one that begins so."""
-    found = re.search(rf"^{begin}.*?(?=^{end})", text, re.MULTILINE | re.DOTALL)
-    if not found:
-        sys.exit(f"pbrt_measured.py: pbrt's sources have no lines from '{begin}' to '{end}'")
-    return found.group()
-
-
 def compiled(repository, folder):
     """The program, of pbrt's sources at HEAD."""
-    def git(*words):
-        return subprocess.run(["git", "-C", repository, *words], check=True, capture_output=True, text=True).stdout
-
-    for path in git("ls-tree", "-r", "--name-only", "HEAD", "src/pbrt").splitlines():
+    for path in git(repository, "ls-tree", "-r", "--name-only", "HEAD", "src/pbrt").splitlines():
         if path.endswith(".h"):
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
-            (folder / path).write_text(git("show", f"HEAD:{path}"))
-    theirs = PBRT.replace("@CLASS@", between(git("show", "HEAD:src/pbrt/bxdfs.h"), "class MeasuredBxDF ",
+            (folder / path).write_text(git(repository, "show", f"HEAD:{path}"))
+    theirs = PBRT.replace("@CLASS@", between(git(repository, "show", "HEAD:src/pbrt/bxdfs.h"), "class MeasuredBxDF ",
                                              "// NormalizedFresnelBxDF"))
-    theirs = theirs.replace("@BODIES@", between(git("show", "HEAD:src/pbrt/bxdfs.cpp"), "class Tensor ",
+    theirs = theirs.replace("@BODIES@", between(git(repository, "show", "HEAD:src/pbrt/bxdfs.cpp"), "class Tensor ",
                                                 "std::string MeasuredBxDF::ToString"))
     (folder / "interface.hpp").write_text("#pragma once" + INTERFACE)
     (folder / "theirs.cpp").write_text(theirs)

@@ -244,7 +244,7 @@ class alike_values {
     exposure_counts means(std::ssize(values) / size, std::ssize(frames_));
     for (Eigen::Index i = 0; i < means.rows(); ++i)
       for (Eigen::Index j = 0; j < means.cols(); ++j)
-        means(i, j) = mean_count(std::span(values).subspan(i * size, size), frames_[j].codes);
+        means(i, j) = interquartile_mean(std::span(values).subspan(i * size, size), frames_[j].codes);
     return means;
   }
 
@@ -267,8 +267,8 @@ class alike_values {
     return values;
   }
 
-  /// Of the middle half: a pixel that is hot or has moved does not count.
-  [[nodiscard]] double mean_count(std::span<const Eigen::Index> group, const stored_codes& codes) const {
+  /// Of a group's counts: a pixel that is hot or has moved does not count.
+  [[nodiscard]] double interquartile_mean(std::span<const Eigen::Index> group, const stored_codes& codes) const {
     std::vector<std::uint16_t> counts;
     counts.reserve(group.size());
     for (const Eigen::Index value : group) counts.push_back(codes.values[value]);

@@ -103,22 +103,25 @@ GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
   return spherical_direction(theta, phi);
 }
 
+/// What `take` makes of the parser once it has read the text.
+template <class Take>
+[[nodiscard]] auto parsed_cornell(std::string_view text, const std::string& name, const Take& take) {
+  text_place place{name, 0};
+  cornell_parser parser(place);
+  for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
+  return take(std::move(parser));
+}
+
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
 
 GONIO_INLINE sample_set parse_cornell(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  detail::cornell_parser parser(place);
-  detail::for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
-  return std::move(parser).samples();
+  return detail::parsed_cornell(text, name, [](auto&& parser) { return std::move(parser).samples(); });
 }
 
 GONIO_INLINE spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  detail::cornell_parser parser(place);
-  detail::for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
-  return std::move(parser).spectra();
+  return detail::parsed_cornell(text, name, [](auto&& parser) { return std::move(parser).spectra(); });
 }
 
 GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {
