@@ -95,10 +95,8 @@ gonio::io::spectral_sample_file read_spectra_file(const std::filesystem::path& p
   if (kind == nullptr) return gonio::io::read_spectral_sample_file(path, reading_of(options));
   require_unused(options, path);
   if (kind->read_spectra == nullptr)
-    gonio::refuse({path.native(),
-                   ": --spectra and --illuminant need a .csv file whose columns are wavelengths, or "
-                   "Cornell's format; spectra of ",
-                   kind->name, " are read as colours"});
+    gonio::refuse({path.native(), ": --spectra and --illuminant need reflectance at wavelengths, which files of ",
+                   kind->name, " do not hold"});
   return {kind->read_spectra(path), {}, {}};
 }
 

@@ -15,7 +15,7 @@ struct measurement_kind {
   /// By the name's extension, in lower case, and the first 4096 bytes.
   bool (*recognises)(std::string_view extension, std::string_view start);
   gonio::sample_set (*read)(const std::filesystem::path& path);
-  /// nullptr where all files are read as colours.
+  /// nullptr where the format has no spectra.
   gonio::spectral_samples (*read_spectra)(const std::filesystem::path& path) = nullptr;
 };
 

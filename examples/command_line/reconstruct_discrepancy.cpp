@@ -209,7 +209,9 @@ reconstruction reconstruct_spectra_with_discrepancy(const reconstruct_options& o
     const Eigen::Index count = located.size();
     auto [functions, found] = estimator.solve_located(std::move(located));
     const gonio::fitted_spectra fitted(spectra.wavelengths, std::move(functions), std::move(found));
-    return described_spectra(fitted.tabulate(gonio::valid_cells(), options.threads), fitted.report(), count, options);
+    reconstruction result = described_spectra(fitted.tabulate(gonio::valid_cells(), options.threads), options);
+    describe_residuals(fitted.report(), count, result);
+    return result;
   };
   return reconstruct_by(fit, options, prior, samples);
 }

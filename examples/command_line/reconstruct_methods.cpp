@@ -125,28 +125,36 @@ reconstruction reconstruct_by_components(const reconstruct_options& options, con
   return result;
 }
 
-reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
+soft_specular_choice choose_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
   const std::filesystem::path& file = options.materials.prior;
   if (gonio::io::is_prior(file))
     gonio::refuse({"--method soft-specular needs a --prior that gonio learn --split wrote; ", file.native(),
                    " has one of all materials"});
-  const auto prior = gonio::io::read_soft_specular_prior(file);
+  auto prior = gonio::io::read_soft_specular_prior(file);
   const std::string& stated = options.solver.eta;
   if (stated == "gcv" || stated == "loo")
     gonio::refuse("--method soft-specular needs a number as its --eta, not " + stated);
   const double eta = stated.empty() ? published_eta : number_of_eta(stated);
   const auto penalties = gonio::penalties_in_proportion(prior, eta);
-  const auto fitted = gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples);
-  const bool is_soft = fitted.kind() == gonio::material_kind::soft;
+  auto fitted = gonio::soft_specular_decomposition(prior, penalties, options.threads).fit(samples);
+  return {std::move(prior), penalties, std::move(fitted)};
+}
+
+void describe(const soft_specular_choice& choice, reconstruction& result) {
+  result.details["kind"] = choice.is_soft() ? "soft" : "specular";
+  result.details["contrast"] = choice.fitted.contrast();
+  result.details["threshold"] = choice.prior.threshold();
+  result.details["eta"] = choice.eta();
+  result.sentence = std::string("taken for ") + (choice.is_soft() ? "soft" : "specular") +
+                    ": a highlight contrast of " + fixed(choice.fitted.contrast(), 2) + ", where " +
+                    fixed(choice.prior.threshold(), 2) + " divides; " + result.sentence;
+}
+
+reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options, const gonio::sample_set& samples) {
+  const soft_specular_choice choice = choose_soft_or_specular(options, samples);
   reconstruction result = std::visit(
-      [&](const auto& chosen) { return described(chosen, samples.size(), options.threads); }, fitted.chosen());
-  result.details["kind"] = is_soft ? "soft" : "specular";
-  result.details["contrast"] = fitted.contrast();
-  result.details["threshold"] = prior.threshold();
-  result.details["eta"] = is_soft ? penalties.soft : penalties.specular;
-  result.sentence = std::string("taken for ") + (is_soft ? "soft" : "specular") + ": a highlight contrast of " +
-                    fixed(fitted.contrast(), 2) + ", where " + fixed(prior.threshold(), 2) + " divides; " +
-                    result.sentence;
+      [&](const auto& chosen) { return described(chosen, samples.size(), options.threads); }, choice.fitted.chosen());
+  describe(choice, result);
   return result;
 }
 
@@ -167,12 +175,16 @@ reconstruction reconstruct_by_materials(const reconstruct_options& options, cons
   return fit(materials, solver, samples, options.threads);
 }
 
-reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
+gonio::rbf<gonio::any_metric> chosen_radial_functions(const reconstruct_options& options) {
   const gonio::valid_cells cells;
   const auto centres = gonio::farthest_point_centres(cells, gonio::published_centre_count, options.seed);
   const auto metric =
       chosen_metric(options, [&] { return gonio::io::read_prior(options.materials.prior).metric().on(cells); });
-  return fit(gonio::rbf{cells, metric, centres}, gonio::tikhonov{1e-6}, samples, options.threads);
+  return {cells, metric, centres};
+}
+
+reconstruction reconstruct_by_radial_functions(const reconstruct_options& options, const gonio::sample_set& samples) {
+  return fit(chosen_radial_functions(options), radial_solver, samples, options.threads);
 }
 
 reconstruction reconstruct_by_pull_push(const reconstruct_options& options, const gonio::sample_set& samples) {

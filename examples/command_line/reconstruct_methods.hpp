@@ -7,11 +7,14 @@
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/basis/rbf.hpp>
 #include <gonio/core/spectrum.hpp>
 #include <gonio/estimate/corrected_brdf.hpp>
 #include <gonio/estimate/scattered_options.hpp>
+#include <gonio/estimate/soft_specular_decomposition.hpp>
 #include <gonio/metric/any_metric.hpp>
 #include <gonio/render/image.hpp>
+#include <gonio/solve/tikhonov.hpp>
 #include <gonio/table/spectral_samples.hpp>
 #include <gonio/table/spectral_table.hpp>
 
@@ -107,6 +110,23 @@ struct component_choice {
 [[nodiscard]] reconstruction reconstruct_by_soft_or_specular(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
 
+/// What `--method soft-specular` takes samples for, and the fit.
+struct soft_specular_choice {
+  gonio::soft_specular_prior prior;
+  gonio::soft_specular_penalties penalties;
+  gonio::soft_or_specular_fit<gonio::fitted_brdf<gonio::log_relative_pca>, gonio::fitted_brdf<gonio::log_relative_pca>>
+      fitted;
+
+  [[nodiscard]] bool is_soft() const noexcept { return fitted.kind() == gonio::material_kind::soft; }
+  [[nodiscard]] double eta() const noexcept { return is_soft() ? penalties.soft : penalties.specular; }
+  [[nodiscard]] const gonio::log_relative_pca& components() const noexcept {
+    return is_soft() ? prior.soft() : prior.specular();
+  }
+};
+[[nodiscard]] soft_specular_choice choose_soft_or_specular(const reconstruct_options& options,
+                                                           const gonio::sample_set& samples);
+void describe(const soft_specular_choice& choice, reconstruction& result);
+
 /// The materials themselves under any metric (Noell et al. 2014, section 2.2).
 [[nodiscard]] reconstruction reconstruct_by_materials(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
@@ -120,6 +140,10 @@ struct component_choice {
 [[nodiscard]] reconstruction reconstruct_by_radial_functions(const reconstruct_options& options,
                                                              const gonio::sample_set& samples);
 
+/// These functions, and their solver.
+[[nodiscard]] gonio::rbf<gonio::any_metric> chosen_radial_functions(const reconstruct_options& options);
+inline const gonio::tikhonov radial_solver{1e-6};
+
 /// Scattered-data interpolation (Gortler et al. 1996).
 [[nodiscard]] reconstruction reconstruct_by_pull_push(const reconstruct_options& options,
                                                       const gonio::sample_set& samples);
@@ -128,15 +152,16 @@ struct component_choice {
 [[nodiscard]] reconstruction reconstruct_by_neighbours(const reconstruct_options& options,
                                                        const gonio::sample_set& samples);
 
-/// Each wavelength as a grey material, by the methods pca and linear. Throws gonio::error for the others, which fit
-/// colours.
+/// Each wavelength as a grey material. Throws gonio::error for --method correction, which weighs samples by all three
+/// channels of their colours.
 [[nodiscard]] reconstruction reconstruct_each_wavelength(const reconstruct_options& options,
                                                          const gonio::spectral_samples& spectra,
                                                          const gonio::sample_set& colours);
 
-/// A fit of spectra by `samples` samples, with the solver's report, and its colours.
-[[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const gonio::solve_report& report,
-                                               Eigen::Index samples, const reconstruct_options& options);
+/// A fit of spectra, and its colours.
+[[nodiscard]] reconstruction described_spectra(gonio::spectral_table spectra, const reconstruct_options& options);
+/// What its solver says, of `samples` samples.
+void describe_residuals(const gonio::solve_report& report, Eigen::Index samples, reconstruction& result);
 
 /// The metric chosen, log if none is; `relative()` makes the one that needs a reference.
 template <class Relative>

@@ -5,6 +5,7 @@
 #include "tool.hpp"
 #include <gonio/io/merl.hpp>
 #include <gonio/io/rgl.hpp>
+#include <gonio/io/rgl_spectra.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/io/spectral_samples.hpp>
 
@@ -68,8 +69,9 @@ TEST_CASE("each wavelength is reconstructed, and written as spectra or as their 
 
 TEST_CASE("spectra are fitted by other penalties, by other solvers and by the materials themselves") {
   const measured_files files;
-  for (const std::string options : {"--eta 40", "--discrepancy 0", "--solver lasso", "--no-reject", "--method linear",
-                                    "--method linear --solver tikhonov --eta 1"}) {
+  for (const std::string options :
+       {"--eta 40", "--discrepancy 0", "--solver lasso", "--no-reject", "--method linear",
+        "--method linear --solver tikhonov --eta 1", "--method rbf", "--method pull-push", "--method scattered"}) {
     CAPTURE(options);
     const std::string told =
         run("reconstruct " + files.at("spectra.csv") + " --spectra " + options + " -o " + files.at("t.binary"));
@@ -86,6 +88,27 @@ TEST_CASE("without --spectra, spectra are their colours wherever samples are rea
   CHECK(scratch::get(files.at("from_spectra.binary")) == scratch::get(files.at("from_d65.binary")));
   const auto facts = parse_json(run("info --json " + files.at("spectra.csv")));
   CHECK(facts["samples"] == 18);
+}
+
+TEST_CASE("interpolated spectra are those of three wavelengths at a time, which are the method's own colours") {
+  const measured_files files;
+  gonio::io::write_samples(files.at("three.csv"), [] {
+    const gonio::spectral_samples all = measured_paint({420, 480, 540, 600, 660});
+    gonio::sample_set three = all.at_wavelength(0);
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+      three[i].value = {all.values(i, 3), all.values(i, 4), all.values(i, 4)};
+    return three;
+  }());
+  run("reconstruct " + files.at("three.csv") + " --method scattered -o " + files.at("three.binary"));
+  run("reconstruct " + files.at("spectra.csv") + " --spectra --method scattered -o " + files.at("all.bsdf"));
+  const auto material = gonio::io::read_rgl(files.at("all.bsdf"));
+  REQUIRE(material.spectra);
+  const gonio::direction wi = gonio::spherical_direction(0.4, 0.0), wo = gonio::spherical_direction(0.7, 2.0);
+  const gonio::rgb three = gonio::io::read_merl(files.at("three.binary"))(wi, wo);
+  const gonio::spectral_samples found =
+      gonio::io::sample_spectra(material, std::vector<gonio::sample_directions>{gonio::direction_pair{wi, wo}});
+  CHECK(found.values(0, 3) == doctest::Approx(three.x()).epsilon(0.05));
+  CHECK(found.values(0, 4) == doctest::Approx(three.y()).epsilon(0.05));
 }
 
 TEST_CASE("one wavelength is reconstructed as it is, with --spectra and without") {
@@ -108,8 +131,8 @@ TEST_CASE("what has no spectra is refused") {
   refuses("reconstruct " + files.at("colours.csv") + " --spectra" + output, {"colours.csv", "names no wavelengths"});
   refuses("reconstruct " + files.at("colours.csv") + " --illuminant A" + output,
           {"colours.csv", "names no wavelengths"});
-  refuses("reconstruct " + files.at("spectra.csv") + " --spectra --method pull-push" + output,
-          {"--spectra", "pca or linear", "pull-push"});
+  refuses("reconstruct " + files.at("spectra.csv") + " --spectra --method correction --iterations 3" + output,
+          {"--spectra", "correction"});
   refuses("reconstruct " + files.at("spectra.csv") + " --spectra --misplaced 0.5 --noise 0.02" + output,
           {"--misplaced", "--spectra"});
   refuses("reconstruct " + files.at("laser.csv") + " --spectra -o " + files.at("t.bsdf"),

@@ -76,3 +76,20 @@ TEST_CASE("inlier weights say which samples of the given ones are kept, so that 
           found.kept.values.replicate(1, 3));
   }
 }
+
+TEST_CASE("of a colour outside the gamut no more samples are taken for outliers than of grey") {
+  // Blue beyond Rec. 709: red is negative in every sample.
+  const gonio::rgb saturated = gonio::from_xyz({0.15, 0.1, 0.9});
+  REQUIRE(saturated.x() < 0.0);
+  for (const Eigen::Index count : {25, 200}) {
+    auto grey = with_wrong_ones(count);
+    grey.values.colwise() = grey.values.col(1).eval();
+    auto blue = grey;
+    blue.values.array().rowwise() *= saturated.transpose();
+    const auto expected = gonio::screen(screened_estimator(), grey), found = gonio::screen(screened_estimator(), blue);
+    CHECK(found.outlier_share < expected.outlier_share + 0.05);
+    CHECK(std::ranges::count(found.left_out, 3) == 1);
+    // What is kept are the colours as they were given.
+    CHECK(found.kept.values.col(0).maxCoeff() < 0.0);
+  }
+}

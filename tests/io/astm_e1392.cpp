@@ -48,6 +48,19 @@ TEST_CASE("ASTM: what the columns are is read from their names") {
   const std::array wavelengths{450.0, 550.0, 650.0}, values{0.1, 0.2, 0.4};
   const gonio::rgb colour = gonio::spectral_colour(wavelengths)(values);
   CHECK((first("theta_i,phi_i,theta_s,phi_s,450nm,550nm,650nm", "0.5,0,0.25,3,.1,.2,.4").value == colour).all());
+  const std::string text = astm_start + "450nm,550nm\n0.5,0,0.25,3,.1,.2\n0.5,0,0.5,3,.3,.4\n";
+  const auto spectra = gonio::io::parse_astm_e1392_spectra(text, "x");
+  CHECK(spectra.wavelengths == std::vector{450.0, 550.0});
+  CHECK(spectra.values(1, 1) == 0.4f);
+  CHECK(gonio::polar_angle(spectra.directions[1].pair().wo) == doctest::Approx(0.5));
+  const auto laser = gonio::io::parse_astm_e1392_spectra(astm_start + "633nm\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n", "x");
+  CHECK(laser.wavelengths == std::vector{633.0});
+  check_refused(
+      [&] {
+        return gonio::io::parse_astm_e1392_spectra(astm_start + "BRDF\n0.5,0,0.25,3,.1\n0.5,0,0.5,3,.1\n",
+                                                   "paint.astm");
+      },
+      {"paint.astm", "no spectra"});
   const auto other_order = first("BRDF,phi_s,theta_s,phi_i,theta_i", ".7,3,0.25,0,0.5");
   CHECK(gonio::polar_angle(other_order.directions.pair().wi) == doctest::Approx(0.5));
 }
@@ -73,7 +86,7 @@ TEST_CASE("ASTM: what is no such file is refused") {
   check_astm_refused("VARS theta_i,phi_i,theta_s,phi_s,BRDF\n", {"no sample"});
   check_astm_refused(astm_start + "one,two\n", {"line 4", "'one'", "R,G,B"});
   check_astm_refused(astm_start + "500nm,400nm\n", {"line 4", "VARS", "wavelength 2"});
-  check_astm_refused(astm_start + "1000nm,2000nm\n", {"line 4", "VARS", "fewer than two"});
+  check_astm_refused(astm_start + "1000nm,2000nm\n0.5,0,0.25,3,.1,.2\n0.5,0,0.5,3,.3,.4\n", {"fewer than two"});
   check_astm_refused(astm_start + "BRDF\n0.5,0,0.25,3\n", {"line 5", "4 fields", "expected 5"});
   check_astm_refused(astm_start + "BRDF\n0.5,0,0.25,3,x\n", {"line 5", "'BRDF'", "'x'"});
   check_astm_refused(astm_start + "BRDF\n0.5,0,0.25,3,nan\n", {"line 5", "'BRDF'", "not finite"});

@@ -71,11 +71,21 @@ TEST_CASE("BiRD: wavelengths at one direction are its spectrum, in whatever orde
     const auto samples = parse_bird(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
     REQUIRE(samples.size() == 1);
     CHECK((samples[0].value - expected).abs().maxCoeff() < 1e-9);
+    const auto spectra = gonio::io::parse_bird_spectra(at_one_direction("45,45,45", given, "0.2,0.1,0.4"), "x");
+    REQUIRE(spectra.size() == 1);
+    CHECK(spectra.wavelengths == std::vector<double>(wavelengths.begin(), wavelengths.end()));
+    CHECK(spectra.values(0, 2) == 0.4f);
   }
+  check_refused([&] { return gonio::io::parse_bird_spectra(three_of(""), "tile.json"); }, {"tile.json", "no spectra"});
+  check_refused(
+      [&] {
+        return gonio::io::parse_bird_spectra(three_of(variable("wavelength_i", "nm", "450,550,450")), "tile.json");
+      },
+      {"tile.json", "other wavelengths"});
   const auto laser = parse_bird(at_one_direction("45", variable("wavelength_i", "nm", "1064"), "0.2"), "x");
   CHECK((laser[0].value == 0.2).all());
   check_bird_refused(at_one_direction("45,45", variable("wavelength_i", "nm", "1000,1064"), "0.2,0.1"),
-                     {"wavelength_i", "fewer than two"});
+                     {"fewer than two"});
 }
 
 TEST_CASE("BiRD: states of illumination must average to unpolarised light") {

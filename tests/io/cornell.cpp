@@ -44,7 +44,7 @@ TEST_CASE("what is no such file is refused") {
   check_text_refused("3\n450 550\n650 750\n", {"line 3", "more than the 3"});
   check_text_refused("3\n450 550 500\n", {"line 2", "wavelength 3"});
   check_text_refused("3\n450 550 nan\n", {"line 2", "field 3"});
-  check_text_refused(start, {"no samples"});
+  check_text_refused(start, {"no sample above the horizon"});
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1\n", {"line 8", "6 fields", "3 reflectances"});
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 .1 .1\n", {"line 8", "8 fields"});
   check_text_refused(start + "0.5 0 0.25 3.1 .1 .1 inf\n", {"line 8", "field 7"});

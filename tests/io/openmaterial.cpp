@@ -63,6 +63,11 @@ TEST_CASE("OpenMATERIAL: wavelengths in metres make a colour, in whatever order"
   CHECK((flat[0].value - 0.3).abs().maxCoeff() < 1e-6);
   const auto red = parsed("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1], [4.5e-7, 0.4, 0.2, 0, 0.1]");
   CHECK(red[0].value[0] > 1.5 * red[0].value[2]);
+  const auto spectra = gonio::io::parse_openmaterial_spectra(
+      file_of("[6.5e-7, 0.4, 0.2, 0, 0.3], [5.5e-7, 0.4, 0.2, 0, 0.1]"), "red_brdf.xompt");
+  REQUIRE(spectra.bands() == 2);
+  CHECK(spectra.wavelengths[0] == doctest::Approx(550.0));
+  CHECK(spectra.values(0, 1) == 0.3f);
 }
 
 TEST_CASE("OpenMATERIAL: a table that is written has the colours of its material") {

@@ -21,7 +21,11 @@ TEST_CASE("channels: grey, colours as they are, CIE XYZ and spectra") {
   CHECK(spectrum.size() == 3);
   CHECK((spectrum(values) == gonio::spectral_colour(wavelengths)(values)).all());
   CHECK((colour_channels::spectrum(std::array{1064.0})(values) == 0.1).all());
-  check_refused([] { return colour_channels::spectrum(std::array{600.0, 1000.0}); }, {"fewer than two", "visible"});
+  CHECK(spectrum.wavelengths() == std::vector{450.0, 550.0, 650.0});
+  CHECK(colour_channels::xyz().wavelengths().empty());
+  CHECK(spectrum.have_colour());
+  CHECK(colour_channels::spectrum(std::array{1064.0}).have_colour());
+  CHECK_FALSE(colour_channels::spectrum(std::array{600.0, 1000.0}).have_colour());
   check_refused([] { return colour_channels::spectrum(std::array{650.0, 450.0}); }, {"wavelength 2"});
 }
 
@@ -34,14 +38,51 @@ TEST_CASE("azimuths that are a turn apart are the same") {
 TEST_CASE("what is at the horizon or below is no sample") {
   const gonio::direction up{0.0, 0.0, 1.0};
   sample_collector collector;
-  collector.add({up, gonio::spherical_direction(gonio::radians(90.0), 0.0)}, gonio::rgb::Ones());
-  collector.add({gonio::spherical_direction(gonio::radians(100.0), 0.0), up}, gonio::rgb::Ones());
+  const std::array one{1.0};
+  collector.add({up, gonio::spherical_direction(gonio::radians(90.0), 0.0)}, one);
+  collector.add({gonio::spherical_direction(gonio::radians(100.0), 0.0), up}, one);
   sample_collector none = collector;
   check_refused([&] { return std::move(none).take("empty.table"); }, {"empty.table", "no sample above the horizon"});
-  collector.add({up, gonio::spherical_direction(gonio::radians(89.9), 0.0)}, gonio::rgb::Ones(), 0.5);
+  collector.add({up, gonio::spherical_direction(gonio::radians(89.9), 0.0)}, one, 0.5);
   const auto samples = std::move(collector).take("one.table");
   REQUIRE(samples.size() == 1);
   CHECK(samples[0].weight == 0.5);
+}
+
+TEST_CASE("spectra are kept beside the colours that they make") {
+  const gonio::direction up{0.0, 0.0, 1.0}, aside = gonio::spherical_direction(0.5, 0.0);
+  sample_collector collector;
+  collector.use_wavelengths(std::array{450.0, 550.0, 650.0});
+  collector.add({up, aside}, std::array{0.1, 0.2, 0.4});
+  collector.add({aside, up}, std::array{0.2, 0.2, 0.2}, 0.5);
+  collector.use_wavelengths(std::array{450.0, 550.0, 650.0});
+  const sample_collector both = collector;
+  const auto spectra = sample_collector(both).take_spectra("two.table");
+  CHECK(spectra.wavelengths == std::vector{450.0, 550.0, 650.0});
+  CHECK(spectra.weights == std::vector{1.0, 0.5});
+  CHECK(spectra.values(0, 2) == 0.4f);
+  const auto colours = sample_collector(both).take("two.table");
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(spectra.colours()[i].value.isApprox(colours[i].value, 1e-6));
+    CHECK(spectra.directions[i].pair().wi == colours[i].directions.pair().wi);
+  }
+  // Other wavelengths in the next pair of directions make colours, but no table of spectra.
+  collector.use_wavelengths(std::array{450.0, 550.0});
+  collector.add({up, up}, std::array{0.1, 0.1});
+  CHECK(sample_collector(collector).take("three.table").size() == 3);
+  check_refused([&] { return std::move(collector).take_spectra("three.table"); },
+                {"three.table", "other wavelengths", "the same in all"});
+}
+
+TEST_CASE("invisible spectra are spectra, and no colours; colours are no spectra") {
+  const gonio::direction up{0.0, 0.0, 1.0};
+  sample_collector infrared(colour_channels::spectrum(std::array{600.0, 1000.0}));
+  infrared.add({up, up}, std::array{0.1, 0.2});
+  CHECK(sample_collector(infrared).take_spectra("ir.table").values(0, 1) == 0.2f);
+  check_refused([&] { return std::move(infrared).take("ir.table"); }, {"ir.table", "fewer than two", "visible"});
+  sample_collector rgb(colour_channels::linear_rgb());
+  rgb.add({up, up}, std::array{0.1, 0.2, 0.3});
+  check_refused([&] { return std::move(rgb).take_spectra("rgb.table"); }, {"rgb.table", "no spectra"});
 }
 
 TEST_CASE("what no float holds is refused") {

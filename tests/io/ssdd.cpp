@@ -84,6 +84,18 @@ TEST_CASE("SSDD: colours, as text and in binary, and blocks that are passed over
   const std::array wavelengths{450.0, 550.0, 650.0}, values{0.1, 0.2, 0.4};
   const gonio::rgb expected = gonio::spectral_colour(wavelengths)(values);
   CHECK((colour_of("spectrum", "WAVELENGTH_LIST 450 550 650\n", "ascii\n.1 .2 .4") == expected).all());
+  const std::string spectral =
+      ssdd_start + brdf_block("spectrum", "spherical_coordinate_system", one + "WAVELENGTH_LIST 450 550 650\n") +
+      "ascii\n.1 .2 .4";
+  const auto spectra = gonio::io::parse_ssdd_spectra(spectral, "metal.ssdd");
+  CHECK(spectra.wavelengths == std::vector<double>(wavelengths.begin(), wavelengths.end()));
+  CHECK(spectra.values(0, 2) == 0.4f);
+  check_refused(
+      [&] {
+        return gonio::io::parse_ssdd_spectra(
+            ssdd_start + brdf_block("rgb", "spherical_coordinate_system", one) + "ascii\n1 2 3", "metal.ssdd");
+      },
+      {"metal.ssdd", "no spectra"});
 
   const std::array<float, 3> numbers{0.5f, 0.25f, -1.0f};
   const std::string binary(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);

@@ -93,8 +93,8 @@ template <error_metric Metric>
     refuse({"outlying samples are sought among at most ", most_samples, ", not among ", samples.size()});
   const auto& metric = estimator.prior().metric();
   const Eigen::MatrixXd covariance = estimator.covariance(samples);
-  const Eigen::MatrixXd values = estimator.mapped_values(samples);
-  const std::vector<detail::wrong_sample> wrong = detail::find_wrong_samples(covariance, values, rule);
+  const std::vector<detail::wrong_sample> wrong =
+      detail::find_wrong_samples(covariance, estimator.mapped_values(out_of_gamut_as_xyz(samples)), rule);
 
   // Say what those that were kept make of those that were not.
   std::vector<bool> rejected(samples.size(), false);
@@ -103,7 +103,8 @@ template <error_metric Metric>
     rejected[sample.number] = true;
     numbers.push_back(sample.number);
   }
-  const left_out_predictions others = detail::predict_from_others(covariance, values, numbers);
+  const left_out_predictions others =
+      detail::predict_from_others(covariance, estimator.mapped_values(samples), numbers);
   sorted_samples sorted;
   for (Eigen::Index i = 0; i < samples.size(); ++i)
     if (!rejected[i]) sorted.kept.push_back(i);

@@ -57,7 +57,8 @@ class robust_decomposition {
 
   /// What each sample counts, from 0 (an outlier) to 1: n. For n samples, k components and m materials:
   /// O(rounds n k^2 + 1500 m k). Throws gonio::error if a solver gives up.
-  [[nodiscard]] Eigen::VectorXd inlier_weights(const located_samples& samples) const {
+  [[nodiscard]] Eigen::VectorXd inlier_weights(const located_samples& given) const {
+    const located_samples samples = out_of_gamut_as_xyz(given);
     const pca<Metric>& prior = estimator_.prior();
     const automatic_weights weighting{.down_weight_tail = false};
     const tikhonov solver(estimator_.observations() * estimator_.model().error_variance);

@@ -7,6 +7,7 @@
 
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <filesystem>
 #include <string>
@@ -25,6 +26,10 @@ namespace gonio::io {
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_astm_e1392(const std::filesystem::path& path);
+
+/// The same with the spectra as they are; throws gonio::error if the columns are not called by wavelengths.
+[[nodiscard]] spectral_samples parse_astm_e1392_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -6,6 +6,7 @@
 /// belongs to measurement k.
 
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <filesystem>
 #include <string>
@@ -30,6 +31,10 @@ namespace gonio::io {
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_bird(const std::filesystem::path& path);
+
+/// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
+[[nodiscard]] spectral_samples parse_bird_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_bird_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -4,7 +4,7 @@
 /// these in nanometres, then a line for each pair of directions: theta_i, phi_i, theta_s, phi_s in radians, and a
 /// reflectance in sr^-1 for each wavelength. Lines that start with # are comments.
 
-#include <gonio/core/spectrum.hpp>
+#include <gonio/io/sample_collector.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
 #include <gonio/table/spectral_samples.hpp>
@@ -29,12 +29,9 @@ class cornell_parser {
   void read(std::string_view line);
 
   /// What was read. Throws gonio::error if that is not a whole measurement.
-  [[nodiscard]] sample_set samples() &&;
-  /// The same with all wavelengths.
-  [[nodiscard]] spectral_samples spectra() &&;
+  [[nodiscard]] sample_collector samples() &&;
 
  private:
-  void require_whole() const;
   void split(std::string_view line);
 
   [[nodiscard]] double number(std::size_t field) const {
@@ -53,10 +50,8 @@ class cornell_parser {
   text_place& place_;
   std::size_t count_ = 0;
   std::vector<double> wavelengths_, reflectances_;
-  std::optional<spectral_colour> colour_;
   std::vector<std::string_view> fields_;
-  sample_set samples_;
-  std::vector<float> spectra_;
+  std::optional<sample_collector> collector_;
 };
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include <gonio/core/brdf.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <Eigen/Core>
 
@@ -74,6 +75,10 @@ void write_openmaterial(const std::filesystem::path& path, const std::string& te
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_openmaterial(const std::filesystem::path& path);
+
+/// The same with the spectra as they are, which need the same wavelengths in all pairs of directions.
+[[nodiscard]] spectral_samples parse_openmaterial_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_openmaterial_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

@@ -6,6 +6,7 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <cstddef>
 #include <optional>
@@ -23,11 +24,15 @@ class colour_channels {
   [[nodiscard]] static colour_channels linear_rgb() { return {kind::rgb, 3}; }
   /// CIE XYZ under D65, Y of a perfect diffuser being 1 / pi.
   [[nodiscard]] static colour_channels xyz() { return {kind::xyz, 3}; }
-  /// Wavelengths in nanometres, ascending; a single one is grey. Throws gonio::error unless two are visible.
+  /// Wavelengths in nanometres; a single one is grey. Throws gonio::error unless they are ascending.
   [[nodiscard]] static colour_channels spectrum(std::span<const double> wavelengths);
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// Of as many values as there are channels.
+  /// Nanometres; none if the channels are no spectrum.
+  [[nodiscard]] const std::vector<double>& wavelengths() const noexcept { return wavelengths_; }
+  /// Do the channels make a colour? Those of a spectrum do if two are visible, or if there is one.
+  [[nodiscard]] bool have_colour() const noexcept { return kind_ != kind::spectrum || colour_.has_value(); }
+  /// Of as many values as there are channels; needs `have_colour`.
   [[nodiscard]] rgb operator()(std::span<const double> values) const;
 
  private:
@@ -36,6 +41,7 @@ class colour_channels {
 
   kind kind_;
   std::size_t size_;
+  std::vector<double> wavelengths_;
   std::optional<spectral_colour> colour_;
 };
 
@@ -49,16 +55,30 @@ void require_float_range(double reflectance, const text_place& place);
 /// Which of azimuths, in degrees, are not the same as one before, or a turn apart. O(n log n).
 [[nodiscard]] std::vector<bool> are_new_azimuths(std::span<const double> azimuths);
 
-/// Collects samples, but those at or below the horizon.
+/// Collects samples, but those at or below the horizon: their colours, and the spectra that these were made of.
 class sample_collector {
  public:
-  void add(const direction_pair& pair, const rgb& value, double weight = 1.0);
+  explicit sample_collector(colour_channels channels = colour_channels::grey()) : channels_(std::move(channels)) {}
 
-  /// Throws gonio::error naming the file if there is no sample.
+  /// The samples that follow are spectra at these wavelengths. Throws as `colour_channels::spectrum`.
+  void use_wavelengths(std::span<const double> wavelengths);
+
+  /// Of as many values as there are channels.
+  void add(const direction_pair& pair, std::span<const double> values, double weight = 1.0);
+
+  /// Throws gonio::error naming the file if there is no sample, or one of an invisible spectrum.
   [[nodiscard]] sample_set take(const std::string& name) &&;
 
+  /// Throws gonio::error naming the file if there is no sample, or one that has no spectrum or other wavelengths.
+  [[nodiscard]] spectral_samples take_spectra(const std::string& name) &&;
+
  private:
+  void require_samples(const std::string& name) const;
+
+  colour_channels channels_;
+  bool have_colours_ = true, share_wavelengths_ = true;
   sample_set samples_;
+  std::vector<float> spectra_;
 };
 
 }  // namespace gonio::io::detail

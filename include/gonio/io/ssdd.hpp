@@ -4,8 +4,10 @@
 /// BSDFProcessor writes. A text header, then a block for each of BRDF, BTDF and specular parts: lists of four angles in
 /// degrees, and a colour for each of their combinations, as text or in binary (float32, little-endian, as libbsdf).
 
+#include <gonio/io/sample_collector.hpp>
 #include <gonio/io/words.hpp>
 #include <gonio/table/sample_set.hpp>
+#include <gonio/table/spectral_samples.hpp>
 
 #include <array>
 #include <cstddef>
@@ -24,7 +26,7 @@ class ssdd_parser {
  public:
   ssdd_parser(std::string_view text, text_place& place) : words_(text, place) {}
 
-  [[nodiscard]] sample_set read();
+  [[nodiscard]] sample_collector read();
 
  private:
   enum class coordinates { spherical, specular, half_difference, distorted_spherical };
@@ -45,11 +47,12 @@ class ssdd_parser {
   /// The numbers of `count` colours.
   [[nodiscard]] std::vector<double> read_numbers(std::size_t count);
   void read_block();
-  [[nodiscard]] sample_set samples(const block_header& block, const std::vector<double>& numbers) const;
+  [[nodiscard]] colour_channels channels_of(const block_header& block) const;
+  [[nodiscard]] sample_collector samples(const block_header& block, const std::vector<double>& numbers) const;
   [[nodiscard]] static direction_pair pair_of(coordinates parameters, const std::array<double, 4>& angles);
 
   word_reader words_;
-  std::optional<sample_set> samples_;
+  std::optional<sample_collector> samples_;
 };
 
 }  // namespace detail
@@ -66,6 +69,10 @@ class ssdd_parser {
 
 /// Reads such a file.
 [[nodiscard]] sample_set read_ssdd(const std::filesystem::path& path);
+
+/// The same with the spectra as they are; throws gonio::error if the colours are none.
+[[nodiscard]] spectral_samples parse_ssdd_spectra(std::string_view text, const std::string& name);
+[[nodiscard]] spectral_samples read_ssdd_spectra(const std::filesystem::path& path);
 
 }  // namespace gonio::io
 

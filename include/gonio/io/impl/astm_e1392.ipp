@@ -32,7 +32,7 @@ class astm_parser {
   void read(std::string_view line);
 
   /// What was read. Throws gonio::error if that is not a whole measurement.
-  [[nodiscard]] sample_set samples() &&;
+  [[nodiscard]] sample_collector samples() &&;
 
  private:
   void read_keyword(std::string_view line);
@@ -49,25 +49,24 @@ class astm_parser {
   std::array<std::size_t, 4> angles_{};  ///< the columns of the angles
   std::vector<std::size_t> values_;      ///< those of the values
   std::vector<std::string> names_;
-  std::optional<colour_channels> channels_;
   std::vector<std::string_view> fields_;
   std::vector<double> reflectances_;
   std::size_t rows_ = 0;
-  sample_collector collector_;
+  std::optional<sample_collector> collector_;
 };
 
 GONIO_INLINE void astm_parser::read(std::string_view line) {
-  if (channels_)
+  if (collector_)
     read_row(line);
   else
     read_keyword(line);
 }
 
-GONIO_INLINE sample_set astm_parser::samples() && {
-  if (!channels_) gonio::refuse({place_.name, ": ends before its line VARS, which names the columns"});
+GONIO_INLINE sample_collector astm_parser::samples() && {
+  if (!collector_) gonio::refuse({place_.name, ": ends before its line VARS, which names the columns"});
   if (points_ && *points_ != static_cast<double>(rows_))
     gonio::refuse({place_.name, ": has ", rows_, " lines of numbers, expected NUM_POINTS ", shortest(*points_)});
-  return std::move(collector_).take(place_.name);
+  return *std::move(collector_);
 }
 
 GONIO_INLINE void astm_parser::read_keyword(std::string_view line) {
@@ -92,20 +91,22 @@ GONIO_INLINE void astm_parser::read_variables(std::string_view names) {
     of_values.push_back(all[column]);
   }
   if (values_.empty()) place_.refuse("VARS: there is no column of values beside the angles");
-  channels_ = channels_of(of_values);
+  collector_.emplace(channels_of(of_values));
 }
 
 GONIO_INLINE colour_channels astm_parser::channels_of(const std::vector<std::string_view>& names) const {
   const auto are = [&](std::string_view a, std::string_view b, std::string_view c) {
     return names.size() == 3 && names[0] == a && names[1] == b && names[2] == c;
   };
-  if (names.size() == 1 && !names[0].empty()) return colour_channels::grey();
   if (are("R", "G", "B")) return colour_channels::linear_rgb();
   if (are("X", "Y", "Z")) return colour_channels::xyz();
   std::vector<double> wavelengths;
   for (const std::string_view name : names) {
     double wavelength = 0.0;
-    if (!name.ends_with("nm") || read_number(name.substr(0, name.size() - 2), wavelength) != nullptr)
+    const bool is_wavelength =
+        name.ends_with("nm") && read_number(name.substr(0, name.size() - 2), wavelength) == nullptr;
+    if (!is_wavelength && names.size() == 1 && !name.empty()) return colour_channels::grey();
+    if (!is_wavelength)
       place_.refuse({"VARS: ", quoted(name), ", expected one value, or R,G,B, or X,Y,Z, or wavelengths like 400nm"});
     wavelengths.push_back(wavelength);
   }
@@ -140,8 +141,15 @@ GONIO_INLINE void astm_parser::read_row(std::string_view line) {
     reflectances_.push_back(number(column));
     require_float_range(reflectances_.back(), place_);
   }
-  collector_.add({read_direction(0), read_direction(2)}, (*channels_)(reflectances_));
+  collector_->add({read_direction(0), read_direction(2)}, reflectances_);
   ++rows_;
+}
+
+[[nodiscard]] GONIO_INLINE sample_collector collect_astm(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  astm_parser parser(place);
+  for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
+  return std::move(parser).samples();
 }
 
 }  // namespace gonio::io::detail
@@ -158,15 +166,21 @@ GONIO_INLINE bool looks_like_astm_e1392(std::string_view text) {
 }
 
 GONIO_INLINE sample_set parse_astm_e1392(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  detail::astm_parser parser(place);
-  detail::for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
-  return std::move(parser).samples();
+  return detail::collect_astm(text, name).take(name);
 }
 
 GONIO_INLINE sample_set read_astm_e1392(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return parse_astm_e1392(detail::as_text(bytes), path.string());
+}
+
+GONIO_INLINE spectral_samples parse_astm_e1392_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_astm(text, name).take_spectra(name);
+}
+
+GONIO_INLINE spectral_samples read_astm_e1392_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return parse_astm_e1392_spectra(detail::as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -46,7 +46,7 @@ class bird_samples {
  public:
   bird_samples(const bird_data& data, const text_place& place) : data_(data), place_(place) {}
 
-  [[nodiscard]] sample_set make();
+  [[nodiscard]] sample_collector make();
 
  private:
   [[nodiscard]] const bird_variable& require(std::string_view variable) const;
@@ -57,7 +57,7 @@ class bird_samples {
   [[nodiscard]] double wavelength_of(std::size_t measurement) const;
   [[nodiscard]] direction direction_of(std::string_view theta, std::string_view phi, std::size_t measurement) const;
   [[nodiscard]] std::vector<bird_group> grouped() const;
-  [[nodiscard]] rgb colour_of(const bird_group& group);
+  void add(const bird_group& group, double weight, sample_collector& collector) const;
   void require_unpolarised(const bird_group& group) const;
   [[nodiscard]] static double relative_uncertainty_of(const bird_group& group);
 
@@ -65,8 +65,6 @@ class bird_samples {
   const text_place& place_;
   const bird_variable* wavelengths_ = nullptr;
   double nanometres_ = 1.0;  ///< of the unit of wavelengths
-  std::vector<double> last_wavelengths_;
-  std::optional<colour_channels> channels_;
 };
 
 GONIO_INLINE const bird_variable& bird_samples::require(std::string_view variable) const {
@@ -168,21 +166,18 @@ GONIO_INLINE void bird_samples::require_unpolarised(const bird_group& group) con
                        "alike"});
 }
 
-GONIO_INLINE rgb bird_samples::colour_of(const bird_group& group) {
+GONIO_INLINE void bird_samples::add(const bird_group& group, double weight, sample_collector& collector) const {
   std::vector<double> wavelengths, values;
   for (const auto& [wavelength, mean] : group.spectrum) {
     wavelengths.push_back(wavelength);
     values.push_back(mean.value / mean.count);
   }
-  if (!channels_ || wavelengths != last_wavelengths_) {
-    try {
-      channels_ = colour_channels::spectrum(wavelengths);
+  if (wavelengths_ != nullptr) try {
+      collector.use_wavelengths(wavelengths);
     } catch (const error& reason) {
       gonio::refuse({place_.name, ": data.wavelength_i: ", reason.what()});
     }
-    last_wavelengths_ = wavelengths;
-  }
-  return (*channels_)(values);
+  collector.add(group.pair, values, weight);
 }
 
 GONIO_INLINE double bird_samples::relative_uncertainty_of(const bird_group& group) {
@@ -195,7 +190,7 @@ GONIO_INLINE double bird_samples::relative_uncertainty_of(const bird_group& grou
   return std::sqrt(squared * count) / std::abs(value);
 }
 
-GONIO_INLINE sample_set bird_samples::make() {
+GONIO_INLINE sample_collector bird_samples::make() {
   check_units();
   const std::vector<bird_group> groups = grouped();
   std::vector<double> uncertainties;
@@ -210,9 +205,15 @@ GONIO_INLINE sample_set bird_samples::make() {
     // A value of 0 has no relative uncertainty.
     const double ratio = std::isnan(uncertainties[i]) ? 1.0 : usual / uncertainties[i];
     const double weight = usual > 0.0 ? std::clamp(ratio * ratio, 0.01, 100.0) : 1.0;
-    collector.add(groups[i].pair, colour_of(groups[i]), weight);
+    add(groups[i], weight, collector);
   }
-  return std::move(collector).take(place_.name);
+  return collector;
+}
+
+[[nodiscard]] GONIO_INLINE sample_collector collect_bird(std::string_view text, const std::string& name) {
+  text_place place{name, 0};
+  const bird_data data = bird_parser(text, place).read();
+  return bird_samples(data, place).make();
 }
 
 }  // namespace gonio::io::detail
@@ -228,14 +229,21 @@ GONIO_INLINE bool looks_like_bird(std::string_view text) {
 }
 
 GONIO_INLINE sample_set parse_bird(std::string_view text, const std::string& name) {
-  detail::text_place place{name, 0};
-  const detail::bird_data data = detail::bird_parser(text, place).read();
-  return detail::bird_samples(data, place).make();
+  return detail::collect_bird(text, name).take(name);
 }
 
 GONIO_INLINE sample_set read_bird(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return parse_bird(detail::as_text(bytes), path.string());
+}
+
+GONIO_INLINE spectral_samples parse_bird_spectra(std::string_view text, const std::string& name) {
+  return detail::collect_bird(text, name).take_spectra(name);
+}
+
+GONIO_INLINE spectral_samples read_bird_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return parse_bird_spectra(detail::as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -2,7 +2,6 @@
 /// Bodies of io/cornell.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/core/spectrum.hpp>
 #include <gonio/io/cornell.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -22,30 +21,17 @@ GONIO_INLINE void cornell_parser::read(std::string_view line) {
   split(line);
   if (count_ == 0)
     read_count();
-  else if (!colour_)
+  else if (!collector_)
     read_wavelengths();
   else
     read_sample();
 }
 
-GONIO_INLINE void cornell_parser::require_whole() const {
-  if (!colour_)
+GONIO_INLINE sample_collector cornell_parser::samples() && {
+  if (!collector_)
     gonio::refuse(
         {place_.name, ": ends before its ", count_, " wavelengths, of which there are ", wavelengths_.size()});
-  if (samples_.empty()) gonio::refuse({place_.name, ": has no samples, expected at least one"});
-}
-
-GONIO_INLINE sample_set cornell_parser::samples() && {
-  require_whole();
-  return std::move(samples_);
-}
-
-GONIO_INLINE spectral_samples cornell_parser::spectra() && {
-  require_whole();
-  const auto rows = std::ssize(samples_), bands = std::ssize(wavelengths_);
-  spectral_samples found{wavelengths_, {}, Eigen::Map<const cell_matrix>(spectra_.data(), rows, bands)};
-  for (const sample& each : samples_) found.directions.push_back(each.directions);
-  return found;
+  return *std::move(collector_);
 }
 
 GONIO_INLINE void cornell_parser::split(std::string_view line) {
@@ -70,7 +56,7 @@ GONIO_INLINE void cornell_parser::read_wavelengths() {
   for (std::size_t i = 0; i < fields_.size(); ++i) wavelengths_.push_back(number(i));
   if (wavelengths_.size() < count_) return;
   try {
-    colour_.emplace(wavelengths_);
+    collector_.emplace(colour_channels::spectrum(wavelengths_));
   } catch (const error& reason) {
     place_.refuse(reason.what());
   }
@@ -88,8 +74,7 @@ GONIO_INLINE void cornell_parser::read_sample() {
                     " sr^-1 is beyond the range of float");
   }
   const direction wi = read_direction(0), wo = read_direction(2);
-  samples_.push_back({direction_pair{wi, wo}, (*colour_)(reflectances_), 1.0});
-  for (const double reflectance : reflectances_) spectra_.push_back(static_cast<float>(reflectance));
+  collector_->add({wi, wo}, reflectances_);
 }
 
 GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
@@ -103,13 +88,11 @@ GONIO_INLINE direction cornell_parser::read_direction(std::size_t field) const {
   return spherical_direction(theta, phi);
 }
 
-/// What `take` makes of the parser once it has read the text.
-template <class Take>
-[[nodiscard]] auto parsed_cornell(std::string_view text, const std::string& name, const Take& take) {
+[[nodiscard]] GONIO_INLINE sample_collector collect_cornell(std::string_view text, const std::string& name) {
   text_place place{name, 0};
   cornell_parser parser(place);
   for_each_line(text, place, [&](std::string_view line) { parser.read(line); });
-  return take(std::move(parser));
+  return std::move(parser).samples();
 }
 
 }  // namespace gonio::io::detail
@@ -117,11 +100,11 @@ template <class Take>
 namespace gonio::io {
 
 GONIO_INLINE sample_set parse_cornell(std::string_view text, const std::string& name) {
-  return detail::parsed_cornell(text, name, [](auto&& parser) { return std::move(parser).samples(); });
+  return detail::collect_cornell(text, name).take(name);
 }
 
 GONIO_INLINE spectral_samples parse_cornell_spectra(std::string_view text, const std::string& name) {
-  return detail::parsed_cornell(text, name, [](auto&& parser) { return std::move(parser).spectra(); });
+  return detail::collect_cornell(text, name).take_spectra(name);
 }
 
 GONIO_INLINE spectral_samples read_cornell_spectra(const std::filesystem::path& path) {

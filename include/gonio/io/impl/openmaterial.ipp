@@ -155,7 +155,7 @@ class openmaterial_parser {
  public:
   openmaterial_parser(std::string_view text, text_place& place) : json_(text, place), place_(place) {}
 
-  [[nodiscard]] sample_set read() {
+  [[nodiscard]] sample_collector read() {
     json_.open_object("the file");
     while (const auto key = json_.next_key()) {
       if (*key == "brdf")
@@ -226,14 +226,13 @@ class openmaterial_parser {
       json_.refuse({"a ", what, " of ", shortest(value), ", expected ", shortest(least), " to ", shortest(most)});
   }
 
-  [[nodiscard]] sample_set samples() {
+  [[nodiscard]] sample_collector samples() {
     std::ranges::sort(rows_);
     const auto have_same = [](const row& one, const row& other, std::size_t numbers) {
       return std::equal(one.begin(), one.begin() + static_cast<std::ptrdiff_t>(numbers), other.begin());
     };
     sample_collector collector;
-    std::vector<double> known, wavelengths, values;
-    std::optional<colour_channels> channels;
+    std::vector<double> wavelengths, values;
     for (std::size_t i = 0; i < rows_.size();) {
       const row first = rows_[i];
       wavelengths.clear();
@@ -245,18 +244,10 @@ class openmaterial_parser {
         wavelengths.push_back(at[3]);
         values.push_back(sum / count);
       }
-      if (!channels || wavelengths != known) channels = channels_of(known = wavelengths);
-      collector.add({spherical_direction(first[0], 0.0), spherical_direction(first[1], first[2])}, (*channels)(values));
+      collector.use_wavelengths(wavelengths);
+      collector.add({spherical_direction(first[0], 0.0), spherical_direction(first[1], first[2])}, values);
     }
-    return std::move(collector).take(place_.name);
-  }
-
-  [[nodiscard]] colour_channels channels_of(const std::vector<double>& wavelengths) const {
-    try {
-      return colour_channels::spectrum(wavelengths);
-    } catch (const error& reason) {
-      gonio::refuse({place_.name, ": ", reason.what()});
-    }
+    return collector;
   }
 
   json_reader json_;
@@ -285,12 +276,22 @@ GONIO_INLINE bool looks_like_openmaterial(std::string_view text) {
 
 GONIO_INLINE sample_set parse_openmaterial(std::string_view text, const std::string& name) {
   detail::text_place place{name, 0};
-  return detail::openmaterial_parser(text, place).read();
+  return detail::openmaterial_parser(text, place).read().take(name);
 }
 
 GONIO_INLINE sample_set read_openmaterial(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return parse_openmaterial(detail::as_text(bytes), path.string());
+}
+
+GONIO_INLINE spectral_samples parse_openmaterial_spectra(std::string_view text, const std::string& name) {
+  detail::text_place place{name, 0};
+  return detail::openmaterial_parser(text, place).read().take_spectra(name);
+}
+
+GONIO_INLINE spectral_samples read_openmaterial_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return parse_openmaterial_spectra(detail::as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io

@@ -26,7 +26,7 @@
 
 namespace gonio::io::detail {
 
-GONIO_INLINE sample_set ssdd_parser::read() {
+GONIO_INLINE sample_collector ssdd_parser::read() {
   read_header();
   while (!words_.peek().empty()) read_block();
   if (!samples_) gonio::refuse({words_.place().name, ": has no block of DATA_TYPE brdf"});
@@ -142,19 +142,24 @@ GONIO_INLINE direction_pair ssdd_parser::pair_of(coordinates parameters, const s
   return {turned_about_normal(pair.wi, phi), turned_about_normal(pair.wo, phi)};
 }
 
-GONIO_INLINE sample_set ssdd_parser::samples(const block_header& block, const std::vector<double>& numbers) const {
-  colour_channels channels = colour_channels::grey();
-  if (block.colour_model == "rgb") channels = colour_channels::linear_rgb();
-  if (block.colour_model == "xyz") channels = colour_channels::xyz();
-  if (block.colour_model == "spectrum") try {
-      channels = colour_channels::spectrum(block.wavelengths);
-    } catch (const error& reason) {
-      words_.place().refuse({"WAVELENGTH_LIST: ", reason.what()});
-    }
+GONIO_INLINE colour_channels ssdd_parser::channels_of(const block_header& block) const {
+  if (block.colour_model == "rgb") return colour_channels::linear_rgb();
+  if (block.colour_model == "xyz") return colour_channels::xyz();
+  if (block.colour_model != "spectrum") return colour_channels::grey();
+  try {
+    return colour_channels::spectrum(block.wavelengths);
+  } catch (const error& reason) {
+    words_.place().refuse({"WAVELENGTH_LIST: ", reason.what()});
+  }
+}
+
+GONIO_INLINE sample_collector ssdd_parser::samples(const block_header& block,
+                                                   const std::vector<double>& numbers) const {
+  const colour_channels channels = channels_of(block);
   const std::vector<bool> are_new = are_new_azimuths(block.angles[3]);
   std::array<std::size_t, 4> extents{};
   for (std::size_t k = 0; k < 4; ++k) extents[k] = std::max<std::size_t>(block.angles[k].size(), 1);
-  sample_collector collector;
+  sample_collector collector(channels);
   std::array<std::size_t, 4> at{};
   for (std::size_t i = 0; i < numbers.size() / channels.size(); ++i) {
     // The first list varies fastest.
@@ -165,9 +170,9 @@ GONIO_INLINE sample_set ssdd_parser::samples(const block_header& block, const st
     for (std::size_t k = 0; k < 4; ++k) angles[k] = block.angles[k].empty() ? 0.0 : radians(block.angles[k][at[k]]);
     const std::span colour(&numbers[i * channels.size()], channels.size());
     for (const double number : colour) require_float_range(number, words_.place());
-    collector.add(pair_of(*block.parameters, angles), channels(colour));
+    collector.add(pair_of(*block.parameters, angles), colour);
   }
-  return std::move(collector).take(words_.place().name);
+  return collector;
 }
 
 }  // namespace gonio::io::detail
@@ -183,12 +188,22 @@ GONIO_INLINE bool looks_like_ssdd(std::string_view text) {
 
 GONIO_INLINE sample_set parse_ssdd(std::string_view text, const std::string& name) {
   detail::text_place place{name, 0};
-  return detail::ssdd_parser(text, place).read();
+  return detail::ssdd_parser(text, place).read().take(name);
 }
 
 GONIO_INLINE sample_set read_ssdd(const std::filesystem::path& path) {
   const std::vector<std::byte> bytes = read_bytes(path);
   return parse_ssdd(detail::as_text(bytes), path.string());
+}
+
+GONIO_INLINE spectral_samples parse_ssdd_spectra(std::string_view text, const std::string& name) {
+  detail::text_place place{name, 0};
+  return detail::ssdd_parser(text, place).read().take_spectra(name);
+}
+
+GONIO_INLINE spectral_samples read_ssdd_spectra(const std::filesystem::path& path) {
+  const std::vector<std::byte> bytes = read_bytes(path);
+  return parse_ssdd_spectra(detail::as_text(bytes), path.string());
 }
 
 }  // namespace gonio::io
