@@ -130,9 +130,10 @@ void add_correction_options(command& to, reconstruct_options& options) {
 }
 
 void add_spectra_options(command& to, reconstruct_options& options) {
-  to.add_flag("--spectra", options.fits_spectra,
-              "Fit each wavelength of spectral samples (.csv with columns like 400nm, or .brdf) as a grey "
-              "material; .bsdf has the spectra then, other formats their colours");
+  to.add_flag(
+      "--spectra", options.fits_spectra,
+      "Fit each wavelength of spectral samples (.csv with columns like 400nm, or formats of instruments) as a grey "
+      "material; .bsdf has the spectra then, other formats their colours");
   to.add_choice(
       "--illuminant", [&options](int light) { options.reading.light = static_cast<gonio::illuminant>(light); },
       {{"D65", static_cast<int>(gonio::illuminant::d65)}, {"A", static_cast<int>(gonio::illuminant::a)}},

@@ -5,7 +5,9 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_astm_e1392(fuzz::text_of(bytes), fuzz::bytes_name)); }
+void read(fuzz::input bytes) {
+  fuzz::read_both(bytes, gonio::io::parse_astm_e1392, gonio::io::parse_astm_e1392_spectra);
+}
 
 const fuzz::registered harness("astm_e1392", &read);
 

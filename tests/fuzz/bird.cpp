@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_bird(fuzz::text_of(bytes), fuzz::bytes_name)); }
+void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::parse_bird, gonio::io::parse_bird_spectra); }
 
 const fuzz::registered harness("bird", &read);
 

@@ -5,7 +5,7 @@
 
 namespace {
 
-void read(fuzz::input bytes) { static_cast<void>(gonio::io::parse_cornell(fuzz::text_of(bytes), fuzz::bytes_name)); }
+void read(fuzz::input bytes) { fuzz::read_both(bytes, gonio::io::parse_cornell, gonio::io::parse_cornell_spectra); }
 
 const fuzz::registered harness("cornell", &read);
 

@@ -44,6 +44,17 @@ inline const std::string bytes_name = "fuzzed.file";
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Reads a text by both ends of a reader, for colours and for spectra: either may take what the other refuses.
+template <class Colours, class Spectra>
+void read_both(input bytes, const Colours& parse_colours, const Spectra& parse_spectra) {
+  try {
+    static_cast<void>(parse_spectra(text_of(bytes), bytes_name));
+  } catch (const gonio::error&) {
+    // Colours need no wavelengths.
+  }
+  static_cast<void>(parse_colours(text_of(bytes), bytes_name));
+}
+
 /// The bytes as a file that is nowhere on a disk, for readers that take a path.
 class memory_file {
  public:

@@ -139,3 +139,16 @@ TEST_CASE("bad values and resolutions of adaptive tables are refused") {
   refused({.visible_normals = 0}, "not 0");
   refused({.normals = 5000}, "not 5000");
 }
+
+TEST_CASE("finer tables keep the albedo of narrow highlights, others stay as small as they are") {
+  const gonio::model::ggx narrow{.alpha = 0.1, .f0 = rgb::Constant(0.04)}, wide{.alpha = 0.4};
+  const double usual = gonio::model::albedo_error(narrow, tabulate_adaptively(narrow));
+  const adaptive_brdf kept = gonio::model::tabulate_keeping_albedo(narrow);
+  CHECK(usual > 0.004);
+  CHECK(gonio::model::albedo_error(narrow, kept) < 0.6 * usual);
+  CHECK(kept.parts().reflectance.rows == 144);
+  CHECK(gonio::model::albedo_error(narrow, kept, {1}) == gonio::model::albedo_error(narrow, kept, {3}));
+  const adaptive_brdf small = gonio::model::tabulate_keeping_albedo(wide);
+  CHECK(small.parts().reflectance.rows == 96);
+  CHECK(gonio::model::albedo_error(wide, small) < 0.004);
+}

@@ -77,13 +77,13 @@ inline void write_rgl(const std::filesystem::path& path, const rgl_material& mat
   write_atomically(path, serialise_rgl(material));
 }
 
-/// The same of any BRDF, in RGB: `tabulate_adaptively` makes its tables, unless it has some.
+/// The same of any BRDF, in RGB: `tabulate_keeping_albedo` makes its tables, unless it has some.
 template <brdf Brdf>
 void write_rgl(const std::filesystem::path& path, const Brdf& f, const std::string& description = "gonio") {
   if constexpr (std::same_as<Brdf, model::adaptive_brdf>)
     write_rgl(path, rgl_material{f, description, {}});
   else
-    write_rgl(path, rgl_material{model::tabulate_adaptively(f), description, {}});
+    write_rgl(path, rgl_material{model::tabulate_keeping_albedo(f), description, {}});
 }
 
 /// The materials (`.bsdf`) in a folder; see `list_named_files`.
