@@ -1,8 +1,8 @@
-# cmake [-D ONLY=format|weight|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
+# cmake [-D ONLY=format|weight|site|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
 # cmake/test.cmake, or one part of it. Two parts are for releases: a Python wheel, which asks PyPI, and Debian packages.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
-set(parts format weight others libcxx sanitize)
+set(parts format weight site others libcxx sanitize)
 if(ONLY)
   if(NOT ONLY IN_LIST parts AND NOT ONLY MATCHES "^(wheel|debian)$")
     message(FATAL_ERROR "ONLY is one of ${parts};wheel;debian")
@@ -24,6 +24,11 @@ endif()
 # Does README's program, or gonio.hpp, cost its compiler 30 % more than it may?
 if("weight" IN_LIST parts)
   step("weight" ${cmake} -D GUARD=ON -P cmake/compile_times.cmake)
+endif()
+
+# The site: no dead link, no docstring that Doxygen does not understand.
+if("site" IN_LIST parts)
+  step("site" ${cmake} -P cmake/site.cmake)
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the

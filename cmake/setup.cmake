@@ -38,7 +38,11 @@ set(gonio_packages
   "python3-venv        header  python3.11/ensurepip/__init__.py"
   "doctest-dev         header  doctest/doctest.h"
   "librapidcheck-dev   header  rapidcheck.h"
-  "libbenchmark-dev    header  benchmark/benchmark.h")
+  "libbenchmark-dev    header  benchmark/benchmark.h"
+  "mkdocs              program mkdocs"
+  "mkdocs-material     header  mkdocs/themes/material/main.html"
+  "doxygen             program doxygen"
+  "linkchecker         program linkchecker")
 
 # The packages of ARGN that are not there.
 function(gonio_find_missing result)
@@ -55,7 +59,7 @@ function(gonio_find_missing result)
       find_library(found NAMES ${name} NO_CACHE PATHS /usr/lib/x86_64-linux-gnu /usr/lib/aarch64-linux-gnu)
     else()
       find_path(found NAMES ${name} NO_CACHE
-                PATHS /usr/include /usr/include/x86_64-linux-gnu /usr/include/aarch64-linux-gnu /usr/local/include /usr/lib
+                PATHS /usr/include /usr/include/x86_64-linux-gnu /usr/include/aarch64-linux-gnu /usr/local/include /usr/lib /usr/share
                       /usr/lib/llvm-19/include /usr/lib/llvm-19/lib/clang/19/include)
     endif()
     if(NOT found)

@@ -2,6 +2,7 @@
 # - each C++ or Python block of README.md and of docs/ names a file of the repository on the line before it, as in
 #   `<!-- examples/learn/own_metric.cpp -->`, and its lines stand in that file, in a row. The tests build these files;
 # - each relative link of these pages leads to a file;
+# - docs/gallery.md shows every picture of docs/pictures/;
 # - the lines of the pages of docs/learn/ and docs/reference/ have at most 120 characters, tables apart.
 cmake_minimum_required(VERSION 3.25)
 
@@ -108,6 +109,16 @@ foreach(page IN LISTS pages)
   check_links(${page} "${text}")
   if(page MATCHES "^docs/(learn|reference)/")
     check_width(${page} "${text}")
+  endif()
+endforeach()
+file(GLOB pictures RELATIVE "${SOURCE}/docs" "${SOURCE}/docs/pictures/*")
+if(pictures)
+  file(READ "${SOURCE}/docs/gallery.md" gallery)
+endif()
+foreach(picture IN LISTS pictures)
+  string(FIND "${gallery}" "](${picture})" found)
+  if(found EQUAL -1)
+    violation("docs/gallery.md does not show ${picture}, and the command that makes it")
   endif()
 endforeach()
 if(violations GREATER 0)

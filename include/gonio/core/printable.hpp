@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// The text with every control character (C0, DEL, C1) and every byte that is no UTF-8 written as \x1b. Text without
+/// The text with every control character (C0, DEL, C1) and every byte that is no UTF-8 written as `\x1b`. Text without
 /// these comes back as it is. The sentence of every gonio::error has passed through it.
 [[nodiscard]] std::string printable(std::string_view text);
 

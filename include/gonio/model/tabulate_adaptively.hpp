@@ -74,15 +74,15 @@ template <brdf Brdf>
   return *std::ranges::max_element(errors);
 }
 
-/// A BRDF's tables of the usual resolution if these keep its albedo within `tolerance`; else of half as many numbers
-/// more along each axis: where a narrow highlight grows towards grazing angles, what is linear between nodes is too
-/// bright. A file of them has 12 MB instead of 3.5. Throws as `tabulate_adaptively`.
+/// A BRDF's tables of the usual resolution if these keep its albedo within `tolerance`; else of half as many rows and
+/// columns more, and nearly twice the angles: where a narrow highlight grows towards grazing angles, what is linear
+/// between nodes is too bright. A file of them has 15 MB instead of 3.5. Throws as `tabulate_adaptively`.
 template <brdf Brdf>
 [[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = 0.004,
                                                     thread_count threads = {}) {
   adaptive_brdf usual = tabulate_adaptively(f, {}, threads);
   if (albedo_error(f, usual, threads) <= tolerance) return usual;
-  return tabulate_adaptively(f, {.theta_i = 48, .values = 144}, threads);
+  return tabulate_adaptively(f, {.theta_i = 60, .values = 144}, threads);
 }
 
 /// The reflectance of another BRDF over a material's own normals, as `adaptive_brdf_parts` has it: three wavelengths of

@@ -1,0 +1,70 @@
+# cmake -P cmake/site.cmake (or the target `site`): docs/ and README.md as a static site with search, and the reference of
+# all headers, in build/site. mkdocs-material, Doxygen and linkchecker are Debian packages; once they are there, no network
+# is needed. A warning of any of them, or a dead link, is an error.
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+gonio_set_up(mkdocs mkdocs-material doxygen linkchecker)
+
+set(site "${source}/build/site")
+set(pages "${source}/build/site-pages")
+file(REMOVE_RECURSE "${site}" "${pages}")
+file(READ "${source}/CMakeLists.txt" lists)
+string(REGEX MATCH "VERSION ([0-9.]+)" found "${lists}")
+set(version "${CMAKE_MATCH_1}")
+
+# Copy what pages link to, in the layout of the repository, so that relative links stay as they are.
+file(COPY "${source}/README.md" "${source}/CHANGELOG.md" "${source}/docs" DESTINATION "${pages}")
+file(COPY "${source}/examples/data/directions/README.md" DESTINATION "${pages}/examples/data/directions")
+file(GLOB programs RELATIVE "${source}/examples/learn" "${source}/examples/learn/*.cpp")
+set(listing "# Teaching programs\n")
+foreach(program IN LISTS programs)
+  file(READ "${source}/examples/learn/${program}" code)
+  string(APPEND listing "\n## ${program}\n\n```cpp\n${code}```\n")
+endforeach()
+file(WRITE "${pages}/examples/learn/README.md" "${listing}")
+
+# title_of(RESULT PAGE): its first heading.
+function(title_of result page)
+  file(STRINGS "${pages}/${page}" heading REGEX "^# " LIMIT_COUNT 1)
+  string(REGEX REPLACE "^# *|[`\"]" "" heading "${heading}")
+  set(${result} "${heading}" PARENT_SCOPE)
+endfunction()
+
+# add_folder(TITLE FOLDER) appends a folder's pages to the navigation: in the order in which its README.md names them,
+# then the others by name.
+function(add_folder title folder)
+  string(APPEND nav "  - \"${title}\":\n")
+  set(ordered)
+  if(EXISTS "${pages}/${folder}/README.md")
+    string(APPEND nav "    - ${folder}/README.md\n")
+    file(READ "${pages}/${folder}/README.md" text)
+    string(REGEX MATCHALL "\\([a-z0-9-]+\\.md" links "${text}")
+    list(TRANSFORM links REPLACE "^\\(" "" OUTPUT_VARIABLE ordered)
+  endif()
+  file(GLOB others RELATIVE "${pages}/${folder}" "${pages}/${folder}/*.md")
+  list(APPEND ordered ${others})
+  list(REMOVE_ITEM ordered README.md)
+  list(REMOVE_DUPLICATES ordered)
+  foreach(page IN LISTS ordered)
+    title_of(heading "${folder}/${page}")
+    string(APPEND nav "    - \"${heading}\": ${folder}/${page}\n")
+  endforeach()
+  set(nav "${nav}" PARENT_SCOPE)
+endfunction()
+
+set(nav "  - Home: README.md\n  - Gallery: docs/gallery.md\n")
+add_folder("How do I ..." docs/learn)
+add_folder("What is there" docs/reference)
+add_folder("Results" docs/results)
+add_folder("Decisions" docs/decisions)
+string(APPEND nav "  - Teaching programs: examples/learn/README.md\n  - Directions that ship: examples/data/directions/README.md\n"
+                  "  - Reference of the headers: headers.md\n  - Changes: CHANGELOG.md\n")
+file(WRITE "${pages}/headers.md" "# Reference of the headers\n\n"
+     "Every public class and function with its docstring, made by Doxygen: [by header](headers/files.html), "
+     "[classes and concepts](headers/annotated.html), [search](headers/index.html).\n")
+
+configure_file("${source}/cmake/site/mkdocs.yml.in" "${source}/build/site-mkdocs.yml" @ONLY)
+configure_file("${source}/cmake/site/Doxyfile.in" "${source}/build/site-Doxyfile" @ONLY)
+step("site: reference of the headers" doxygen build/site-Doxyfile)
+step("site: pages" mkdocs build --quiet --config-file build/site-mkdocs.yml)
+step("site: links" linkchecker --no-status --no-warnings "${site}/index.html")
+message("\nThe site is in ${site}. Its search needs a server: python3 -m http.server --directory ${site}")
