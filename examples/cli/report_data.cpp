@@ -6,6 +6,7 @@
 #include "command_line/sample_facts.hpp"
 #include "command_line/sample_warnings.hpp"
 #include "images.hpp"
+#include "viewer_table.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/model/physical_properties.hpp>
@@ -48,6 +49,16 @@ struct known_fit {
     told["known_to"] = five_digits(relative(wi, wo).y());
   }
 };
+
+/// What the viewer shows, and how bright: as `gonio render` exposes a sphere under its first light.
+json viewer_of(const reconstruction& found, gonio::thread_count threads) {
+  const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});
+  const std::array sphere{
+      gonio::render::render_sphere(gonio::render::horizon_lookup(found.table), light, {.size = 128}, threads)};
+  return {{"exposure", five_digits(gonio::render::exposure_of_spheres(sphere))},
+          {"table", viewer_table(found.table)},
+          {"uncertainty", viewer_uncertainty(*found.uncertainty)}};
+}
 
 std::string sphere_url(const reconstruction& found, gonio::thread_count threads) {
   const image_options how{.size = 320, .exposure = {}};
@@ -234,6 +245,7 @@ json report_data(const reported_fit& fit) {
   json data{{"name", fit.options.samples.stem().string()},
             {"count", counting_samples(fit.measured.samples).size()},
             {"sphere", sphere_url(fit.found, fit.options.threads)},
+            {"viewer", viewer_of(fit.found, fit.options.threads)},
             {"details", fit.found.details},
             {"worst", worst_of(fit.found)},
             {"warnings", warnings_of(fit)},

@@ -283,6 +283,7 @@ function record() {
 }
 
 answer();
+show_viewer();
 scans();
 uncertainty_map();
 residuals();
