@@ -53,8 +53,7 @@ struct known_fit {
 /// What the viewer shows, and how bright: as `gonio render` exposes a sphere under its first light.
 json viewer_of(const reconstruction& found, gonio::thread_count threads) {
   const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});
-  const std::array sphere{
-      gonio::render::render_sphere(gonio::render::horizon_lookup(found.table), light, {.size = 128}, threads)};
+  const std::array sphere{sphere_image(found.table, {.size = 64, .exposure = {}}, threads, light)};
   return {{"exposure", five_digits(gonio::render::exposure_of_spheres(sphere))},
           {"table", viewer_table(found.table)},
           {"uncertainty", viewer_uncertainty(*found.uncertainty)}};
