@@ -30,6 +30,11 @@ function figure(chart, description, caption, head, rows) {
   const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
   image.setAttribute("role", "img");
   image.setAttribute("aria-label", description);
+  // The parts of an image have no names of their own: what Plot calls its marks is kept, for style and tests.
+  for (const mark of image.querySelectorAll("g[aria-label]")) {
+    mark.dataset.mark = mark.getAttribute("aria-label");
+    mark.removeAttribute("aria-label");
+  }
   return element("figure", {}, chart, element("figcaption", {}, caption),
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
 }

@@ -343,7 +343,7 @@ async function show_viewer() {
   const section = element("section", { className: "screen-only" }, element("h2", {}, "Under a light"));
   add(section);
   if (!canvas.getContext("webgl2") || typeof DecompressionStream === "undefined") {
-    section.append(paragraph("This browser has no WebGL 2, which moving the light needs. The picture above is the same material."));
+    section.append(paragraph("This browser has no WebGL 2, without which no light can be moved. The image above shows the material.", "no-viewer"));
     return;
   }
   const table = await read_table(data.viewer.table);

@@ -1,7 +1,7 @@
 // What the tests in a browser share: chromium without a window, WebGL in software, and pages of gonio report.
 // Exit code 77 means that something is not installed, and that nothing was tested.
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -48,10 +48,4 @@ export function check(holds, what) {
 export function finish() {
   if (failures) console.log(`${failures} checks failed`);
   process.exit(failures ? 1 : 0);
-}
-
-// A scan in the plane of a light at 45 degrees, of which the seventh sample is wrong, as text.
-export function scan_with_a_wrong_sample() {
-  const [head, ...lines] = readFileSync(join(repository, "examples/data/measurements.csv"), "utf8").trim().split("\n");
-  return { head, lines };
 }
