@@ -81,10 +81,11 @@ std::string data_url(std::string_view media_type, std::span<const std::byte> byt
 
 std::string report_page(const std::string& title, const json& data) {
   // What is put in is not searched for further marks.
-  const std::pair<std::string_view, std::string> parts[] = {
-      {"@TITLE@", escape_html(title)},        {"@STYLE@", joined(report_style())},
-      {"@DATA@", escape_script(data.dump())}, {"@BUNDLE@", joined(report_bundle())},
-      {"@VIEWER@", joined(report_viewer())},  {"@SCRIPT@", joined(report_script())}};
+  const std::pair<std::string_view, std::string> parts[] = {{"@TITLE@", escape_html(title)},
+                                                            {"@STYLE@", joined(report_style())},
+                                                            {"@DATA@", escape_script(data.dump())},
+                                                            {"@BUNDLE@", joined(report_bundle())},
+                                                            {"@SCRIPT@", joined(report_script())}};
   const std::string form = joined(report_form());
   std::string page;
   std::size_t position = 0;

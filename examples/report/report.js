@@ -1,5 +1,4 @@
 // The page of gonio report: draws what the JSON above holds. Text of files becomes text nodes, never HTML.
-"use strict";
 const data = JSON.parse(document.getElementById("data").textContent);
 
 // ---- numbers and elements --------------------------------------------------------------------------------------

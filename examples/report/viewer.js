@@ -1,100 +1,5 @@
 // The viewer of the page: the material on a sphere or a flat sample under a light that is moved, in WebGL 2. A table is
 // a texture over theta_h, theta_d and phi_d, read as gonio render reads one (include/gonio/render/horizon_lookup.hpp).
-"use strict";
-
-// ---- tables ----------------------------------------------------------------------------------------------------
-// Bytes of base64 text that were deflated.
-async function inflated(text) {
-  const bytes = Uint8Array.from(atob(text), (each) => each.charCodeAt(0));
-  return new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
-}
-
-// A half float of which two bits were dropped.
-function half_of(code) {
-  const exponent = code >> 8, fraction = (code & 255) / 256;
-  return exponent === 0 ? fraction * 2 ** -14 : (1 + fraction) * 2 ** (exponent - 15);
-}
-
-// Calls visit(cell of the grid, its valid cell, cos theta_i cos theta_o there) for all cells: beyond the horizon the
-// valid cell is that of the largest theta_h. Returns how many cells are valid.
-function for_each_cell({ grid: [heights, rows, columns], offset, minimum_cosine }, visit) {
-  const angle = (i, count, end) => ((i + offset) / count) * end, quarter = Math.PI / 2;
-  const cos_phi = Array.from({ length: columns }, (_, i) => Math.cos(angle(i, columns, Math.PI)));
-  const last = new Int32Array(rows * columns), cosines = new Float64Array(rows * columns);
-  let valid = 0;
-  for (let h = 0, cell = 0; h < heights; ++h) {
-    const theta_h = quarter * ((h + offset) / heights) ** 2;
-    for (let column = 0; column < rows * columns; ++column, ++cell) {
-      const theta_d = angle(Math.floor(column / columns), rows, quarter);
-      const sum = Math.cos(theta_h) * Math.cos(theta_d);
-      const difference = Math.sin(theta_h) * Math.sin(theta_d) * cos_phi[column % columns];
-      if (sum - Math.abs(difference) > minimum_cosine) {
-        last[column] = valid++;
-        cosines[column] = (sum - difference) * (sum + difference);
-      }
-      visit(cell, last[column], cosines[column]);
-    }
-  }
-  return valid;
-}
-
-// Red, green, blue and one, times both cosines: a look-up interpolates these and divides by the last, so that a cell
-// near the horizon counts by what it reflects. The one is times 2^14, so that half floats can hold it.
-async function read_table(packed) {
-  const bytes = await inflated(packed.codes), count = 3 * packed.cells;
-  const values = new Float32Array(count), halves = Float32Array.from({ length: 8192 }, (_, code) => half_of(code));
-  for (let channel = 0, i = 0; channel < 3; ++channel)
-    for (let cell = 0, code = 0; cell < packed.cells; ++cell, ++i) {
-      const folded = bytes[i] + 256 * bytes[count + i];
-      code += folded & 1 ? -(folded + 1) / 2 : folded / 2;
-      values[3 * cell + channel] = halves[code];
-    }
-  const texels = new Float32Array(4 * packed.grid.reduce((a, b) => a * b));
-  const valid = for_each_cell(packed, (cell, number, cosines) => {
-    const weight = Math.max(cosines, 1e-9);
-    for (let channel = 0; channel < 3; ++channel) texels[4 * cell + channel] = values[3 * number + channel] * weight;
-    texels[4 * cell + 3] = 16384 * weight;
-  });
-  if (valid !== packed.cells) throw new Error(`a table of ${packed.cells} cells has ${valid} above the horizon`);
-  return { grid: packed.grid, shift: 0.5 - packed.offset, scale: 16384 * packed.scale, texels };
-}
-
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const along = (a, b, share) => a.map((each, i) => each + share * b[i]);
-const length = (a) => Math.sqrt(dot(a, a));
-const angle_between = (a, b) => Math.atan2(length(cross(a, b)), dot(a, b));
-
-// Shares of the way along the axes of theta_h, theta_d and phi_d.
-function grid_coordinates(n, wi, wo) {
-  const sum = along(wi, wo, 1), difference = along(wi, wo, -1), size = length(sum);
-  const phi_d = Math.atan2(dot(n, cross(sum, difference)), -dot(n, difference) * size) / Math.PI;
-  return [Math.sqrt(angle_between(n, sum) * 2 / Math.PI), Math.atan2(length(difference), size) * 2 / Math.PI, phi_d - Math.floor(phi_d)];
-}
-
-// Red, green and blue in sr^-1: the mean of the eight cells around.
-function reflectance_at({ grid, shift, scale, texels }, n, wi, wo) {
-  if (!(dot(n, wi) > 0 && dot(n, wo) > 0)) return [0, 0, 0];
-  const places = grid_coordinates(n, wi, wo).map((share, i) => share * grid[i] + shift - 0.5);
-  const lower = places.map(Math.floor), sum = [0, 0, 0, 0];
-  for (let corner = 0; corner < 8; ++corner) {
-    let weight = 1;
-    const [h, d, p] = lower.map((each, i) => {
-      const upper = (corner >> i) & 1, share = places[i] - each;
-      weight *= upper ? share : 1 - share;
-      return i === 2 ? (each + upper + grid[2]) % grid[2] : Math.min(Math.max(each + upper, 0), grid[i] - 1);
-    });
-    for (let k = 0, at = 4 * ((h * grid[1] + d) * grid[2] + p); k < 4; ++k) sum[k] += weight * texels[at + k];
-  }
-  return sum.slice(0, 3).map((each) => each / sum[3] * scale);
-}
-
-// Of a share from 0.001 to 10, as the tool wrote it.
-const uncertainty_of = (level) => 0.001 * 10 ** (4 * level);
-function uncertainty_at({ grid, levels }, n, wi, wo) {
-  const [h, d, p] = grid_coordinates(n, wi, wo).map((share, i) => Math.min(Math.floor(share * grid[i]), grid[i] - 1));
-  return uncertainty_of(levels[(h * grid[1] + d) * grid[2] + p] / 255);
-}
 
 // ---- shaders ---------------------------------------------------------------------------------------------------
 const look_up = `
@@ -213,7 +118,6 @@ function texture_of(gl, unit, [heights, rows, columns], internal, format, type, 
 // light shows 1: by it gonio render exposes.
 const white_mean = (angle) => (2 / (3 * Math.PI)) * (Math.sin(angle) + (Math.PI - angle) * Math.cos(angle));
 
-const radians = (degrees) => degrees * Math.PI / 180;
 // In the axes of the picture: x to the right, y up, z towards the viewer.
 const light_direction = ({ longitude, latitude }) => [Math.sin(radians(longitude)) * Math.cos(radians(latitude)),
   Math.sin(radians(latitude)), Math.cos(radians(longitude)) * Math.cos(radians(latitude))];
@@ -282,29 +186,30 @@ function move_light(by_longitude, by_latitude) {
   viewer.state.latitude = Math.max(-90, Math.min(90, viewer.state.latitude + by_latitude));
 }
 
-function moved_by_hand(canvas, changed) {
+// Calls move(degrees to the right, degrees up) when arrow keys are pressed or the pointer drags.
+function moved_by_hand(canvas, move) {
   const steps = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] };
   canvas.addEventListener("keydown", (event) => {
     if (!steps[event.key]) return;
     event.preventDefault();
-    move_light(...steps[event.key]);
-    changed();
+    move(...steps[event.key]);
   });
   canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
   canvas.addEventListener("pointermove", (event) => {
-    if (!canvas.hasPointerCapture(event.pointerId)) return;
-    move_light(0.5 * event.movementX, -0.5 * event.movementY);
-    changed();
+    if (canvas.hasPointerCapture(event.pointerId)) move(0.5 * event.movementX, -0.5 * event.movementY);
   });
 }
 
-// What the material reflects at the pointer, of the sphere.
-function told_at(event, canvas, table, uncertainty) {
+// The normal that the pointer is over, of the sphere; nothing beside it.
+function normal_at(event, canvas) {
   const box = canvas.getBoundingClientRect();
   const x = 2 * (event.clientX - box.left) / box.width - 1, y = 1 - 2 * (event.clientY - box.top) / box.height;
-  const n = [x, y, Math.sqrt(1 - x * x - y * y)], wi = light_direction(viewer.state), wo = [0, 0, 1];
-  if (viewer.state.shape !== "sphere" || !(n[2] > 0)) return "";
-  const degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
+  return viewer.state.shape === "sphere" && x * x + y * y < 1 ? [x, y, Math.sqrt(1 - x * x - y * y)] : null;
+}
+
+// What the material reflects there.
+function told_at(n, table, uncertainty) {
+  const wi = light_direction(viewer.state), wo = [0, 0, 1], degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
   if (dot(n, wi) <= 0) return `theta_i ${degrees(wi)}: no light`;
   return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflectance_at(table, n, wi, wo))} sr\u207b\u00b9, ` +
     `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`;
@@ -328,7 +233,7 @@ function controls(changed) {
   return {
     box: element("div", { className: "controls" },
       choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"]], changed), ...sliders.map((each) => each.row),
-      element("label", {}, element("span", {}, "How well directions are known"), known), legend),
+      element("label", {}, element("span", {}, "Uncertainty"), known), legend),
     show: () => {
       sliders.forEach((each) => each.show());
       legend.hidden = !viewer.state.known;
@@ -351,12 +256,23 @@ async function show_viewer() {
   viewer.view = new material_view(canvas, table, uncertainty);
   const start = angle_between(light_direction(viewer.state), [0, 0, 1]);
   const redraw = redraw_with(viewer.view, data.viewer.exposure / white_mean(start));
-  const panel = controls(() => changed());
-  const changed = () => { panel.show(); redraw(); };
+  const panel = controls(() => changed()), lobe = lobe_figure(table, uncertainty);
+  const changed = () => {
+    panel.show();
+    redraw();
+    lobe.draw({ known: viewer.state.known });
+  };
   const readout = element("p", { className: "soft readout" });
-  canvas.addEventListener("pointermove", (event) => { readout.textContent = told_at(event, canvas, table, uncertainty); });
-  moved_by_hand(canvas, changed);
-  section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF."),
+  canvas.addEventListener("pointermove", (event) => {
+    const n = normal_at(event, canvas);
+    readout.textContent = n ? told_at(n, table, uncertainty) : "";
+    const theta_i = n ? angle_between(n, light_direction(viewer.state)) : Math.PI;
+    if (theta_i < radians(89)) lobe.draw({ theta_i });
+  });
+  moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
+  panel.box.append(lobe.box);
+  section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF there, and shows its lobe."),
     element("div", { className: "viewer" }, element("div", {}, canvas, readout), panel.box));
   changed();
 }
+
