@@ -1,5 +1,4 @@
-// The page of gonio report: draws what the JSON above holds. Text of files becomes text nodes, never HTML.
-const data = JSON.parse(document.getElementById("data").textContent);
+// The page of gonio report: draws its data. Text of files becomes text nodes, never HTML.
 
 // ---- numbers and elements --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;

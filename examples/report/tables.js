@@ -1,6 +1,7 @@
-// The tables that the page holds (docs/reference/formats.md, examples/cli/viewer_table.cpp), and what they say of a pair
-// of directions above a surface.
+// The data of the page, and what its tables (docs/reference/formats.md, examples/cli/viewer_table.cpp) say of a pair of
+// directions above a surface.
 "use strict";
+const data = JSON.parse(document.getElementById("data").textContent);
 
 // Bytes of base64 text that were deflated.
 async function inflated(text) {

@@ -15,11 +15,11 @@ vec3 grid_coordinates(vec3 n, vec3 wi, vec3 wo) {
   return vec3(phi_d, theta_d * 2.0 / pi, sqrt(theta_h * 2.0 / pi));
 }
 
-// sr^-1; zero below the horizon.
-vec3 reflectance(vec3 n, vec3 wi, vec3 wo) {
-  if (dot(n, wi) <= 0.0 || dot(n, wo) <= 0.0) return vec3(0.0);
-  vec4 read = texture(values, grid_coordinates(n, wi, wo) + shift);
-  return read.rgb / read.a * scale;
+// sr^-1, of the fit or the truth, of directions above the horizon.
+vec3 reflectance(bool is_truth, vec3 n, vec3 wi, vec3 wo) {
+  vec3 at = grid_coordinates(n, wi, wo);
+  vec4 read = is_truth ? texture(truth, at + truth_shift) * truth_scale : texture(values, at + values_shift) * values_scale;
+  return read.rgb / read.a;
 }`;
 
 const vertex_shader = `#version 300 es
@@ -31,9 +31,10 @@ void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 const fragment_shader = `#version 300 es
 precision highp float;
 precision highp sampler3D;
-uniform sampler3D values, known;
-uniform vec3 shift, light;
-uniform float scale, exposure, size;
+uniform sampler3D values, truth, known;
+uniform vec3 values_shift, truth_shift, light;
+uniform vec4 values_scale, truth_scale;
+uniform float exposure, size, border;  // right of the border the truth is shown
 uniform int samples, shape;  // 0: a sphere, 1: a flat sample
 uniform bool shows_known;
 out vec4 colour;
@@ -67,14 +68,14 @@ vec3 display_value(vec3 v) {
 }
 
 // A white Lambertian surface that faces the light is 1, times the exposure.
-vec3 seen(lit_point point) {
+vec3 seen(lit_point point, bool is_truth) {
   float cosine = dot(point.n, point.wi);
-  if (!point.hit || cosine <= 0.0) return vec3(0.0);
-  if (shows_known) {
+  if (!point.hit || cosine <= 0.0 || dot(point.n, point.wo) <= 0.0) return vec3(0.0);
+  if (shows_known && !is_truth) {
     float level = texture(known, grid_coordinates(point.n, point.wi, point.wo)).r;
     return linear_light(colour_of_known(0.001 * pow(10.0, 4.0 * level)));
   }
-  return reflectance(point.n, point.wi, point.wo) * (pi * cosine * point.irradiance * exposure);
+  return reflectance(is_truth, point.n, point.wi, point.wo) * (pi * cosine * point.irradiance * exposure);
 }
 
 void main() {
@@ -82,10 +83,11 @@ void main() {
   for (int i = 0; i < samples * samples; ++i) {
     vec2 within = (vec2(i % samples, i / samples) + 0.5) / float(samples);
     vec2 p = (floor(gl_FragCoord.xy) + within) / size * 2.0 - 1.0;
-    if (shape == 0) sum += seen(sphere(p));
-    else sum += seen(flat_sample(p));
+    if (shape == 0) sum += seen(sphere(p), p.x > border);
+    else sum += seen(flat_sample(p), p.x > border);
   }
   colour = vec4(display_value(sum / float(samples * samples)), 1.0);
+  if (abs(gl_FragCoord.x / size * 2.0 - 1.0 - border) < 1.5 / size) colour.rgb = vec3(0.6);
 }`;
 
 // ---- WebGL -----------------------------------------------------------------------------------------------------
@@ -123,7 +125,7 @@ const light_direction = ({ longitude, latitude }) => [Math.sin(radians(longitude
   Math.sin(radians(latitude)), Math.cos(radians(longitude)) * Math.cos(radians(latitude))];
 
 class material_view {
-  constructor(canvas, table, uncertainty) {
+  constructor(canvas, { table, truth, uncertainty }) {
     const gl = this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
     this.canvas = canvas;
     this.program = program_of(gl, vertex_shader, fragment_shader);
@@ -131,25 +133,31 @@ class material_view {
     gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
     gl.enableVertexAttribArray(gl.getAttribLocation(this.program, "corner"));
     gl.vertexAttribPointer(gl.getAttribLocation(this.program, "corner"), 2, gl.FLOAT, false, 0, 0);
-    texture_of(gl, 0, table.grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, table.texels);
-    texture_of(gl, 1, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
     gl.useProgram(this.program);
-    const [heights, rows, columns] = table.grid;
-    gl.uniform1i(this.at("values"), 0);
-    gl.uniform1i(this.at("known"), 1);
-    gl.uniform3f(this.at("shift"), table.shift / columns, table.shift / rows, table.shift / heights);
-    gl.uniform1f(this.at("scale"), table.scale);
+    this.take_table("values", 0, table);
+    if (truth) this.take_table("truth", 1, truth);
+    texture_of(gl, 2, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
+    gl.uniform1i(this.at("known"), 2);
+  }
+
+  take_table(name, unit, { grid, shift, scale, texels }) {
+    const { gl } = this, [heights, rows, columns] = grid;
+    texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
+    gl.uniform1i(this.at(name), unit);
+    gl.uniform3f(this.at(`${name}_shift`), shift / columns, shift / rows, shift / heights);
+    gl.uniform4f(this.at(`${name}_scale`), scale, scale, scale, 1);
   }
 
   at(name) { return this.gl.getUniformLocation(this.program, name); }
 
   // `samples` of a pixel along each axis.
-  draw({ longitude, latitude, exposure, shape, known, samples }) {
+  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0 }) {
     const { gl, canvas } = this;
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.uniform3f(this.at("light"), ...light_direction({ longitude, latitude }));
     gl.uniform1f(this.at("exposure"), exposure);
     gl.uniform1f(this.at("size"), canvas.width);
+    gl.uniform1f(this.at("border"), truth > 0 ? 1 - 0.02 * truth : 9);
     gl.uniform1i(this.at("samples"), samples);
     gl.uniform1i(this.at("shape"), shape === "sphere" ? 0 : 1);
     gl.uniform1i(this.at("shows_known"), known);
@@ -158,7 +166,7 @@ class material_view {
 }
 
 // ---- the section of the page -----------------------------------------------------------------------------------
-const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false }, view: null, draw() {} };
+const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, truth: data.viewer.truth ? 50 : 0 }, view: null, draw() {} };
 
 function slider(label, key, [min, max, step], told, changed) {
   const output = element("output");
@@ -208,11 +216,11 @@ function normal_at(event, canvas) {
 }
 
 // What the material reflects there.
-function told_at(n, table, uncertainty) {
+function told_at(n, table, uncertainty, is_truth) {
   const wi = light_direction(viewer.state), wo = [0, 0, 1], degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
   if (dot(n, wi) <= 0) return `theta_i ${degrees(wi)}: no light`;
   return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflectance_at(table, n, wi, wo))} sr\u207b\u00b9, ` +
-    `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`;
+    (is_truth ? "the truth" : `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`);
 }
 
 function choice(label, key, options, changed) {
@@ -227,6 +235,7 @@ function controls(changed) {
     slider("Light, to the right", "longitude", [-180, 180, 1], degrees, changed),
     slider("Light, upwards", "latitude", [-90, 90, 1], degrees, changed),
     slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${value > 0 ? "+" : ""}${value} stops`, changed)];
+  if (data.viewer.truth) sliders.push(slider("Truth, from the right", "truth", [0, 100, 1], (value) => `${value} %`, changed));
   const known = element("input", { type: "checkbox" });
   known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });
   const legend = element("p", { className: "legend soft" }, "2 %", element("span", { className: "ramp" }), "100 %");
@@ -253,7 +262,8 @@ async function show_viewer() {
   }
   const table = await read_table(data.viewer.table);
   const uncertainty = { grid: data.viewer.uncertainty.grid, levels: await inflated(data.viewer.uncertainty.codes) };
-  viewer.view = new material_view(canvas, table, uncertainty);
+  const truth = data.viewer.truth ? await read_table(data.viewer.truth) : null;
+  viewer.view = new material_view(canvas, { table, truth, uncertainty });
   const start = angle_between(light_direction(viewer.state), [0, 0, 1]);
   const redraw = redraw_with(viewer.view, data.viewer.exposure / white_mean(start));
   const panel = controls(() => changed()), lobe = lobe_figure(table, uncertainty);
@@ -265,7 +275,8 @@ async function show_viewer() {
   const readout = element("p", { className: "soft readout" });
   canvas.addEventListener("pointermove", (event) => {
     const n = normal_at(event, canvas);
-    readout.textContent = n ? told_at(n, table, uncertainty) : "";
+    const is_truth = n !== null && n[0] > 1 - 0.02 * viewer.state.truth;
+    readout.textContent = n ? told_at(n, is_truth ? truth : table, uncertainty, is_truth) : "";
     const theta_i = n ? angle_between(n, light_direction(viewer.state)) : Math.PI;
     if (theta_i < radians(89)) lobe.draw({ theta_i });
   });

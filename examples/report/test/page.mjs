@@ -159,7 +159,7 @@ async function check_page(browser, name) {
 write_scan(at("scan.csv"));
 gonio("report", at("scan.csv"), "--noise", "0.02", "-o", at("scan.html"));
 gonio("sample", at("red.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at("scattered.csv"));
-gonio("report", at("scattered.csv"), "-o", at("scattered.html"));
+gonio("report", at("scattered.csv"), "--truth", at("red.binary"), "-o", at("scattered.html"));
 gonio("sample", at("red.binary"), "--count", "1500", "--noise", "0.05", "-o", at("many.csv"));
 gonio("report", at("many.csv"), "-o", at("many.html"));
 

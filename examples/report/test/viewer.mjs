@@ -21,15 +21,15 @@ const pixels_of = (file) => images.evaluate(async ([url, side]) => {
 }, [`data:image/png;base64,${readFileSync(file).toString("base64")}`, size]);
 
 // The viewer's pixels from the top, the exposure being that at which a white sphere has the mean luminance 1.
-const drawn = (page, [longitude, latitude]) => page.evaluate(([longitude, latitude, side, exposure]) => {
+const drawn = (page, [longitude, latitude], truth = 0) => page.evaluate(([longitude, latitude, side, exposure, truth]) => {
   const { view } = viewer, gl = view.gl, pixels = new Uint8Array(4 * side * side), rows = [];
   view.canvas.width = view.canvas.height = side;
   const mean = white_mean(angle_between(light_direction({ longitude, latitude }), [0, 0, 1]));
-  view.draw({ longitude, latitude, shape: "sphere", known: false, exposure: exposure / mean, samples: 3 });
+  view.draw({ longitude, latitude, shape: "sphere", known: false, exposure: exposure / mean, samples: 3, truth });
   gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
   for (let row = side - 1; row >= 0; --row) rows.push(...pixels.subarray(4 * side * row, 4 * side * (row + 1)));
   return rows;
-}, [longitude, latitude, size, exposure]);
+}, [longitude, latitude, size, exposure, truth]);
 
 function difference(a, b) {
   let sum = 0, worst = 0;
@@ -89,6 +89,20 @@ async function judge(name) {
   return { ...worst, delta_e: Math.max(costs.delta_e_lights, costs.delta_e_env), megabytes };
 }
 
+// The truth beside the fit: what --truth adds to the page, and whether all of it is drawn.
+async function judge_truth(name) {
+  const at = samples_of(name), light = lights[0];
+  gonio("report", at(".csv"), "--truth", at("-truth.binary"), "-o", at(".html"));
+  gonio("render", at("-truth.binary"), "--size", String(size), `--light=${light}`, "--exposure", String(exposure), "-o", at(".png"));
+  const { page } = await open(browser, at(".html"));
+  await ready(page);
+  const found = difference(await drawn(page, light, 101), await pixels_of(at(".png")));
+  const megabytes = readFileSync(at(".html")).length / 1e6;
+  check(found.worst < 6, `${name}, the truth beside the fit: worst difference ${found.worst}/255`);
+  check(megabytes < 4, `${name}, the truth beside the fit: a page of ${megabytes.toFixed(2)} MB`);
+  await page.close();
+}
+
 const row = (...fields) => console.log(`${fields[0].padEnd(22)}${fields.slice(1).map((each) => each.padStart(14)).join("")}`);
 row("material", "mean of 255", "worst of 255", "Delta E", "page, MB");
 const all = [];
@@ -102,5 +116,6 @@ check(largest("mean") < 1, "the viewer's mean difference to gonio render is belo
 check(largest("worst") < 6, "its worst difference is below 6/255");
 check(largest("delta_e") < 0.1, "the page's table costs less than 0.1 Delta E");
 check(largest("megabytes") < 4, "the page has less than 4 MB");
+await judge_truth("paper_red");
 await browser.close();
 finish();
