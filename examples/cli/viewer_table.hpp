@@ -6,7 +6,7 @@
 
 namespace cli {
 
-/// Values as half floats of which two bits are dropped, within 0.2 % of what they were, and negative ones as zero; of
+/// Values as half floats of which two bits are dropped, within 0.25 % of what they were, and negative ones as zero; of
 /// each channel the differences along phi_d, deflated: 1 to 1.5 MB of text. O(cells). Throws gonio::error if a value is
 /// not finite.
 [[nodiscard]] json viewer_table(const gonio::brdf_table& table);

@@ -40,10 +40,23 @@ export async function open(browser, file, options = {}) {
 // Until the viewer has drawn, or says that it cannot.
 export const ready = (page) => page.waitForSelector(".viewer, .no-viewer");
 
+// How many images of so many rows and columns the viewer draws in a second.
+export async function frames_a_second(page, size) {
+  return page.evaluate((size) => {
+    viewer.view.canvas.width = viewer.view.canvas.height = size;
+    const { view } = viewer, gl = view.gl, pixel = new Uint8Array(4), frames = 40, start = performance.now();
+    for (let i = 0; i < frames; ++i) {
+      view.draw({ ...viewer.state, longitude: 9 * i - 180, exposure: 1, samples: 1 });
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // which waits for the drawing
+    }
+    return 1000 * frames / (performance.now() - start);
+  }, size);
+}
+
 let failures = 0;
 export function check(holds, what) {
   if (!holds) ++failures;
-  console.log(`${holds ? "ok" : "FAILED"}: ${what}`);
+  console.log(`- ${holds ? "ok" : "FAILED"}: ${what}`);
 }
 export function finish() {
   if (failures) console.log(`${failures} checks failed`);

@@ -3,7 +3,7 @@
 import { join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { check, finish, folder, gonio, launch, open, ready, repository } from "./browser.mjs";
+import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
 const at = (name) => join(folder, name);
@@ -58,23 +58,23 @@ async function check_pointer(page, name) {
   check(/sample \d+: theta_i/.test(tip), `${name}: a pointer over a dot tells of the sample`);
   await page.locator("canvas").first().scrollIntoViewIfNeeded();
   const canvas = await page.locator("canvas").first().boundingBox();
-  await page.mouse.move(canvas.x + canvas.width * 0.6, canvas.y + canvas.height * 0.4);
+  await page.mouse.move(canvas.x + canvas.width * 0.4, canvas.y + canvas.height * 0.4);
   await page.locator(".readout", { hasText: "known to" }).waitFor({ timeout: 2000 }).catch(() => {});
   const readout = await page.locator(".readout").textContent();
   check(/theta_i [\d.]+.*, theta_o [\d.]+.*: [\d.e-]+, [\d.e-]+, [\d.e-]+ sr.*known to/.test(readout), `${name}: a pointer over the sphere reads "${readout}"`);
   const before = await page.evaluate(() => viewer.state.longitude);
   await page.mouse.down();
-  await page.mouse.move(canvas.x + canvas.width * 0.6 + 40, canvas.y + canvas.height * 0.4, { steps: 4 });
+  await page.mouse.move(canvas.x + canvas.width * 0.4 + 40, canvas.y + canvas.height * 0.4, { steps: 4 });
   await page.mouse.up();
   const moved = await page.evaluate(() => viewer.state.longitude);
   check(Math.abs(moved - before - 20) < 0.1, `${name}: dragging by 40 pixels turns the light by ${moved - before} degrees`);
 }
 
-// The colour of the canvas' middle, after the next drawing.
-const middle = (page) => page.evaluate(() => {
+// A colour left of the canvas' middle, of the fit, after the next drawing.
+const colour_of_fit = (page) => page.evaluate(() => {
   viewer.draw(1);
   const gl = viewer.view.gl, colour = new Uint8Array(4);
-  gl.readPixels(gl.drawingBufferWidth / 2, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, colour);
+  gl.readPixels(0.4 * gl.drawingBufferWidth, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, colour);
   return [...colour];
 });
 
@@ -92,18 +92,18 @@ async function check_keyboard(page, name) {
   check(wanted.every((tag) => reached.filter((each) => each === tag).length >= wanted.filter((each) => each === tag).length),
     `${name}: the tabulator key reaches all ${wanted.length} controls`);
   await page.locator("canvas").first().focus();
-  const before = await page.evaluate(() => ({ ...viewer.state })), dark = await middle(page);
+  const before = await page.evaluate(() => ({ ...viewer.state })), dark = await colour_of_fit(page);
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.press("ArrowDown");
   const after = await page.evaluate(() => ({ ...viewer.state }));
   check(after.longitude === before.longitude - 5 && after.latitude === before.latitude - 5, `${name}: arrow keys move the light`);
   await page.locator("label", { hasText: "Exposure" }).locator("input").focus();
   for (let i = 0; i < 8; ++i) await page.keyboard.press("ArrowRight");
-  const bright = await middle(page);
+  const bright = await colour_of_fit(page);
   check(bright[0] > dark[0] || dark[0] === 255, `${name}: the exposure's slider brightens, ${dark} to ${bright}`);
   await page.locator("label", { hasText: "Uncertainty" }).locator("input").focus();
   await page.keyboard.press("Space");
-  const known = await middle(page);
+  const known = await colour_of_fit(page);
   check(Math.abs(known[0] - bright[0]) > 5, `${name}: the space bar shows how well directions are known, ${known}`);
   await page.keyboard.press("Space");
   await page.locator("summary").first().focus();
@@ -117,18 +117,6 @@ async function check_access(page, name) {
   const found = await page.evaluate(() => axe.run());
   check(found.violations.length === 0, `${name}: axe finds ${found.violations.length} violations of ${found.passes.length + found.violations.length} rules`);
   for (const each of found.violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
-}
-
-async function frames_a_second(page, size) {
-  return page.evaluate((size) => {
-    viewer.view.canvas.width = viewer.view.canvas.height = size;
-    const { view } = viewer, gl = view.gl, pixel = new Uint8Array(4), frames = 40, start = performance.now();
-    for (let i = 0; i < frames; ++i) {
-      view.draw({ ...viewer.state, longitude: 9 * i - 180, exposure: 1, samples: 1 });
-      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // which waits for the drawing
-    }
-    return 1000 * frames / (performance.now() - start);
-  }, size);
 }
 
 async function check_page(browser, name) {
@@ -148,7 +136,7 @@ async function check_page(browser, name) {
       const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
       check(pages <= 2, `${name}: prints on ${pages} pages`);
       for (const side of [256, 512])
-        console.log(`${name}: ${(await frames_a_second(page, side)).toFixed(0)} frames a second of ${side} x ${side} pixels, WebGL in software`);
+        console.log(`- ${name}: ${(await frames_a_second(page, side)).toFixed(0)} frames a second of ${side} x ${side} pixels, WebGL in software`);
     }
     check(complaints.length === 0, `${name}, ${colorScheme}: the console is empty ${complaints}`);
     check(requests.length === 1, `${name}, ${colorScheme}: no request but the page itself ${requests.slice(1)}`);

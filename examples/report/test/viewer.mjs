@@ -1,8 +1,9 @@
+#!/usr/bin/env node
 // The viewer against gonio render: ten materials under five lights, pixel by pixel, and what the page's table costs.
 import { join } from "node:path";
 import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { inflateSync } from "node:zlib";
-import { check, finish, folder, gonio, launch, open, ready, repository } from "./browser.mjs";
+import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
 
 const materials = ["chrome", "gold-paint", "blue-rubber", "red-plastic", "pearl-paint", "black-obsidian",
   "white-diffuse-bball", "violet-acrylic", "green-metallic-paint", "paper_red"];
@@ -80,13 +81,14 @@ async function judge(name) {
     worst.mean = Math.max(worst.mean, found.mean);
     worst.worst = Math.max(worst.worst, found.worst);
   }
+  const frames = [await frames_a_second(page, 256), await frames_a_second(page, 512)];
   await page.close();
   write_table(at(".html"), at(".binary"), at("-page.binary"));
   const costs = JSON.parse(gonio("compare", at("-page.binary"), at(".binary"), "--json"));
   const megabytes = readFileSync(at(".html")).length / 1e6;
   for (const file of [".binary", "-truth.binary", "-page.binary"]) rmSync(at(file));
   if (complaints.length) check(false, `${name}: ${complaints}`);
-  return { ...worst, delta_e: Math.max(costs.delta_e_lights, costs.delta_e_env), megabytes };
+  return { ...worst, delta_e: Math.max(costs.delta_e_lights, costs.delta_e_env), megabytes, frames };
 }
 
 // The truth beside the fit: what --truth adds to the page, and whether all of it is drawn.
@@ -103,14 +105,16 @@ async function judge_truth(name) {
   await page.close();
 }
 
-const row = (...fields) => console.log(`${fields[0].padEnd(22)}${fields.slice(1).map((each) => each.padStart(14)).join("")}`);
-row("material", "mean of 255", "worst of 255", "Delta E", "page, MB");
+const row = (...fields) => console.log(`| ${fields.join(" | ")} |`);
+row("material", "mean difference, of 255", "worst, of 255", "Delta E of the page's table", "page, MB", "frames a second, 256 x 256", "512 x 512");
+row(...Array(7).fill("---"));
 const all = [];
 for (const name of materials) {
   const found = await judge(name);
-  row(name, found.mean.toFixed(3), String(found.worst), found.delta_e.toFixed(3), found.megabytes.toFixed(2));
+  row(name, found.mean.toFixed(3), String(found.worst), found.delta_e.toFixed(3), found.megabytes.toFixed(2), ...found.frames.map((each) => each.toFixed(0)));
   all.push(found);
 }
+console.log("");
 const largest = (key) => Math.max(...all.map((each) => each[key]));
 check(largest("mean") < 1, "the viewer's mean difference to gonio render is below 1/255");
 check(largest("worst") < 6, "its worst difference is below 6/255");
