@@ -32,14 +32,15 @@ if("site" IN_LIST parts)
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
-# quick runs of the papers' experiments, 50 kills of each long command, and the Python module.
+# quick runs of the papers' experiments, 50 kills of each long command, the Python module, and pages in a browser, if
+# npm ci was run in examples/report.
 if("others" IN_LIST parts)
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
        -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON
        -D GONIO_BUILD_PYTHON=ON -D Python_EXECUTABLE=/usr/bin/python3)
   step("others: build" ${cmake} --build build/test --parallel ${cores})
-  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python")
+  step("others: test" ${ctest} --test-dir build/test --label-regex "consumers|papers|kills|python|browser")
 endif()
 
 # Clang with another standard library: the library, the tool and the tests of what differs, numbers and threads.

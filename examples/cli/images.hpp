@@ -42,11 +42,12 @@ inline void add_image_options(command& to, image_options& options, option image)
   exposure.needs(image);
 }
 
-/// A sphere under the two lights of Nielsen et al. 2015, Figure 2, in which a white Lambertian sphere has the mean
-/// luminance 1.
-[[nodiscard]] inline gonio::image sphere_image(const gonio::brdf_table& table, const image_options& options,
-                                               gonio::thread_count threads) {
-  return gonio::render::render_sphere(gonio::render::horizon_lookup(table), gonio::render::two_lights(),
+/// A sphere, by default under the two lights of Nielsen et al. 2015, Figure 2, in which a white Lambertian sphere has
+/// the mean luminance 1.
+[[nodiscard]] inline gonio::image sphere_image(
+    const gonio::brdf_table& table, const image_options& options, gonio::thread_count threads,
+    const gonio::render::directional_lighting& lights = gonio::render::two_lights()) {
+  return gonio::render::render_sphere(gonio::render::horizon_lookup(table), lights,
                                       {.size = options.size, .supersampling = 3}, threads);
 }
 

@@ -7,12 +7,19 @@
 #include "exr_files.hpp"
 #include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/text.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace cli {
 
@@ -23,6 +30,7 @@ constexpr double exposure_in_environment = 0.4;
 
 struct render_options {
   std::vector<std::filesystem::path> tables;
+  std::vector<std::string> lights;
   std::filesystem::path output, environment;
   bool slices = false;
   int quality = 64;
@@ -37,14 +45,38 @@ gonio::image read_environment(const std::filesystem::path& path) {
   return is_exr(path) ? read_exr(path) : gonio::io::read_hdr(path);
 }
 
+/// The light of a text such as 45,35: degrees to the right of the camera, and above it.
+gonio::direction light_of(const std::string& text) {
+  std::vector<std::string_view> fields;
+  gonio::io::detail::split_fields(text, fields);
+  if (fields.size() != 2) gonio::refuse({"--light needs two angles, as 45,35, not ", gonio::io::detail::quoted(text)});
+  std::array<double, 2> angles{};
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const char* wrong = gonio::io::detail::read_number(fields[i], angles[i]))
+      gonio::refuse({"--light: ", gonio::io::detail::quoted(fields[i]), ",", wrong});
+  if (std::abs(angles[0]) > 180.0 || std::abs(angles[1]) > 90.0)
+    gonio::refuse(
+        {"--light needs an angle from -180 to 180 and one from -90 to 90, not ", gonio::io::detail::quoted(text)});
+  const double right = gonio::radians(angles[0]), up = gonio::radians(angles[1]);
+  return {std::sin(right) * std::cos(up), std::sin(up), std::cos(right) * std::cos(up)};
+}
+
+gonio::render::directional_lighting lighting_of(const render_options& options) {
+  if (options.lights.empty()) return gonio::render::two_lights();
+  std::vector<gonio::directional_light> lights;
+  for (const std::string& text : options.lights) lights.push_back({light_of(text)});
+  return gonio::render::directional_lighting(std::move(lights));
+}
+
 void render(const render_options& options) {
+  const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
     light.emplace(gonio::render::environment_map(read_environment(options.environment)));
   progress_bar bar;
   const auto image_of = [&](const gonio::brdf_table& table) {
     if (options.slices) return slice_image(table, options.image, options.threads);
-    if (!light) return sphere_image(table, options.image, options.threads);
+    if (!light) return sphere_image(table, options.image, options.threads, lamps);
     const gonio::render::half_vector_sampler material(gonio::render::lookup_table<>::of(table));
     const gonio::render::sampled_sphere_view view{.size = options.image.size,
                                                   .samples = options.quality,
@@ -78,6 +110,13 @@ void add_render(command& app) {
   auto environment = command.add_input("--environment", options->environment,
                                        "Light from all around: a latitude-longitude image (.hdr or .exr)");
   environment.excludes(slices);
+  command
+      .add_option("--light", options->lights,
+                  "Instead of the two lights: degrees to the right of the camera and above it, as 45,35. May be given "
+                  "several times")
+      .repeatable()
+      .excludes(environment)
+      .excludes(slices);
   command
       .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
       .check(check::range(1, 1'000'000))

@@ -10,11 +10,13 @@
 #include "commands.hpp"
 #include "report_data.hpp"
 #include <gonio/io/file.hpp>
+#include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/prior.hpp>
 
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -24,7 +26,7 @@ namespace {
 
 struct report_options {
   reconstruct_options fit;
-  std::filesystem::path page;
+  std::filesystem::path page, truth;
   std::string title;
 };
 
@@ -47,7 +49,7 @@ std::string as_typed(const std::vector<std::string>& words) {
 
 /// What was done, as pairs of a name and a text.
 json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
-  const auto& [options, measured, found] = fit;
+  const auto& [options, measured, found, truth] = fit;
   json record = json::array();
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) record.push_back(json::array({name, text}));
@@ -73,8 +75,10 @@ json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
 
 void write_report(const report_options& options, const std::vector<std::string>& words) {
   const gonio::io::sample_file measured = read_measurement_file(options.fit.samples, options.fit.reading);
+  std::optional<gonio::brdf_table> truth;
+  if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   const reconstruction found = reconstruct(options.fit, measured.samples);
-  const reported_fit fit{options.fit, measured, found};
+  const reported_fit fit{options.fit, measured, found, truth ? &*truth : nullptr};
   json data = report_data(fit);
   if (!options.title.empty()) data["name"] = options.title;
   data["record"] = record_of(fit, words);
@@ -98,6 +102,9 @@ void add_report(command& app, const std::vector<std::string>& words) {
                   "Page to write (.html): one file, which a browser shows without a network")
       .required();
   command.add_option("--title", options->title, "Heading of the page (default: the name of the file)");
+  command.add_input(
+      "--truth", options->truth,
+      "Table that the viewer shows beside the fit (.binary or .binary.gz): the truth, or another material");
   add_measurement_options(command, options->fit.reading);
   add_prior_option(command, options->fit.materials.prior);
   command.add_option("--noise", options->fit.noise, "Relative deviation of the measured values (0.02 is 2 %)")

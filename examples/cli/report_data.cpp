@@ -6,6 +6,7 @@
 #include "command_line/sample_facts.hpp"
 #include "command_line/sample_warnings.hpp"
 #include "images.hpp"
+#include "viewer_table.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/model/physical_properties.hpp>
@@ -48,6 +49,18 @@ struct known_fit {
     told["known_to"] = five_digits(relative(wi, wo).y());
   }
 };
+
+/// What the viewer shows, and how bright: as `gonio render` exposes a sphere under its first light.
+json viewer_of(const reported_fit& fit) {
+  const reconstruction& found = fit.found;
+  const gonio::render::directional_lighting light({{gonio::direction(1.0, 1.0, 1.0)}});
+  const std::array sphere{sphere_image(found.table, {.size = 64, .exposure = {}}, fit.options.threads, light)};
+  json shown{{"exposure", five_digits(gonio::render::exposure_of_spheres(sphere))},
+             {"table", viewer_table(found.table)},
+             {"uncertainty", viewer_uncertainty(*found.uncertainty)}};
+  if (fit.truth) shown["truth"] = viewer_table(*fit.truth);
+  return shown;
+}
 
 std::string sphere_url(const reconstruction& found, gonio::thread_count threads) {
   const image_options how{.size = 320, .exposure = {}};
@@ -234,6 +247,7 @@ json report_data(const reported_fit& fit) {
   json data{{"name", fit.options.samples.stem().string()},
             {"count", counting_samples(fit.measured.samples).size()},
             {"sphere", sphere_url(fit.found, fit.options.threads)},
+            {"viewer", viewer_of(fit)},
             {"details", fit.found.details},
             {"worst", worst_of(fit.found)},
             {"warnings", warnings_of(fit)},

@@ -11,7 +11,8 @@ namespace cli {
 struct reported_fit {
   const reconstruct_options& options;
   const gonio::io::sample_file& measured;
-  const reconstruction& found;  ///< with its uncertainty
+  const reconstruction& found;     ///< with its uncertainty
+  const gonio::brdf_table* truth;  ///< to be shown beside it; may be nothing
 };
 
 /// Directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a probability

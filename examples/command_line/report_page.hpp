@@ -18,7 +18,10 @@ namespace cli {
 /// What is read of it is the same.
 [[nodiscard]] std::string escape_script(std::string_view json_text);
 
-/// Bytes as a URL that holds them (RFC 2397), in base64 (RFC 4648).
+/// Bytes as text (RFC 4648).
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+
+/// Bytes as a URL that holds them in base64 (RFC 2397).
 [[nodiscard]] std::string data_url(std::string_view media_type, std::span<const std::byte> bytes);
 
 /// The whole page. `data` is what examples/report/report.js draws.

@@ -9,6 +9,6 @@ namespace cli {
 [[nodiscard]] std::span<const std::string_view> report_form();    ///< page.html
 [[nodiscard]] std::span<const std::string_view> report_style();   ///< style.css
 [[nodiscard]] std::span<const std::string_view> report_bundle();  ///< bundle.js
-[[nodiscard]] std::span<const std::string_view> report_script();  ///< report.js
+[[nodiscard]] std::span<const std::string_view> report_script();  ///< tables.js to report.js
 
 }  // namespace cli

@@ -1,6 +1,4 @@
-// The page of gonio report: draws what the JSON above holds. Text of files becomes text nodes, never HTML.
-"use strict";
-const data = JSON.parse(document.getElementById("data").textContent);
+// The page of gonio report: draws its data. Text of files becomes text nodes, never HTML.
 
 // ---- numbers and elements --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -30,6 +28,11 @@ function figure(chart, description, caption, head, rows) {
   const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
   image.setAttribute("role", "img");
   image.setAttribute("aria-label", description);
+  // The parts of an image have no names of their own: what Plot calls its marks is kept, for style and tests.
+  for (const mark of image.querySelectorAll("g[aria-label]")) {
+    mark.dataset.mark = mark.getAttribute("aria-label");
+    mark.removeAttribute("aria-label");
+  }
   return element("figure", {}, chart, element("figcaption", {}, caption),
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
 }
@@ -283,6 +286,7 @@ function record() {
 }
 
 answer();
+show_viewer();
 scans();
 uncertainty_map();
 residuals();

@@ -68,6 +68,33 @@ TEST_CASE("gonio render: bright spheres are not blown out, and all of an image a
   CHECK(gonio::pixel(both, 40, 112).x() < 0.9 * gonio::pixel(draw(given.at("red.binary")), 40, 40).x());
 }
 
+TEST_CASE("gonio render --light: lights of one's own") {
+  const rendered_folder given;
+  const auto draw = [&](const std::string& arguments) {
+    run("render --size 64 --exposure 1 " + given.table + " " + arguments + " -o " + given.at("sphere.png"));
+    return gonio::io::read_png(given.folder / "sphere.png");
+  };
+  // The first of the two lights is at [1, 1, 1]: the other one reaches the lower left rim only.
+  const gonio::image both = draw(""), first = draw("--light 45,35.2644");
+  CHECK(gonio::pixel(first, 32, 48).maxCoeff() > 0.1);
+  CHECK(gonio::pixel(first, 61, 19).maxCoeff() < 0.5 * gonio::pixel(both, 61, 19).maxCoeff());
+  // A light at the left is the mirror image of one at the right.
+  const gonio::image left = draw("--light=-60,0"), right = draw("--light 60,0");
+  CHECK((gonio::pixel(left, 40, 20) - gonio::pixel(right, 40, 59)).abs().maxCoeff() < 0.005);
+  CHECK(gonio::pixel(left, 40, 20).maxCoeff() > 0.1);
+  const gonio::image again = draw("--light 45,35.2644 --light=-161.5651,-17.5484");
+  double worst = 0.0;
+  for (std::size_t row = 0; row < 80; ++row)
+    for (std::size_t column = 0; column < 80; ++column)
+      worst = std::max(worst, (gonio::pixel(again, row, column) - gonio::pixel(both, row, column)).abs().maxCoeff());
+  CHECK(worst < 0.01);
+  for (const char* wrong : {"45", "45,35,1", "45,north", "181,0", "0,91", "nan,0", "''"}) {
+    CAPTURE(wrong);
+    refuses("render " + given.table + " -o " + given.at("x.png") + " --light " + wrong, {"--light"});
+  }
+  refuses("render " + given.table + " -o " + given.at("x.png") + " --slices --light 0,0", {"--light"});
+}
+
 #if defined(GONIO_HAS_EXR)
 TEST_CASE("gonio render: an .exr image has the values themselves, and may be the environment") {
   const rendered_folder given;

@@ -5,14 +5,19 @@
 #include "command_line/report_page.hpp"
 #include "tool.hpp"
 #include <gonio/core/direction.hpp>
+#include <gonio/io/gzip.hpp>
+#include <gonio/io/merl.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/model/formula_materials.hpp>
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <random>
@@ -58,6 +63,22 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
   std::size_t count = 0;
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
   return count;
+}
+
+std::vector<std::byte> from_base64(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::vector<std::byte> bytes;
+  std::uint32_t bits = 0;
+  int known = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    bits = (bits << 6) | static_cast<std::uint32_t>(digits.find(c));
+    known += 6;
+    if (known < 8) continue;
+    known -= 8;
+    bytes.push_back(static_cast<std::byte>((bits >> known) & 255U));
+  }
+  return bytes;
 }
 
 std::string data_text(const std::string& page) {
@@ -125,6 +146,51 @@ TEST_CASE("gonio report: an in-plane scan with a wrong sample") {
     CAPTURE(word);
     CHECK(record.find(word) != std::string::npos);
   }
+}
+
+TEST_CASE("gonio report: the viewer's table is that of gonio reconstruct, within a quarter of a percent") {
+  const page_files files;
+  const auto data = parse_json(data_text(files.page_of("scan.csv", in_plane_scan("", true), "--noise 0.02")));
+  run("reconstruct '" + files.path("scan.csv") + "' --noise 0.02 -o '" + files.path("scan.binary") + "'");
+  const gonio::brdf_table table = gonio::io::read_merl(files.folder / "scan.binary");
+  const auto& packed = data["viewer"]["table"];
+  CHECK(packed["grid"] == parse_json("[90,90,180]"));
+  CHECK(packed["offset"] == 0.5);
+  const Eigen::Index cells = packed["cells"].get<Eigen::Index>(), count = 3 * cells;
+  REQUIRE(cells == table.cells().size());
+  const double scale = packed["scale"].get<double>();
+  CHECK(std::exp2(std::round(std::log2(scale))) == scale);
+  const auto bytes = gonio::io::decompress_bytes(from_base64(packed["codes"].get<std::string>()), 2 * count, "codes");
+  const auto byte = [&](Eigen::Index i) { return std::to_integer<int>(bytes[i]); };
+  double worst = 0.0;
+  for (Eigen::Index channel = 0, i = 0; channel < 3; ++channel)
+    for (Eigen::Index cell = 0, code = 0; cell < cells; ++cell, ++i) {
+      const int folded = byte(i) + 256 * byte(count + i);
+      code += folded % 2 == 1 ? -(folded + 1) / 2 : folded / 2;
+      const auto half = std::bit_cast<Eigen::half>(static_cast<std::uint16_t>(code << 2));
+      const double value = scale * static_cast<float>(half), exact = std::max(table.at(cell)[channel], 0.0);
+      worst = std::max(worst, std::abs(value - exact) / (exact + 1e-3 * scale));
+    }
+  CHECK(worst < 0.00245);
+  CHECK(worst > 0.0015);
+  const auto& known = data["viewer"]["uncertainty"];
+  CHECK(known["grid"] == parse_json("[45,45,90]"));
+  const auto levels =
+      gonio::io::decompress_bytes(from_base64(known["codes"].get<std::string>()), 45 * 45 * 90, "codes");
+  // Near the sample at 20 degrees, which fits, it is what the sample is told to be known to.
+  const auto& sample = data["samples"][9];
+  const auto near =
+      gonio::grid({45, 45, 90})
+          .nearest({gonio::radians(sample["theta_h"].get<double>()), gonio::radians(sample["theta_d"].get<double>()),
+                    gonio::radians(sample["phi_d"].get<double>())});
+  const double level = std::to_integer<int>(levels[gonio::grid({45, 45, 90}).linear(near)]) / 255.0;
+  CHECK(0.001 * std::pow(10.0, 4.0 * level) == doctest::Approx(sample["known_to"].get<double>()).epsilon(0.2));
+  CHECK(data["viewer"]["exposure"].get<double>() > 0.0);
+  CHECK_FALSE(data["viewer"].contains("truth"));
+  const auto with = parse_json(data_text(
+      files.page_of("scan.csv", in_plane_scan("", true), "--noise 0.02 --truth '" + files.path("scan.binary") + "'")));
+  CHECK(with["viewer"]["truth"]["codes"] == packed["codes"]);
+  CHECK(with["viewer"]["table"]["codes"] == packed["codes"]);
 }
 
 TEST_CASE("gonio report: the page asks no network") {
@@ -212,6 +278,7 @@ TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
   CHECK_FALSE(std::filesystem::exists(files.folder / "page.pdf"));
   refuses("report " + good, {"--output"});
   refuses("report absent.csv -o '" + files.path("page.html") + "'", {"absent.csv"});
+  refuses("report " + good + " --truth " + good + " -o '" + files.path("page.html") + "'", {"good.csv"});
   refuses("report " + good + " --noise 2 -o '" + files.path("page.html") + "'", {"--noise"});
   CHECK_FALSE(std::filesystem::exists(files.folder / "page.html"));
 }

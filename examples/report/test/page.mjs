@@ -1,0 +1,164 @@
+// The page of gonio report in a browser: its charts have their data, pointer and keyboard work, it asks no network, it
+// is accessible (axe), and it prints on two pages. Screenshots stay in the folder.
+import { join } from "node:path";
+import { readFileSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
+const at = (name) => join(folder, name);
+
+// A scan of a paint in the plane of a light at 45 degrees, of which the seventh sample is five times too bright.
+function write_scan(file) {
+  const rows = Array.from({ length: 15 }, (_, i) => [45, 0, Math.abs(10 * i - 70), i < 7 ? 0 : 180]);
+  writeFileSync(at("scan-directions.csv"), "theta_i,phi_i,theta_o,phi_o\n" + rows.join("\n") + "\n");
+  gonio("expand", "--formula", "red-paint", "-o", at("red.binary"));
+  gonio("sample", at("red.binary"), "--directions", at("scan-directions.csv"), "-o", at("exact.csv"));
+  const lines = readFileSync(at("exact.csv"), "utf8").trim().split("\n");
+  const columns = lines.find((line) => !line.startsWith("#")).split(",");
+  let number = 0;
+  const text = lines.map((line) => {
+    if (!/^[0-9]/.test(line) || ++number !== 7) return line;
+    return line.split(",").map((field, i) => ("rgb".includes(columns[i]) ? 5 * Number(field) : field)).join(",");
+  });
+  writeFileSync(file, text.join("\n") + "\n");
+}
+
+async function check_charts(page, name) {
+  const found = await page.evaluate(() => ({
+    data: { samples: data.samples.length, map: data.map.length, scans: data.scans.length, off: data.samples.filter((each) => each.disagrees).length },
+    figures: [...document.querySelectorAll("figure")].filter((each) => each.querySelector(":scope > svg, :scope > figure > svg, :scope > details")).map((each) => ({
+      label: each.querySelector("svg[role=img]")?.getAttribute("aria-label") ?? "",
+      marks: each.querySelectorAll("svg[role=img] :is(path, rect, circle)").length,
+      dots: each.querySelectorAll("svg[role=img] g[data-mark=dot] > *").length,
+      fields: each.querySelectorAll("svg[role=img] g[data-mark=rect] rect").length,
+      rows: each.querySelectorAll("details tbody tr").length,
+      broken: /NaN|undefined|Infinity/.test(each.innerHTML),
+    })),
+  }));
+  const { data, figures } = found;
+  const map = figures.find((each) => each.label.startsWith("Map of uncertainty"));
+  const residuals = figures.filter((each) => each.label.startsWith("Residuals against"));
+  const scans = figures.filter((each) => each.label.startsWith("Polar plot"));
+  check(figures.length === data.scans + 4, `${name}: ${figures.length} charts, ${data.scans} of them polar plots`);
+  check(figures.every((each) => each.marks > 3 && each.rows > 0 && !each.broken), `${name}: every chart has marks and a table, and no number is missing`);
+  check(scans.length === data.scans, `${name}: each scan has a chart`);
+  // Where a sample disagrees, the map draws its cross twice, for a rim.
+  check(map.fields === data.map && map.dots === data.samples + data.off, `${name}: the map has ${map.fields} fields and ${map.dots} dots`);
+  check(residuals.length === 2 && residuals.every((each) => each.dots === each.rows), `${name}: residuals of ${residuals[0]?.rows} samples`);
+}
+
+async function check_pointer(page, name) {
+  const dot = page.locator("svg[role=img] g[data-mark=dot] > *").first();
+  await dot.scrollIntoViewIfNeeded();
+  const box = await dot.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForTimeout(200);
+  const tip = await page.evaluate(() => [...document.querySelectorAll("g[aria-label=tip]")].map((each) => each.textContent).join(""));
+  check(/sample \d+: theta_i/.test(tip), `${name}: a pointer over a dot tells of the sample`);
+  await page.locator("canvas").first().scrollIntoViewIfNeeded();
+  const canvas = await page.locator("canvas").first().boundingBox();
+  await page.mouse.move(canvas.x + canvas.width * 0.4, canvas.y + canvas.height * 0.4);
+  await page.locator(".readout", { hasText: "known to" }).waitFor({ timeout: 2000 }).catch(() => {});
+  const readout = await page.locator(".readout").textContent();
+  check(/theta_i [\d.]+.*, theta_o [\d.]+.*: [\d.e-]+, [\d.e-]+, [\d.e-]+ sr.*known to/.test(readout), `${name}: a pointer over the sphere reads "${readout}"`);
+  const before = await page.evaluate(() => viewer.state.longitude);
+  await page.mouse.down();
+  await page.mouse.move(canvas.x + canvas.width * 0.4 + 40, canvas.y + canvas.height * 0.4, { steps: 4 });
+  await page.mouse.up();
+  const moved = await page.evaluate(() => viewer.state.longitude);
+  check(Math.abs(moved - before - 20) < 0.1, `${name}: dragging by 40 pixels turns the light by ${moved - before} degrees`);
+}
+
+// A colour left of the canvas' middle, of the fit, after the next drawing.
+const colour_of_fit = (page) => page.evaluate(() => {
+  viewer.draw(1);
+  const gl = viewer.view.gl, colour = new Uint8Array(4);
+  gl.readPixels(0.4 * gl.drawingBufferWidth, gl.drawingBufferHeight / 2, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, colour);
+  return [...colour];
+});
+
+async function check_keyboard(page, name) {
+  // Everything that can be used is reached by the tabulator key, in the order of the page.
+  await page.evaluate(() => { window.scrollTo(0, 0); document.activeElement?.blur(); });
+  const reached = [];
+  for (let i = 0; i < 60; ++i) {
+    await page.keyboard.press("Tab");
+    const tag = await page.evaluate(() => (document.activeElement === document.body ? "" : document.activeElement.tagName.toLowerCase()));
+    if (!tag) break;
+    reached.push(tag);
+  }
+  const wanted = await page.evaluate(() => [...document.querySelectorAll("canvas, select, input, summary")].map((each) => each.tagName.toLowerCase()));
+  check(wanted.every((tag) => reached.filter((each) => each === tag).length >= wanted.filter((each) => each === tag).length),
+    `${name}: the tabulator key reaches all ${wanted.length} controls`);
+  await page.locator("canvas").first().focus();
+  const before = await page.evaluate(() => ({ ...viewer.state })), dark = await colour_of_fit(page);
+  await page.keyboard.press("ArrowLeft");
+  await page.keyboard.press("ArrowDown");
+  const after = await page.evaluate(() => ({ ...viewer.state }));
+  check(after.longitude === before.longitude - 5 && after.latitude === before.latitude - 5, `${name}: arrow keys move the light`);
+  await page.locator("label", { hasText: "Exposure" }).locator("input").focus();
+  for (let i = 0; i < 8; ++i) await page.keyboard.press("ArrowRight");
+  const bright = await colour_of_fit(page);
+  check(bright[0] > dark[0] || dark[0] === 255, `${name}: the exposure's slider brightens, ${dark} to ${bright}`);
+  await page.locator("label", { hasText: "Uncertainty" }).locator("input").focus();
+  await page.keyboard.press("Space");
+  const known = await colour_of_fit(page);
+  check(Math.abs(known[0] - bright[0]) > 5, `${name}: the space bar shows how well directions are known, ${known}`);
+  await page.keyboard.press("Space");
+  await page.locator("summary").first().focus();
+  await page.keyboard.press("Enter");
+  check(await page.locator("details").first().evaluate((each) => each.open), `${name}: the enter key opens a table of values`);
+  await page.keyboard.press("Enter");
+}
+
+async function check_access(page, name) {
+  await page.addScriptTag({ content: axe });
+  const found = await page.evaluate(() => axe.run());
+  check(found.violations.length === 0, `${name}: axe finds ${found.violations.length} violations of ${found.passes.length + found.violations.length} rules`);
+  for (const each of found.violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
+}
+
+async function check_page(browser, name) {
+  const file = at(`${name}.html`), size = readFileSync(file).length;
+  check(size < 4e6, `${name}: the page has ${(size / 1e6).toFixed(2)} MB`);
+  for (const colorScheme of ["light", "dark"]) {
+    const { page, complaints, requests } = await open(browser, file, { colorScheme });
+    await ready(page);
+    await page.waitForTimeout(700);
+    await page.screenshot({ path: at(`${name}-${colorScheme}.png`), fullPage: true });
+    await check_access(page, `${name}, ${colorScheme}`);
+    if (colorScheme === "light") {
+      await check_charts(page, name);
+      await check_keyboard(page, name);
+      await check_pointer(page, name);
+      const pdf = await page.pdf({ path: at(`${name}.pdf`), format: "A4" });
+      const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+      check(pages <= 2, `${name}: prints on ${pages} pages`);
+      for (const side of [256, 512])
+        console.log(`- ${name}: ${(await frames_a_second(page, side)).toFixed(0)} frames a second of ${side} x ${side} pixels, WebGL in software`);
+    }
+    check(complaints.length === 0, `${name}, ${colorScheme}: the console is empty ${complaints}`);
+    check(requests.length === 1, `${name}, ${colorScheme}: no request but the page itself ${requests.slice(1)}`);
+    await page.close();
+  }
+}
+
+write_scan(at("scan.csv"));
+gonio("report", at("scan.csv"), "--noise", "0.02", "-o", at("scan.html"));
+gonio("sample", at("red.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at("scattered.csv"));
+gonio("report", at("scattered.csv"), "--truth", at("red.binary"), "-o", at("scattered.html"));
+gonio("sample", at("red.binary"), "--count", "1500", "--noise", "0.05", "-o", at("many.csv"));
+gonio("report", at("many.csv"), "-o", at("many.html"));
+
+const browser = await launch();
+for (const name of ["scan", "scattered", "many"]) await check_page(browser, name);
+await browser.close();
+
+const without = await launch("--disable-3d-apis");
+const { page, complaints } = await open(without, at("scan.html"));
+await ready(page);
+check(await page.locator(".no-viewer").count() === 1 && await page.locator("canvas").count() === 0, "without WebGL the page says so");
+check(complaints.every((each) => /webgl/i.test(each)), `without WebGL the console has nothing else ${complaints}`);
+await without.close();
+finish();
