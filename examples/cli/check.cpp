@@ -5,11 +5,14 @@
 #include "command_line/measures_as_json.hpp"
 #include "command_line/negative_answer.hpp"
 #include "command_line/prior_option.hpp"
+#include "command_line/report_page.hpp"
+#include "command_line/sample_facts.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include <gonio/estimate/conformity.hpp>
 #include <gonio/io/prior.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -23,7 +26,7 @@ namespace cli {
 namespace {
 
 struct check_options {
-  std::filesystem::path part, reference, prior;
+  std::filesystem::path part, reference, prior, report;
   measurement_options reading;
   std::optional<double> noise, reference_noise;
   double dark_noise = 0.0, tolerance = 0.0, false_alarms = 0.01, same_within = 0.01;
@@ -167,8 +170,8 @@ json directions_as_json(const gonio::conformity& found, const measured_surface& 
   return all;
 }
 
-void print_as_json(const check_options& given, const check_result& result, const measured_surface& part,
-                   const measured_surface& reference) {
+json as_json(const check_options& given, const check_result& result, const measured_surface& part,
+             const measured_surface& reference) {
   const gonio::conformity& found = result.conformity;
   const gonio::measurement_noise& noise = result.options.part;
   json all{{"conforms", result.conforms},
@@ -193,26 +196,51 @@ void print_as_json(const check_options& given, const check_result& result, const
   all["part"] = part.facts;
   all["reference"] = reference.facts;
   all["directions"] = directions_as_json(found, part);
-  std::cout << all.dump(2) << '\n';
+  return all;
+}
+
+/// The page for people: the same, the angles of all directions, and what was done.
+void write_report(const check_options& given, json check, const measured_surface& part,
+                  const std::vector<std::string>& words) {
+  for (std::size_t i = 0; i < check["directions"].size(); ++i) {
+    json& each = check["directions"][i];
+    const auto number = std::ranges::find(part.numbers, std::lround(each["sample"].number())) - part.numbers.begin();
+    each.update(angles_as_json(part.counting[number].directions));
+  }
+  json record = record_of_command(words);
+  const auto describe = [&](const char* name, const std::filesystem::path& path, const json& facts) {
+    add_to_record(record, name, path.string() + (facts.size() > 0 ? ": " + facts.dump() : ""));
+  };
+  describe("Part", given.part, check["part"]);
+  describe("Reference", given.reference, check["reference"]);
+  add_to_record(record, "Prior", given.prior.string());
+  add_to_record(record, "Noise",
+                fixed(100.0 * check["noise"].number(), 2) + " %" +
+                    (given.noise ? " (stated)" : " (of directions that were measured repeatedly)"));
+  write_report_page(given.report, {{"kind", "check"},
+                                   {"name", given.part.stem().string() + " beside " + given.reference.stem().string()},
+                                   {"check", std::move(check)},
+                                   {"record", record}});
 }
 
 /// Says whether the part conforms.
-bool check_files(const check_options& given) {
+bool check_files(const check_options& given, const std::vector<std::string>& words) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
   const measured_surface part(given.part, given.reading, prior, given.threads),
       reference(given.reference, given.reading, prior, given.threads);
   const check_result result = check_part(given, part, reference, prior);
+  if (!given.report.empty()) write_report(given, as_json(given, result, part, reference), part, words);
   if (given.print_json)
-    print_as_json(given, result, part, reference);
+    std::cout << as_json(given, result, part, reference).dump(2) << '\n';
   else
     print(given, result, part, reference);
   return result.conforms;
 }
 
 /// The same; what fails is bad input, so that exit code 1 means that the part differs.
-bool check_or_refuse(const check_options& given) {
+bool check_or_refuse(const check_options& given, const std::vector<std::string>& words) {
   try {
-    return check_files(given);
+    return check_files(given, words);
   } catch (const gonio::error&) {
     throw;
   } catch (const std::exception& failure) {
@@ -234,7 +262,7 @@ void add_noise_options(command& to, check_options& options) {
 
 }  // namespace
 
-void add_check(command& app) {
+void add_check(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand(
       "check", "Tell whether a part reflects like a reference: exit code 0 if no difference is found, 1 if it differs");
   const auto options = std::make_shared<check_options>();
@@ -262,10 +290,11 @@ void add_check(command& app) {
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   add_prior_option(command, options->prior);
+  add_report_option(command, options->report);
   command.add_flag("--json", options->print_json, "Print the answer and all directions as JSON");
   add_threads_option(command, options->threads);
-  command.callback([options] {
-    if (!check_or_refuse(*options)) throw negative_answer{};
+  command.callback([options, words] {
+    if (!check_or_refuse(*options, words)) throw negative_answer{};
   });
 }
 

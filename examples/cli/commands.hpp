@@ -10,18 +10,18 @@ namespace cli {
 
 void add_learn(command& app);
 void add_expand(command& app);
-void add_design(command& app);
 void add_plan(command& app);
 void add_sample(command& app);
 void add_near_field(command& app);
 void add_sphere(command& app);
-void add_reconstruct(command& app);
-/// `words` is the whole command line, which the page repeats.
+/// `words` is the whole command line, which the pages for people repeat.
+void add_reconstruct(command& app, const std::vector<std::string>& words);
 void add_report(command& app, const std::vector<std::string>& words);
+void add_check(command& app, const std::vector<std::string>& words);
+void add_design(command& app, const std::vector<std::string>& words);
 void add_fit(command& app);
 void add_compare(command& app);
 void add_convert(command& app);
-void add_check(command& app);
 void add_render(command& app);
 void add_info(command& app);
 void add_properties(command& app);

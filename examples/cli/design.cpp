@@ -6,8 +6,12 @@
 #include "command_line/measurement_files.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
+#include "command_line/reconstruct_choice.hpp"
+#include "command_line/report_page.hpp"
+#include "command_line/sample_facts.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include "report_data.hpp"
 #include <gonio/design/published_directions.hpp>
 #include <gonio/evaluate/next_measurement.hpp>
 #include <gonio/io/capture_constraint.hpp>
@@ -22,7 +26,7 @@ namespace cli {
 namespace {
 
 struct design_command {
-  std::filesystem::path prior, constraint, start, given, output;
+  std::filesystem::path prior, constraint, start, given, output, report;
   measurement_options reading;  ///< of --given
   design_options design;
   double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
@@ -44,8 +48,38 @@ void require_given_alone(const design_command& command) {
         "expects the error of the reconstruction from its samples");
 }
 
+/// The page for people. `samples` are those that were measured already.
+void write_report(const design_command& command, const std::vector<gonio::direction_pair>& poses,
+                  const std::string& sentence, const gonio::sample_set& samples,
+                  const std::vector<std::string>& words) {
+  json directions = json::array(), given = json::array();
+  for (const gonio::direction_pair& pose : poses) {
+    json told = angles_as_json(pose);
+    told["number"] = directions.size() + 1;
+    directions.push_back(std::move(told));
+  }
+  for (const Eigen::Index i : counting_samples(samples)) given.push_back(angles_as_json(samples[i].directions));
+  json record = record_of_command(words);
+  add_to_record(record, "Prior", command.prior.string());
+  add_to_record(record, "Measured", command.given.string());
+  json data{{"kind", "design"},
+            {"name", command.output.stem().string()},
+            {"design", {{"sentence", sentence}, {"directions", directions}}},
+            {"samples", given},
+            {"record", record}};
+  if (!samples.empty()) {
+    reconstruct_options fit;
+    fit.noise = command.design.noise;
+    fit.keeps_uncertainty = true;
+    fit.materials.prior = command.prior;
+    fit.threads = command.design.threads;
+    data["map"] = known_map(reconstruct(fit, samples));
+  }
+  write_report_page(command.report, data);
+}
+
 /// The next measurements beside samples that were made, by what these read.
-void run_given(const design_command& command) {
+void run_given(const design_command& command, const std::vector<std::string>& words) {
   require_given_alone(command);
   const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
@@ -58,6 +92,11 @@ void run_given(const design_command& command) {
   std::vector<gonio::direction_pair> poses;
   for (const gonio::next_measurement& next : chosen) poses.push_back(next.pose);
   gonio::io::write_direction_pairs(command.output, poses);
+  const std::string sentence = std::to_string(samples.size()) + " samples leave a median deviation of " +
+                               fixed(100.0 * deviation, 1) + " %; " + std::to_string(poses.size()) +
+                               (poses.size() == 1 ? " more leaves" : " more leave") + " an expected Delta E of " +
+                               fixed(chosen.back().expected_delta_e, 2);
+  if (!command.report.empty()) write_report(command, poses, sentence, samples, words);
   if (command.print_json) {
     json all{{"measurements", poses.size()}, {"given", samples.size()}};
     all.update(facts_of(measured));
@@ -66,9 +105,7 @@ void run_given(const design_command& command) {
     std::cout << all.dump(2) << '\n';
     return;
   }
-  std::cout << samples.size() << " samples leave a median deviation of " << fixed(100.0 * deviation, 1) << " %; "
-            << poses.size() << (poses.size() == 1 ? " more leaves" : " more leave") << " an expected Delta E of "
-            << fixed(chosen.back().expected_delta_e, 2) << '\n';
+  std::cout << sentence << '\n';
 }
 
 /// The literature's sets are not searched for.
@@ -98,13 +135,13 @@ designed set_of_the_literature(const gonio::log_relative_pca& prior, const desig
   return found;
 }
 
-void run(design_command command) {
+void run(design_command command, const std::vector<std::string>& words) {
   progress_bar bar;
   const bool is_published = command.published > 0 || command.industry;
   if (is_published) require_no_search(command);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
-  if (!command.given.empty()) return run_given(command);
+  if (!command.given.empty()) return run_given(command, words);
   if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
@@ -117,6 +154,12 @@ void run(design_command command) {
   bar.wipe();
 
   const auto figures = quality_of(prior, command.design, found);
+  const std::string sentence = std::to_string(found.poses.size()) +
+                               (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ") +
+                               fixed(100.0 * figures.unknown_share, 1) +
+                               " % of how the prior's materials differ from their mean: an expected error of " +
+                               fixed(figures.expected_error, 3) + " in a cell's logarithm";
+  if (!command.report.empty()) write_report(command, found.poses, sentence, {}, words);
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
                       {"criterion", is_published ? "published" : command.design.criterion},
@@ -129,15 +172,12 @@ void run(design_command command) {
               << '\n';
     return;
   }
-  std::cout << found.poses.size() << (found.poses.size() == 1 ? " measurement leaves " : " measurements leave ")
-            << fixed(100.0 * figures.unknown_share, 1)
-            << " % of how the prior's materials differ from their mean: an expected error of "
-            << fixed(figures.expected_error, 3) << " in a cell's logarithm\n";
+  std::cout << sentence << '\n';
 }
 
 }  // namespace
 
-void add_design(command& app) {
+void add_design(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand("design", "Find what to measure");
   const auto options = std::make_shared<design_command>();
   design_options& design = options->design;
@@ -205,13 +245,14 @@ void add_design(command& app) {
                    "No search: the five points of industry's goniospectrophotometers (Westlund and Meyer 2001)");
   // Declare the run and its output.
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
+  add_report_option(command, options->report);
   command.add_flag("--json", options->print_json, "Print the result as JSON");
   add_threads_option(command, design.threads);
   command
       .add_output("-o,--output", options->output, {".csv"},
                   "Directions to write; of images, those of the centre (.csv)")
       .required();
-  command.callback([options] { run(*options); });
+  command.callback([options, words] { run(*options, words); });
 }
 
 }  // namespace cli

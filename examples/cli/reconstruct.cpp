@@ -6,10 +6,12 @@
 #include "command_line/measurement_files.hpp"
 #include "command_line/prior_option.hpp"
 #include "command_line/reconstruct_choice.hpp"
+#include "command_line/report_page.hpp"
 #include "command_line/threads_option.hpp"
 #include "command_line/warning.hpp"
 #include "commands.hpp"
 #include "images.hpp"
+#include "report_data.hpp"
 #include "uncertainty_image.hpp"
 #include <gonio/io/file.hpp>
 #include <gonio/io/rgl_spectra.hpp>
@@ -69,7 +71,8 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
 }
 
-void reconstruct_and_write(reconstruct_options options, const image_options& how) {
+void reconstruct_and_write(reconstruct_options options, const image_options& how,
+                           const std::vector<std::string>& words) {
   gonio::io::sample_file measured;
   std::optional<reconstruction> found;
   if (options.fits_spectra) {
@@ -97,6 +100,8 @@ void reconstruct_and_write(reconstruct_options options, const image_options& how
     gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
     write_history(options.iteration_figure / "history.csv", result.history);
   }
+  if (!options.report.empty())
+    write_report_page(options.report, report_data({options, measured, result, nullptr}, words));
   print(result, measured, options.print_json);
 }
 
@@ -142,7 +147,7 @@ void add_spectra_options(command& to, reconstruct_options& options) {
 
 }  // namespace
 
-void add_reconstruct(command& app) {
+void add_reconstruct(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand("reconstruct", "Complete a BRDF from samples");
   const auto options = std::make_shared<reconstruct_options>();
   const auto how = std::make_shared<image_options>();
@@ -180,6 +185,7 @@ void add_reconstruct(command& app) {
   command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
                      "Image of a sphere to write (.png), coloured by how well its brightness is known: blue to 1 %, "
                      "cyan to 5 %, yellow to 22 %, red to 100 % and worse");
+  add_report_option(command, options->report);
   // Declare the corrections.
   add_correction_options(command, *options);
   command
@@ -200,11 +206,11 @@ void add_reconstruct(command& app) {
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
   // Refuse options that the method does not take, then run it.
-  command.callback([command, options, how] {
+  command.callback([command, options, how, words] {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
     if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
       gonio::refuse("--truth requires --iteration-figure");
-    reconstruct_and_write(*options, *how);
+    reconstruct_and_write(*options, *how, words);
   });
 }
 

@@ -1,5 +1,6 @@
 #include "report_data.hpp"
 
+#include "command_line/fixed.hpp"
 #include "command_line/measurement_files.hpp"
 #include "command_line/measures_as_json.hpp"
 #include "command_line/report_page.hpp"
@@ -9,6 +10,7 @@
 #include "viewer_table.hpp"
 #include <gonio/core/random.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/io/prior.hpp>
 #include <gonio/model/physical_properties.hpp>
 
 #include <algorithm>
@@ -240,11 +242,36 @@ json warnings_of(const reported_fit& fit) {
   return all;
 }
 
+/// What was done, as pairs of a name and a text.
+json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
+  const auto& [options, measured, found, truth] = fit;
+  json record = record_of_command(words);
+  const auto add = [&](const char* name, const std::string& text) { add_to_record(record, name, text); };
+  add("Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
+                     std::to_string(counting_samples(measured.samples).size()) + " count");
+  add("Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
+                      (measured.wavelength ? ", at " + fixed(*measured.wavelength, 1) + " nm" : ""));
+  add("Instrument", measured.provenance.instrument);
+  add("Date", measured.provenance.date);
+  add("Conditions", measured.provenance.conditions);
+  const gonio::log_relative_pca prior = gonio::io::read_prior(options.materials.prior);
+  add("Prior", options.materials.prior.string() + ": " + std::to_string(prior.size()) + " components of " +
+                   std::to_string(prior.names().size()) + " materials");
+  add("Method", "principal components and a discrepancy of variance " + fixed(options.discrepancy, 3) +
+                    ", which takes the place of a penalty eta");
+  add("Noise", options.noise ? fixed(100.0 * *options.noise, 2) + " % (stated)" : "not stated");
+  add("Residual", found.sentence);
+  return record;
+}
+
 }  // namespace
 
-json report_data(const reported_fit& fit) {
+json known_map(const reconstruction& found) { return map_of(known_fit(found)); }
+
+json report_data(const reported_fit& fit, const std::vector<std::string>& words) {
   const known_fit known(fit.found);
-  json data{{"name", fit.options.samples.stem().string()},
+  json data{{"kind", "reconstruct"},
+            {"name", fit.options.samples.stem().string()},
             {"count", counting_samples(fit.measured.samples).size()},
             {"sphere", sphere_url(fit.found, fit.options.threads)},
             {"viewer", viewer_of(fit)},
@@ -255,6 +282,7 @@ json report_data(const reported_fit& fit) {
   data["scans"] = scans_of(data["samples"], known);
   data["map"] = map_of(known);
   data["albedo"] = albedo_of(known);
+  data["record"] = record_of(fit, words);
   return data;
 }
 

@@ -5,6 +5,9 @@
 #include "command_line/reconstruct_choice.hpp"
 #include <gonio/io/samples.hpp>
 
+#include <string>
+#include <vector>
+
 namespace cli {
 
 /// A fit, and what it was fitted to.
@@ -17,6 +20,10 @@ struct reported_fit {
 
 /// Directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a probability
 /// of 68 %. Of more than `most_residuals` samples, so many at random are shown, and those that were left out.
-[[nodiscard]] json report_data(const reported_fit& fit);
+/// `words` is the command line, for the record of what was done.
+[[nodiscard]] json report_data(const reported_fit& fit, const std::vector<std::string>& words);
+
+/// How well directions are known over theta_h and theta_d, of a reconstruction with its uncertainty.
+[[nodiscard]] json known_map(const reconstruction& found);
 
 }  // namespace cli

@@ -55,7 +55,7 @@ const std::vector<reconstruct_method>& reconstruct_methods() {
        reconstruct_by_components,
        {"--prior", "--networks", "--merl", "--exclude", "--metric", "--root", "--solver", "--eta", "--noise",
         "--lambda", "--variance", "--misplaced", "--discrepancy", "--no-reject", "--residuals", "--uncertainty",
-        "--uncertainty-image"}},  // refuses some of them itself, and says why
+        "--uncertainty-image", "--report"}},  // refuses some of them itself, and says why
       {"soft-specular",
        "the components of soft or those of specular materials, whichever the contrast of the samples' highlight "
        "chooses, from a prior of gonio learn --split, with a penalty --eta of 40 shared out by their numbers (Nielsen "

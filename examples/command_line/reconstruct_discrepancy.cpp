@@ -170,7 +170,7 @@ reconstruction reconstruct_by(const fit_function& fit, const reconstruct_options
   gonio::screened_samples screened{located};
   if (!options.keeps_all) screened = gonio::screen(estimator, located, options.threads);
   std::vector<checked_sample> checked;
-  if (!options.residuals.empty() || (options.keeps_residuals && located.size() <= most_residuals))
+  if (!options.residuals.empty() || (options.tells_residuals() && located.size() <= most_residuals))
     checked = check_samples(prior, located,
                             gonio::predict_left_out(estimator.covariance(located), estimator.mapped_values(located)),
                             numbers, screened.left_out);

@@ -100,7 +100,8 @@ component_choice choose_components(const reconstruct_options& options) {
   if (chosen.has_discrepancy) return chosen;
   if (options.keeps_all || !options.residuals.empty() || options.wants_uncertainty())
     gonio::refuse(
-        "--no-reject, --residuals, --uncertainty and --uncertainty-image need a discrepancy: they go with none of "
+        "--no-reject, --residuals, --report, --uncertainty and --uncertainty-image need a discrepancy: they go with "
+        "none of "
         "--discrepancy 0, --misplaced, --eta and other solvers than tikhonov");
   if (options.discrepancy != 0.0 && options.discrepancy != reconstruct_options{}.discrepancy)
     gonio::refuse("--discrepancy goes with none of --misplaced, --eta and other solvers than tikhonov");

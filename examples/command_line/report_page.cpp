@@ -1,7 +1,9 @@
 #include "report_page.hpp"
 
 #include "report_parts.hpp"
+#include <gonio/io/file.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <stdexcept>
 #include <utility>
@@ -96,6 +98,40 @@ std::string report_page(const std::string& title, const json& data) {
     position = found + mark.size();
   }
   return page.append(form, position);
+}
+
+void write_report_page(const std::filesystem::path& path, const json& data) {
+  const std::string page = report_page(data["name"].text(), data);
+  gonio::io::write_atomically(path, std::as_bytes(std::span(page)));
+}
+
+std::string as_typed(const std::vector<std::string>& words) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
+  std::string line = "gonio";
+  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
+json record_of_command(const std::vector<std::string>& words) {
+  return json::array({json::array({"Command", as_typed(words)}), json::array({"Version", "gonio " GONIO_VERSION})});
+}
+
+void add_to_record(json& record, const std::string& name, const std::string& text) {
+  if (!text.empty()) record.push_back(json::array({name, text}));
+}
+
+void add_report_option(command& to, std::filesystem::path& page) {
+  to.add_output("--report", page, {".html"},
+                "Page for people to write (.html): one file, which a browser shows without a network");
 }
 
 }  // namespace cli

@@ -91,6 +91,18 @@ json facts_of(const gonio::sample_set& samples) {
   return facts;
 }
 
+json angles_as_json(const gonio::sample_directions& directions) {
+  const auto& [wi, wo] = directions.pair();
+  const auto [theta_h, theta_d, phi_d] = directions.angles();
+  return {{"theta_i", rounded_degrees(gonio::polar_angle(wi))},
+          {"phi_i", rounded_degrees(gonio::azimuth(wi))},
+          {"theta_o", rounded_degrees(gonio::polar_angle(wo))},
+          {"phi_o", rounded_degrees(gonio::azimuth(wo))},
+          {"theta_h", rounded_degrees(theta_h)},
+          {"theta_d", rounded_degrees(theta_d)},
+          {"phi_d", rounded_degrees(phi_d)}};
+}
+
 json facts_of(std::span<const gonio::direction_pair> pairs) {
   gonio::sample_set samples;
   for (const gonio::direction_pair& pair : pairs) samples.push_back({pair, gonio::rgb::Zero(), 1.0});

@@ -1,4 +1,5 @@
-// The page of gonio report: draws its data. Text of files becomes text nodes, never HTML.
+// The pages of gonio report, and of --report of other commands: draws their data. Text of files becomes text nodes,
+// never HTML. check.js and design.js have the parts that are theirs alone.
 
 // ---- numbers and elements --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
@@ -37,9 +38,9 @@ function figure(chart, description, caption, head, rows) {
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
 }
 
-const by_number = new Map(data.samples.map((each) => [each.sample, each]));
+const by_number = new Map((data.samples ?? []).map((each) => [each.sample, each]));
 const is_off = (each) => each.disagrees;
-const off = data.samples.filter(is_off);
+const off = (data.samples ?? []).filter(is_off);
 const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
 function told(each) {
   const lines = [`sample ${each.sample}: ${where(each)}`, `measured ${channels(each.measured)}`,
@@ -182,22 +183,34 @@ function scans() {
 }
 
 // ---- where ----------------------------------------------------------------------------------------------------
+// The axes of maps over half and difference angles: the square root, so that the highlight is not a line.
+const angle_axes = {
+  width: 1040, height: 430, marginLeft: 50, marginBottom: 42,
+  x: { type: "sqrt", domain: [0, 90], ticks: [0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90], label: "half angle theta_h, degrees from the normal" },
+  y: { domain: [0, 90], ticks: [0, 15, 30, 45, 60, 75, 90], label: "difference angle theta_d, degrees" },
+};
+
+// Fields of a map of how well directions are known, each with its number.
+function fields_of_map(map) {
+  const cells = map.map((each) => ({ ...each, percent: 100 * each.known_to }));
+  return { cells, scale: { type: "log", domain: [2, 100], clamp: true, range: ["#f3ecd2", "#123a63"], interpolate: "rgb" }, marks: [
+    Plot.rect(cells, { x1: (each) => each.theta_h[0], x2: (each) => each.theta_h[1], y1: (each) => each.theta_d[0], y2: (each) => each.theta_d[1],
+      fill: "percent", inset: 0.5 }),
+    Plot.text(cells, { x: (each) => (0.5 * (Math.sqrt(each.theta_h[0]) + Math.sqrt(each.theta_h[1]))) ** 2,
+      y: (each) => 0.5 * (each.theta_d[0] + each.theta_d[1]), text: (each) => (each.percent >= 999.5 ? ">999" : each.percent.toFixed(0)),
+      fill: (each) => (each.percent > 18 ? "#ffffff" : "#1b1d21"), fontSize: 11 }),
+  ] };
+}
+
 function uncertainty_map() {
   add(element("h2", {}, "Where was measured, and where the fit is unsure"),
     paragraph("The number in each field: to how many percent directions are known, the median over the third angle. Dots: samples; crosses: those that disagree. " +
       "Left: the highlight; top: grazing light and viewer."));
-  const cells = data.map.map((each) => ({ ...each, percent: 100 * each.known_to })), many = data.samples.length > 200;
+  const { cells, scale, marks } = fields_of_map(data.map), many = data.samples.length > 200;
   const chart = Plot.plot({
-    width: 1040, height: 430, marginLeft: 50, marginBottom: 42,
-    x: { type: "sqrt", domain: [0, 90], ticks: [0, 1, 2, 5, 10, 20, 30, 45, 60, 75, 90], label: "half angle theta_h, degrees from the normal" },
-    y: { domain: [0, 90], ticks: [0, 15, 30, 45, 60, 75, 90], label: "difference angle theta_d, degrees" },
-    color: { type: "log", domain: [2, 100], clamp: true, range: ["#f3ecd2", "#123a63"], interpolate: "rgb" },
+    ...angle_axes, color: scale,
     marks: [
-      Plot.rect(cells, { x1: (each) => each.theta_h[0], x2: (each) => each.theta_h[1], y1: (each) => each.theta_d[0], y2: (each) => each.theta_d[1],
-        fill: "percent", inset: 0.5 }),
-      Plot.text(cells, { x: (each) => (0.5 * (Math.sqrt(each.theta_h[0]) + Math.sqrt(each.theta_h[1]))) ** 2,
-        y: (each) => 0.5 * (each.theta_d[0] + each.theta_d[1]), text: (each) => (each.percent >= 999.5 ? ">999" : each.percent.toFixed(0)),
-        fill: (each) => (each.percent > 18 ? "#ffffff" : "#1b1d21"), fontSize: 11 }),
+      ...marks,
       Plot.dot(data.samples.filter((each) => !is_off(each)), { x: "theta_h", y: "theta_d", r: many ? 2 : 4, fill: "#ffffff", stroke: "#000000", strokeWidth: many ? 1 : 1.5 }),
       Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#ffffff", strokeWidth: 5 }),
       Plot.dot(off, { x: "theta_h", y: "theta_d", r: many ? 4 : 7, symbol: "times", stroke: "#c2410c", strokeWidth: 2.5 }),
@@ -223,22 +236,30 @@ function residuals() {
   add(element("h2", {}, "Residuals by direction"),
     paragraph(has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
       : `By how many percent each sample is above or below the fit; ${data.samples.length} of ${data.count} samples: 1000 at random, and the worst.`));
+  residual_charts(shown, { title: "Residuals", unit: has_others ? "deviations" : "percent", has_band: has_others, tip: told,
+    head: ["measured", has_others ? "the others" : "fit"], values: (each) => [each.measured, has_others ? each.others : each.fit] });
+}
+
+// What directions are off, against the half angle and against the larger angle from the normal. `shown` has a residual
+// and `grazing` for each; the table has its values below `head`.
+function residual_charts(shown, { title, unit, has_band, tip, head, values }) {
   const largest = Math.max(3, ...shown.map((each) => Math.abs(each.residual)));
+  const tipped = shown.map((each) => ({ ...each, tip: tip(each) }));
   const chart = (x, label) => Plot.plot({
     width: 520, height: 280, marginLeft: 52, marginBottom: 40, x: { domain: [0, 90], label, grid: false },
-    y: { type: largest > 10 ? "symlog" : "linear", domain: [-largest * 1.1, largest * 1.1], label: has_others ? "deviations" : "percent", grid: true,
+    y: { type: largest > 10 ? "symlog" : "linear", domain: [-largest * 1.1, largest * 1.1], label: unit, grid: true,
       ticks: largest > 10 ? [-1000, -100, -30, -10, -3, -1, 0, 1, 3, 10, 30, 100, 1000].filter((tick) => Math.abs(tick) <= largest * 1.1) : undefined },
     marks: [
-      ...(has_others ? [Plot.rect([0], { x1: 0, x2: 90, y1: -2, y2: 2, fill: "var(--fit)", fillOpacity: 0.14 })] : []),
+      ...(has_band ? [Plot.rect([0], { x1: 0, x2: 90, y1: -2, y2: 2, fill: "var(--fit)", fillOpacity: 0.14 })] : []),
       Plot.ruleY([0], { stroke: "var(--soft)" }),
-      ...samples_as_marks(shown, x, "residual"),
+      ...samples_as_marks(tipped, x, "residual"),
     ],
   });
   const worst = shown.length ? shown.reduce((a, b) => (Math.abs(a.residual) > Math.abs(b.residual) ? a : b)) : null;
   const summary = worst ? `largest for sample ${worst.sample}, ${digits(worst.residual)}` : "none";
-  const one = (x, label, name) => figure(chart(x, label), `Residuals against ${name}: ${summary}`, `Against ${name}`,
-    ["sample", name, "measured", has_others ? "the others" : "fit", has_others ? "deviations" : "percent"],
-    shown.map((each) => [String(each.sample), angle(each[x]), channels(each.measured), channels(has_others ? each.others : each.fit), digits(each.residual)]));
+  const one = (x, label, name) => figure(chart(x, label), `${title} against ${name}: ${summary}`, `Against ${name}`,
+    ["sample", name, ...head, unit],
+    shown.map((each) => [String(each.sample), angle(each[x]), ...values(each).map(channels), digits(each.residual)]));
   add(element("div", { className: "charts" },
     one("theta_h", "half angle theta_h, degrees", "the half angle (0 is the highlight)"),
     one("grazing", "larger of theta_i and theta_o, degrees", "the larger angle from the normal")));
@@ -285,10 +306,9 @@ function record() {
   add(element("h2", {}, "What was done"), element("table", { className: "record" }, element("tbody", {}, ...rows)));
 }
 
-answer();
-show_viewer();
-scans();
-uncertainty_map();
-residuals();
-albedo();
-record();
+const pages = {
+  reconstruct: [answer, show_viewer, scans, uncertainty_map, residuals, albedo, record],
+  check: [check_answer, check_differences, check_places, record],
+  design: [design_answer, design_map, design_table, record],
+};
+for (const part of pages[data.kind]) part();

@@ -166,7 +166,7 @@ class material_view {
 }
 
 // ---- the section of the page -----------------------------------------------------------------------------------
-const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, truth: data.viewer.truth ? 50 : 0 }, view: null, draw() {} };
+const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, truth: data.viewer?.truth ? 50 : 0 }, view: null, draw() {} };
 
 function slider(label, key, [min, max, step], told, changed) {
   const output = element("output");
