@@ -16,6 +16,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -33,8 +34,8 @@ struct render_options {
   std::vector<std::string> lights;
   std::filesystem::path output, environment;
   bool slices = false;
-  int quality = 64;
-  image_options image;
+  int quality = 64, columns = 0;
+  image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
   gonio::thread_count threads;
 };
@@ -68,6 +69,17 @@ gonio::render::directional_lighting lighting_of(const render_options& options) {
   return gonio::render::directional_lighting(std::move(lights));
 }
 
+/// Images of one size, row by row; all in one row if there are 0 columns.
+gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t columns) {
+  constexpr std::size_t margin = 8;
+  if (columns == 0 || columns >= images.size()) return gonio::render::side_by_side(images, margin);
+  const std::size_t step = images[0].shape(0) + margin, rows = (images.size() + columns - 1) / columns;
+  gonio::image sheet = gonio::uniform_image(rows * step + margin, columns * step + margin, gonio::rgb::Zero());
+  for (std::size_t i = 0; i < images.size(); ++i)
+    gonio::render::paste(sheet, images[i], margin + i / columns * step, margin + i % columns * step);
+  return sheet;
+}
+
 void render(const render_options& options) {
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
@@ -87,7 +99,7 @@ void render(const render_options& options) {
   std::vector<gonio::image> images;
   for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(images, options.image);
-  const gonio::image beside = gonio::render::side_by_side(images, 8);
+  const gonio::image beside = contact_sheet(images, static_cast<std::size_t>(options.columns));
   if (is_exr(options.output))
     write_exr(options.output, beside);
   else
@@ -118,10 +130,14 @@ void add_render(command& app) {
       .excludes(environment)
       .excludes(slices);
   command
-      .add_option("--quality", options->quality, "Samples of the BRDF, and as many of the environment, for each pixel")
+      .add_option("--quality", options->quality,
+                  "Pairs of directions for each pixel, by the BRDF and by the environment")
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
+  command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
+      .check(check::range(1, 1000))
+      .default_str("all in one row");
   add_image_options_to(command, options->image,
                        "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
                        "percentile")

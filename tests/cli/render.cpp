@@ -95,6 +95,28 @@ TEST_CASE("gonio render --light: lights of one's own") {
   refuses("render " + given.table + " -o " + given.at("x.png") + " --slices --light 0,0", {"--light"});
 }
 
+TEST_CASE("gonio render --columns: a contact sheet, row by row; 512 pixels a side unless asked otherwise") {
+  const rendered_folder given;
+  const auto draw = [&](const std::string& arguments) {
+    run("render --slices " + arguments + " -o " + given.at("sheet.png"));
+    return gonio::io::read_png(given.folder / "sheet.png");
+  };
+  REQUIRE(gonio_tool("expand --formula red-paint -o " + given.at("red.binary")).exit_code == 0);
+  const std::string gold = given.table, red = given.at("red.binary");
+  const gonio::image sheet = draw("--size 32 --columns 2 " + gold + " " + gold + " " + red);
+  const gonio::image row = draw("--size 32 " + gold + " " + red);
+  REQUIRE(sheet.shape(0) == 88u);
+  REQUIRE(sheet.shape(1) == 88u);
+  REQUIRE(row.shape(0) == 48u);
+  for (std::size_t y = 0; y < 32; ++y)
+    for (std::size_t x = 0; x < 32; ++x) {
+      CHECK((gonio::pixel(sheet, 8 + y, 48 + x) == gonio::pixel(row, 8 + y, 8 + x)).all());
+      CHECK((gonio::pixel(sheet, 48 + y, 8 + x) == gonio::pixel(row, 8 + y, 48 + x)).all());
+      CHECK((gonio::pixel(sheet, 48 + y, 48 + x) == 0.0).all());
+    }
+  CHECK(draw(gold).shape(0) == 528u);
+}
+
 #if defined(GONIO_HAS_EXR)
 TEST_CASE("gonio render: an .exr image has the values themselves, and may be the environment") {
   const rendered_folder given;
@@ -147,5 +169,6 @@ TEST_CASE("bad requests of images in an environment") {
   refuses("--exposure 0.5 --slices", "--slices");
   refuses("--exposure 0", "--exposure");
   refuses("--size 7", "--size");
+  refuses("--columns 0", "--columns");
   refuses("--environment " + given.table, "gold.binary");
 }

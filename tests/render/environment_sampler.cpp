@@ -54,3 +54,17 @@ TEST_CASE("environment sampler: its density integrates to 1, and draws fall wher
   // Within a pixel of 0.1 radians any place is as likely: the mean is its centre's, up to 0.03 / sqrt(draws).
   CHECK((within_pixels / static_cast<double>(draws)).norm() < 5e-4);
 }
+
+TEST_CASE("environment sampler: black pixels are never drawn, not by the least and the largest numbers either") {
+  gonio::image lamps = gonio::uniform_image(8, 16, gonio::rgb::Zero());
+  gonio::set_pixel(lamps, 2, 5, gonio::rgb::Constant(1.0));
+  gonio::set_pixel(lamps, 6, 11, gonio::rgb::Constant(1e6));
+  const environment_sampler light{environment_map(lamps)};
+  sampler_checks::uniform_numbers number(3);
+  for (int i = 0; i < 1'000; ++i) {
+    const double u1 = i == 0 ? 0.0 : i == 1 ? 1.0 - 0x1p-53 : i == 2 ? 1e-8 : number();
+    const auto drawn = light.sample(u1, number());
+    CHECK(drawn.pdf > 0.0);
+    CHECK(drawn.towards.norm() == doctest::Approx(1.0));
+  }
+}

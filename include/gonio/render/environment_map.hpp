@@ -6,6 +6,7 @@
 /// spheres stand in Debevec's Grace Cathedral.
 
 #include <gonio/core/error.hpp>
+#include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/image.hpp>
 #include <gonio/render/lighting.hpp>
 
@@ -54,12 +55,12 @@ class environment_map {
 
   /// The radiance that comes from a world direction other than zero, not necessarily of unit length.
   [[nodiscard]] rgb operator()(const direction& d) const noexcept {
-    const double scale = static_cast<double>(rows()) / std::numbers::pi;
-    const double polar = std::atan2(std::hypot(d.x(), d.z()), d.y());
-    const double longitude = std::atan2(d.x(), -d.z()) + std::numbers::pi;
+    // Half turns from +y downwards, and from +z (the left edge) on.
+    const double down = half_turns(d.y(), std::sqrt(d.x() * d.x() + d.z() * d.z()));
+    const double around = half_turns(-d.z(), d.x()) + (std::signbit(d.x()) ? 0.0 : 1.0);
     // The south pole, and the direction +z from the left, lie on the far edges of the last row and column.
-    const auto row = std::min(static_cast<std::size_t>(polar * scale), rows() - 1);
-    const auto column = std::min(static_cast<std::size_t>(longitude * scale), columns() - 1);
+    const auto row = std::min(static_cast<std::size_t>(down * static_cast<double>(rows())), rows() - 1);
+    const auto column = std::min(static_cast<std::size_t>(around * static_cast<double>(rows())), columns() - 1);
     return pixel(image_, row, column);
   }
 
@@ -92,6 +93,12 @@ class environment_map {
     const double step = std::numbers::pi / static_cast<double>(rows);
     const double polar = (static_cast<double>(row) + 0.5) * step;
     return towards({std::cos(polar), std::sin(polar)}, static_cast<double>(column) + 0.5, rows);
+  }
+
+  /// The azimuth of a point from the x axis, by half turns; below the axis that of the opposite point.
+  [[nodiscard]] static double half_turns(double x, double y) noexcept {
+    const detail::azimuth_terms<double> phi(x, y);
+    return detail::half_turns(detail::quarter_turns(phi.tangent, phi.tangent * phi.tangent, phi.steep), phi.left);
   }
 
   void check_shape() const;

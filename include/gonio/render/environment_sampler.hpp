@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <memory>
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -25,39 +25,51 @@ struct sampled_light {
 
 /// Draws directions of an environment map: a pixel in proportion to its luminance times solid angle, and any direction
 /// within it. Holds the map.
+///
+/// Pixels are in the order of Hilbert's curve (M. Steigleder and M. McCool, "Generalized Stratified Sampling Using the
+/// Hilbert Curve", Journal of Graphics Tools 8(3), 2003): first numbers spread evenly give directions spread evenly.
 class environment_sampler {
  public:
-  /// O(pixels); eight bytes each.
+  /// O(pixels); sixteen bytes each.
   explicit environment_sampler(environment_map map);
 
   [[nodiscard]] const environment_map& map() const noexcept { return map_; }
 
-  /// Draws a direction by two numbers from 0 up to 1.
+  /// Draws a direction by two numbers from 0 up to 1. The pixel is found in O(1) on average (H.-C. Chen and Y. Asau,
+  /// "On Generating Random Variates from an Empirical Distribution", AIIE Transactions 6(2), 1974: a table of first
+  /// guesses).
   [[nodiscard]] sampled_light sample(double u1, double u2) const noexcept {
-    const double place = u1 * reached_.back();
-    const auto above = std::upper_bound(reached_.begin() + 1, reached_.end() - 1, place);
-    const std::size_t pixel_number = (above - reached_.begin()) - 1;
+    const double share = u1 * reached_.back();
+    const auto guess = guesses_.begin() + static_cast<std::ptrdiff_t>(u1 * static_cast<double>(guesses_.size() - 1));
+    const auto first = reached_.begin() + 1;
+    const auto above = std::upper_bound(first + guess[0], first + guess[1], share);
+    const std::size_t place = above - first, pixel_number = order_[place];
     const std::size_t row = pixel_number / map_.columns(), column = pixel_number % map_.columns();
     // Where in its pixel the first number fell is as good as a third one.
-    const double share = std::clamp((place - reached_[pixel_number]) / (*above - reached_[pixel_number]), 0.0, 1.0);
-    const double step = std::numbers::pi / static_cast<double>(map_.rows());
-    const double top = std::cos(static_cast<double>(row) * step),
-                 bottom = std::cos(static_cast<double>(row + 1) * step);
-    const double height = top + share * (bottom - top);
+    const double within = std::clamp((share - reached_[place]) / (*above - reached_[place]), 0.0, 1.0);
+    const double height = edges_[row] + within * (edges_[row + 1] - edges_[row]);
     const double across = std::sqrt(std::max(0.0, 1.0 - height * height));
-    const rgb radiance = pixel(map_.image(), row, column);
-    return {environment_map::towards({height, across}, static_cast<double>(column) + u2, map_.rows()), radiance,
-            luminance(radiance) / reached_.back()};
+    return light_of(environment_map::towards({height, across}, static_cast<double>(column) + u2, map_.rows()),
+                    pixel(map_.image(), row, column));
   }
+
+  /// The light from a world direction, and the density in sr^-1 with which `sample` draws it.
+  [[nodiscard]] sampled_light from(const direction& towards) const noexcept { return light_of(towards, map_(towards)); }
 
   /// The density in sr^-1 with which `sample` draws a world direction.
-  [[nodiscard]] double pdf(const direction& towards) const noexcept {
-    return luminance(map_(towards)) / reached_.back();
-  }
+  [[nodiscard]] double pdf(const direction& towards) const noexcept { return from(towards).pdf; }
 
  private:
+  [[nodiscard]] sampled_light light_of(const direction& towards, const rgb& radiance) const noexcept {
+    return {towards, radiance, luminance(radiance) * pdf_per_luminance_};
+  }
+
   environment_map map_;
-  std::vector<double> reached_;  ///< the sum of luminance times solid angle before each pixel, and of all
+  std::vector<std::uint32_t> order_;    ///< the number of each pixel along the curve
+  std::vector<double> reached_;         ///< the sum of luminance times solid angle before each of them, and of all
+  std::vector<std::uint32_t> guesses_;  ///< the places along the curve at even steps of that sum
+  std::vector<double> edges_;           ///< cosines of the angles from +y between rows
+  double pdf_per_luminance_ = 0.0;
 };
 
 }  // namespace gonio::render

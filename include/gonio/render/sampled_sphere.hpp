@@ -13,137 +13,193 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <mutex>
 #include <numbers>
 #include <random>
-#include <utility>
-#include <vector>
 
 namespace gonio::render {
 
 /// A camera at infinity in front of the sphere, as in render/sphere.hpp.
 struct sampled_sphere_view {
   int size = 256;                 ///< rows and columns of the image
-  int samples = 64;               ///< of the BRDF, and as many of the environment, for each pixel
+  int samples = 64;               ///< pairs of directions for each pixel, by the BRDF and by the environment
   std::uint64_t seed = 1;         ///< decides all draws
   double white = 1.0;             ///< the mean luminance that a white Lambertian sphere would have
   bool shows_environment = true;  ///< around the sphere; otherwise black
 };
 
+/// The mean luminance of a white Lambertian sphere in an environment, of all points of its disc: the sphere's phase
+/// function, 2/3 (sin a + (pi - a) cos a) / pi of a parallel light at the angle a from the camera, summed over the
+/// pixels. O(pixels).
+[[nodiscard]] double white_sphere_luminance(const environment_map& map);
+
 namespace detail {
 
-/// Pairs of numbers from 0 to 1, so many pairs of so many kinds: the pairs of a kind fill the square evenly, however
-/// many there are (steps by the powers of the root of x^3 = x + 1: M. Roberts, "The Unreasonable Effectiveness of
-/// Quasirandom Sequences", 2018), and which pairs of two kinds belong together is drawn at random.
-class even_pairs {
+/// Two numbers for the place of a sample within its pixel, two for its direction.
+struct sample_numbers {
+  double x = 0.0, y = 0.0, u = 0.0, v = 0.0;
+};
+
+/// So many quadruples of numbers from 0 to 1 that fill the space evenly, from a place drawn at random: u in even steps
+/// in increasing order, the others in steps by the powers of the root of t^4 = t + 1 (M. Roberts, "The Unreasonable
+/// Effectiveness of Quasirandom Sequences", 2018). Any few in a row fill the other three dimensions evenly, too.
+class even_numbers {
  public:
-  static constexpr Eigen::Index kinds = 4;
-  struct pair {
-    double u = 0.0, v = 0.0;
-  };
-  using pairs = std::array<pair, kinds>;
+  even_numbers(Eigen::Index count, std::mt19937_64& generator);
 
-  even_pairs(Eigen::Index count, std::uint64_t seed, std::uint64_t stream);
-
-  [[nodiscard]] auto begin() const noexcept { return all_.begin(); }
-  [[nodiscard]] auto end() const noexcept { return all_.end(); }
+  [[nodiscard]] sample_numbers operator[](Eigen::Index i) const noexcept {
+    const auto number = static_cast<double>(i);
+    const auto at = [number](double first, double step) {
+      const double sum = first + number * step;
+      return sum - std::floor(sum);
+    };
+    return {at(first_.x, 0.81917251339616443), at(first_.y, 0.67104360670378915), (number + first_.u) / count_,
+            at(first_.v, 0.54970047790197026)};
+  }
 
  private:
-  static constexpr double root = 1.324717957244746;
-
-  [[nodiscard]] double next() { return uniform_number(generator_); }
-
-  std::mt19937_64 generator_;
-  std::vector<pairs> all_;
+  double count_;
+  sample_numbers first_;
 };
 
-/// Light reflected by a surface towards a camera at +z: one draw by the material, one by the environment.
-template <direction_sampler Sampler>
-[[nodiscard]] rgb reflected_once(const Sampler& material, const environment_sampler& light,
-                                 const surface_frame& surface, const even_pairs::pairs& u) {
-  const direction wo = surface.to_local(direction::UnitZ());
-  rgb sum = rgb::Zero();
-  if (const sampled_direction drawn = material.sample(wo, u[1].u, u[1].v); (drawn.weight > 0.0).any()) {
-    const direction towards = surface.to_world(drawn.wi);
-    sum += drawn.weight * light.map()(towards) * (drawn.pdf / (drawn.pdf + light.pdf(towards)));
-  }
-  const sampled_light lamp = light.sample(u[2].u, u[2].v);
-  if (const direction wi = surface.to_local(lamp.towards); wi.z() > 0.0)
-    sum += rgb(material.brdf()(wi, wo)) * lamp.radiance * (wi.z() / (lamp.pdf + material.pdf(wi, wo)));
-  return sum;
-}
+/// Light towards the camera by a direction that was drawn, and the densities in sr^-1 of the two ways to draw it.
+struct drawn_light {
+  rgb reflected = rgb::Zero();  ///< BRDF times radiance times cosine
+  double by_material = 0.0, by_light = 0.0;
 
-/// What the samples of a pixel, or a row of them, have seen.
-struct seen_light {
-  rgb sum = rgb::Zero();
-  double white = 0.0;        ///< what a white Lambertian sphere would have reflected, in luminance
-  Eigen::Index covered = 0;  ///< samples that saw the sphere
+  /// The density when a share of all draws is by the material.
+  [[nodiscard]] double density(double share) const noexcept { return share * by_material + (1.0 - share) * by_light; }
 };
 
-/// One sample of a pixel's square: x to the right and y upwards, from -1 to 1.
 template <direction_sampler Sampler>
-void add_sample(seen_light& seen, const Sampler& material, const environment_sampler& light, double x, double y,
-                const even_pairs::pairs& u, bool shows_environment) {
-  const double squared = x * x + y * y;
-  if (squared >= 1.0) {
-    if (shows_environment) seen.sum += light.map()(direction(x, y, -3.0));
-    return;
-  }
-  const surface_frame surface({x, y, std::sqrt(1.0 - squared)});
-  seen.sum += reflected_once(material, light, surface, u);
-  const sampled_light lamp = light.sample(u[3].u, u[3].v);
-  const double cosine = std::max(surface.normal.dot(lamp.towards), 0.0);
-  seen.white += luminance(lamp.radiance) * cosine / lamp.pdf * std::numbers::inv_pi;
-  ++seen.covered;
+[[nodiscard]] drawn_light draw_by_material(const Sampler& material, const environment_sampler& light,
+                                           const surface_frame& surface, double u, double v) {
+  const sampled_direction drawn = material.sample(surface.to_local(direction::UnitZ()), u, v);
+  if (!(drawn.weight > 0.0).any()) return {};
+  const sampled_light lamp = light.from(surface.to_world(drawn.wi));
+  return {drawn.weight * drawn.pdf * lamp.radiance, drawn.pdf, lamp.pdf};
 }
+
+template <direction_sampler Sampler>
+[[nodiscard]] drawn_light draw_by_light(const Sampler& material, const environment_sampler& light,
+                                        const surface_frame& surface, double u, double v) {
+  const sampled_light lamp = light.sample(u, v);
+  const direction wi = surface.to_local(lamp.towards), wo = surface.to_local(direction::UnitZ());
+  if (!(wi.z() > 0.0)) return {};
+  return {rgb(material.brdf()(wi, wo)) * lamp.radiance * wi.z(), material.pdf(wi, wo), lamp.pdf};
+}
+
+/// Renders parts of the sphere.
+template <direction_sampler Sampler>
+class sphere_tiles {
+ public:
+  static constexpr Eigen::Index side = 8;
+
+  sphere_tiles(const Sampler& material, const environment_sampler& light, const sampled_sphere_view& view)
+      : material_(material), light_(light), view_(view), across_((view.size + side - 1) / side) {}
+
+  [[nodiscard]] Eigen::Index count() const noexcept { return across_ * across_; }
+
+  void render(Eigen::Index tile, double exposure, image& picture) const {
+    const Eigen::Index top = tile / across_ * side, left = tile % across_ * side;
+    std::mt19937_64 generator(view_.seed * 0x9E3779B97F4A7C15u + tile);
+    const double share = share_of_material(top, left, generator);
+    for (Eigen::Index row = top; row < std::min<Eigen::Index>(top + side, view_.size); ++row)
+      for (Eigen::Index column = left; column < std::min<Eigen::Index>(left + side, view_.size); ++column)
+        set_pixel(picture, row, column, exposure * pixel(row, column, share, generator));
+  }
+
+ private:
+  /// Of what is seen at a place of the image, counted in pixels: x to the right and y upwards, from -1 to 1.
+  struct location {
+    double x, y, squared;
+    [[nodiscard]] bool is_on_sphere() const noexcept { return squared < 1.0; }
+    [[nodiscard]] surface_frame surface() const noexcept { return surface_frame({x, y, std::sqrt(1.0 - squared)}); }
+  };
+  [[nodiscard]] location at(double row, double column) const noexcept {
+    const double x = column / view_.size * 2.0 - 1.0, y = 1.0 - row / view_.size * 2.0;
+    return {x, y, x * x + y * y};
+  }
+
+  /// The share of draws by the material, in eighths, with which draws from a tile, as many of both kinds, have the
+  /// least second moment under the balance heuristic.
+  [[nodiscard]] double share_of_material(Eigen::Index top, Eigen::Index left, std::mt19937_64& generator) const {
+    std::array<double, 7> second_moments{};
+    constexpr Eigen::Index pairs = side * side;
+    const even_numbers numbers(pairs, generator);
+    for (Eigen::Index i = 0; i < pairs; ++i) {
+      const sample_numbers u = numbers[i];
+      const location seen = at(static_cast<double>(top) + side * u.y, static_cast<double>(left) + side * u.x);
+      if (!seen.is_on_sphere()) continue;
+      const surface_frame surface = seen.surface();
+      for (const drawn_light& drawn : {draw_by_material(material_, light_, surface, u.u, u.v),
+                                       draw_by_light(material_, light_, surface, u.u, u.v)})
+        if (const double value = luminance(drawn.reflected); value > 0.0)
+          for (Eigen::Index k = 0; k < std::ssize(second_moments); ++k)
+            second_moments[k] += value * value / (drawn.density(0.5) * drawn.density(eighths(k)));
+    }
+    return eighths(std::ranges::min_element(second_moments) - second_moments.begin());
+  }
+  [[nodiscard]] static double eighths(Eigen::Index k) noexcept { return static_cast<double>(k + 1) / 8.0; }
+
+  [[nodiscard]] rgb pixel(Eigen::Index row, Eigen::Index column, double share, std::mt19937_64& generator) const {
+    const Eigen::Index all = 2 * Eigen::Index{view_.samples};
+    const Eigen::Index by_material =
+        std::clamp<Eigen::Index>(std::lround(share * static_cast<double>(all)), 1, all - 1);
+    const double exact = static_cast<double>(by_material) / static_cast<double>(all);
+    rgb sum = rgb::Zero();
+    const auto add = [&](Eigen::Index count, auto draw) {
+      const even_numbers numbers(count, generator);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const sample_numbers u = numbers[i];
+        const location seen = at(static_cast<double>(row) + u.y, static_cast<double>(column) + u.x);
+        if (!seen.is_on_sphere()) {
+          if (view_.shows_environment) sum += light_.map()(direction(seen.x, seen.y, -3.0));
+        } else if (const drawn_light drawn = draw(material_, light_, seen.surface(), u.u, u.v);
+                   (drawn.reflected > 0.0).any()) {
+          sum += drawn.reflected / drawn.density(exact);
+        }
+      }
+    };
+    add(by_material, draw_by_material<Sampler>);
+    add(all - by_material, draw_by_light<Sampler>);
+    return sum / static_cast<double>(all);
+  }
+
+  const Sampler& material_;
+  const environment_sampler& light_;
+  const sampled_sphere_view& view_;
+  Eigen::Index across_;
+};
 
 }  // namespace detail
 
 /// An image of a sphere, in linear light. The environment is scaled such that a white Lambertian sphere would have the
 /// mean luminance `view.white`. The material samples itself and has its BRDF as `brdf()`, such as
-/// `half_vector_sampler`. Same bytes for any number of threads. O(pixels x samples).
+/// `half_vector_sampler`. How many of a pixel's directions are by the BRDF is chosen for each tile of 8 x 8 pixels.
+/// Same bytes for any number of threads. O(pixels x samples).
 template <direction_sampler Sampler>
 [[nodiscard]] image render_sphere(const Sampler& material, const environment_sampler& light,
                                   const sampled_sphere_view& view = {}, thread_count threads = {},
                                   const progress& listener = {}) {
   GONIO_ASSERT(view.size >= 1 && view.samples >= 1);
-  // Allocate the image, and a sum of light for each row.
-  const Eigen::Index side = view.size;
-  image picture = uniform_image(side, side, rgb::Zero());
-  std::vector<detail::seen_light> rows(side);
+  const double exposure = view.white / white_sphere_luminance(light.map());
+  image picture = uniform_image(view.size, view.size, rgb::Zero());
+  const detail::sphere_tiles tiles(material, light, view);
   std::mutex reporting;
   Eigen::Index done = 0;
-  // Average the samples of a pixel; each starts at a place within the pixel.
-  const auto place = [side](Eigen::Index pixel, double within) {
-    return (static_cast<double>(pixel) + within) / static_cast<double>(side) * 2.0 - 1.0;
-  };
-  const auto draw_pixel = [&](Eigen::Index row, Eigen::Index column) {
-    rows[row].sum.setZero();
-    for (const auto& u : detail::even_pairs(view.samples, view.seed, row * side + column))
-      detail::add_sample(rows[row], material, light, place(column, u[0].u), -place(row, u[0].v), u,
-                         view.shows_environment);
-    set_pixel(picture, row, column, rows[row].sum / view.samples);
-  };
-  // Render the rows in parallel.
   for_each_block(
-      side, 1,
+      tiles.count(), 1,
       [&](block range) {
-        for (Eigen::Index column = 0; column < side; ++column) draw_pixel(range.begin, column);
+        tiles.render(range.begin, exposure, picture);
         const std::scoped_lock lock(reporting);
-        report(listener, "rendering", static_cast<double>(++done) / static_cast<double>(side));
+        report(listener, "rendering", static_cast<double>(++done) / static_cast<double>(tiles.count()));
       },
       threads);
-  // Scale the image such that a white sphere would have the mean luminance `view.white`.
-  detail::seen_light all;
-  for (const detail::seen_light& row : rows) {
-    all.white += row.white;
-    all.covered += row.covered;
-  }
-  const double exposure = all.white > 0.0 ? view.white * static_cast<double>(all.covered) / all.white : 1.0;
-  for (float& value : picture) value = static_cast<float>(value * exposure);
   return picture;
 }
 

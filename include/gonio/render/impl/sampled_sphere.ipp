@@ -10,28 +10,34 @@
 #include <gonio/render/lighting.hpp>
 #include <gonio/render/sampled_sphere.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <numbers>
 #include <random>
-#include <utility>
-#include <vector>
+
+namespace gonio::render {
+
+GONIO_INLINE double white_sphere_luminance(const environment_map& map) {
+  double sum = 0.0;
+  for (std::size_t row = 0; row < map.rows(); ++row)
+    for (std::size_t column = 0; column < map.columns(); ++column) {
+      const double cosine = map.towards(row, column).z();
+      const double phase = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) +
+                           (std::numbers::pi - std::acos(std::clamp(cosine, -1.0, 1.0))) * cosine;
+      sum += luminance(map.irradiance(row, column)) * phase;
+    }
+  return sum * (2.0 / 3.0) * std::numbers::inv_pi * std::numbers::inv_pi;
+}
+
+}  // namespace gonio::render
 
 namespace gonio::render::detail {
 
-GONIO_INLINE even_pairs::even_pairs(Eigen::Index count, std::uint64_t seed, std::uint64_t stream)
-    : generator_(seed * 0x9E3779B97F4A7C15u + stream), all_(count) {
-  for (Eigen::Index kind = 0; kind < kinds; ++kind) {
-    const double first_u = next(), first_v = next();
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const double u = first_u + static_cast<double>(i) / root, v = first_v + static_cast<double>(i) / (root * root);
-      all_[i][kind] = {u - std::floor(u), v - std::floor(v)};
-    }
-    for (Eigen::Index i = count; i > 1; --i)
-      std::swap(all_[i - 1][kind], all_[static_cast<Eigen::Index>(next() * static_cast<double>(i))][kind]);
-  }
+GONIO_INLINE even_numbers::even_numbers(Eigen::Index count, std::mt19937_64& generator)
+    : count_(static_cast<double>(count)) {
+  for (double* first : {&first_.x, &first_.y, &first_.u, &first_.v}) *first = uniform_number(generator);
 }
 
 }  // namespace gonio::render::detail
