@@ -209,7 +209,10 @@ void write_report(const check_options& given, json check, const measured_surface
   }
   json record = record_of_command(words);
   const auto describe = [&](const char* name, const std::filesystem::path& path, const json& facts) {
-    add_to_record(record, name, path.string() + (facts.size() > 0 ? ": " + facts.dump() : ""));
+    std::string text = path.string();
+    for (const char* fact : {"quantity", "instrument", "date", "conditions"})
+      if (facts.contains(fact)) text.append("; ").append(fact).append(": ").append(facts[fact].text());
+    add_to_record(record, name, text);
   };
   describe("Part", given.part, check["part"]);
   describe("Reference", given.reference, check["reference"]);

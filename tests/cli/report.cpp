@@ -282,3 +282,58 @@ TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
   refuses("report " + good + " --noise 2 -o '" + files.path("page.html") + "'", {"--noise"});
   CHECK_FALSE(std::filesystem::exists(files.folder / "page.html"));
 }
+
+TEST_CASE("--report: pages of reconstruct, check and design") {
+  const page_files files;
+  scratch::put(files.folder / "ref.csv", in_plane_scan("# instrument: </script><script>alert(1)</script>\n", false));
+  scratch::put(files.folder / "part.csv", in_plane_scan("", true));
+  const auto data_of = [&](const std::string& arguments) {
+    run(arguments + " --report '" + files.path("page.html") + "'");
+    const std::string page = scratch::get(files.folder / "page.html");
+    return parse_json(data_text(page));
+  };
+  const std::string ref = files.path("ref.csv"), part = files.path("part.csv"), out = " -o " + files.path("out");
+
+  // The page of reconstruct is that of report, but for the command.
+  auto fit = data_of("reconstruct " + part + " --noise 0.02" + out + ".binary");
+  auto report = parse_json(data_text(files.page_of("part.csv", in_plane_scan("", true), "--noise 0.02")));
+  CHECK(fit["kind"] == "reconstruct");
+  CHECK(fit["record"][0][1].get<std::string>().find("gonio reconstruct ") == 0);
+  fit.erase("record");
+  report.erase("record");
+  CHECK(fit == report);
+
+  const auto told = gonio_tool("check " + part + " --reference " + ref + " --noise 0.02 --json --report '" +
+                               files.path("check.html") + "'");
+  CHECK(told.exit_code == 1);  // it differs
+  auto check = parse_json(data_text(scratch::get(files.folder / "check.html")));
+  CHECK(check["kind"] == "check");
+  CHECK(check["name"] == "part beside ref");
+  CHECK(check["check"]["worst_sample"] == 7);
+  REQUIRE(check["check"]["directions"].size() == 15);
+  CHECK(check["check"]["directions"][0]["theta_i"] == 45.0);
+  CHECK(check["check"]["directions"][0]["theta_o"] == 70.0);
+  CHECK(check["check"]["reference"]["instrument"] == "</script><script>alert(1)</script>");
+
+  const auto design = data_of("design -n 3" + out + ".csv");
+  CHECK(design["kind"] == "design");
+  CHECK(design["name"] == "out");
+  REQUIRE(design["design"]["directions"].size() == 3);
+  CHECK(design["design"]["directions"][2]["number"] == 3);
+  CHECK(design["design"]["sentence"].get<std::string>().find("3 measurements leave") == 0);
+  CHECK_FALSE(design.contains("map"));
+  const auto next = data_of("design -n 2 --given " + ref + " --noise 0.02" + out + ".csv");
+  CHECK(next["samples"].size() == 15);
+  CHECK(next["map"].size() > 100);
+  CHECK(next["design"]["directions"].size() == 2);
+}
+
+TEST_CASE("--report: what knows of no uncertainty has no page") {
+  const page_files files;
+  scratch::put(files.folder / "scan.csv", in_plane_scan("", false));
+  const std::string given = "reconstruct " + files.path("scan.csv") + " -o " + files.path("t.binary");
+  refuses(given + " --method linear --report " + files.path("p.html"), {"--report", "--method pca"});
+  refuses(given + " --eta 40 --report " + files.path("p.html"), {"--report", "discrepancy"});
+  refuses(given + " --report " + files.path("p.pdf"), {"--report", ".html"});
+  CHECK(files.folder.entries() == 1);
+}

@@ -144,6 +144,25 @@ async function check_page(browser, name) {
   }
 }
 
+// Pages without a viewer: of gonio check and gonio design.
+async function check_plain_page(browser, name, charts) {
+  for (const colorScheme of ["light", "dark"]) {
+    const { page, complaints, requests } = await open(browser, at(`${name}.html`), { colorScheme });
+    await page.waitForSelector("table.record");
+    await page.screenshot({ path: at(`${name}-${colorScheme}.png`), fullPage: true });
+    await check_access(page, `${name}, ${colorScheme}`);
+    const figures = await page.evaluate(() => [...document.querySelectorAll("figure")].map((each) => ({
+      dots: each.querySelectorAll("g[data-mark=dot] > *").length, rows: each.querySelectorAll("tbody tr").length, broken: /NaN|undefined|Infinity/.test(each.innerHTML) })));
+    check(figures.length === charts && figures.every((each) => each.rows > 0 && each.dots >= each.rows && !each.broken), `${name}: ${figures.length} charts, each direction in all of them`);
+    if (colorScheme === "light") {
+      const pages = (await page.pdf({ format: "A4" })).toString("latin1").match(/\/Type\s*\/Page\b/g).length;
+      check(pages <= 2, `${name}: prints on ${pages} pages`);
+    }
+    check(complaints.length === 0 && requests.length === 1, `${name}, ${colorScheme}: the console is empty and nothing is requested ${complaints} ${requests.slice(1)}`);
+    await page.close();
+  }
+}
+
 write_scan(at("scan.csv"));
 gonio("report", at("scan.csv"), "--noise", "0.02", "-o", at("scan.html"));
 gonio("sample", at("red.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at("scattered.csv"));
@@ -151,7 +170,15 @@ gonio("report", at("scattered.csv"), "--truth", at("red.binary"), "-o", at("scat
 gonio("sample", at("red.binary"), "--count", "1500", "--noise", "0.05", "-o", at("many.csv"));
 gonio("report", at("many.csv"), "-o", at("many.html"));
 
+gonio("sample", at("red.binary"), "--directions", at("scan-directions.csv"), "--noise", "0.02", "-o", at("reference.csv"));
+try { gonio("check", at("scan.csv"), "--reference", at("reference.csv"), "--noise", "0.02", "--report", at("check.html")); } catch { /* exit code 1: it differs */ }
+gonio("design", "-n", "6", "-o", at("six.csv"), "--report", at("design.html"));
+gonio("design", "-n", "3", "--given", at("reference.csv"), "--noise", "0.02", "-o", at("three.csv"), "--report", at("given.html"));
+
 const browser = await launch();
+await check_plain_page(browser, "check", 3);
+await check_plain_page(browser, "design", 1);
+await check_plain_page(browser, "given", 1);
 for (const name of ["scan", "scattered", "many"]) await check_page(browser, name);
 await browser.close();
 
