@@ -129,7 +129,7 @@ const light_direction = ({ longitude, latitude }) => [Math.sin(radians(longitude
 
 class material_view {
   constructor(canvas, { table, truth, uncertainty }) {
-    const gl = this.gl = canvas.getContext("webgl2", { alpha: false });
+    const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
     this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], new Float32Array([-1, -1, 3, -1, -1, 3]));
     this.mesh = null;
@@ -188,7 +188,12 @@ class material_view {
 }
 
 // ---- the section of the page -----------------------------------------------------------------------------------
-const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer.truth ? 50 : 0 }, view: null, draw() {} };
+// What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
+const viewer = {
+  state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer.truth ? 50 : 0 },
+  view: null,
+  draw: null,
+};
 
 function slider(label, key, [min, max, step], told, changed) {
   const output = element("output");
@@ -297,7 +302,7 @@ async function show_viewer() {
   canvas.setAttribute("aria-label", "The material under a light, which arrow keys move");
   const section = element("section", { className: "screen-only" }, element("h2", {}, "Under a light"));
   add(section);
-  if (!canvas.getContext("webgl2") || typeof DecompressionStream === "undefined") {
+  if (!canvas.getContext("webgl2", { alpha: false }) || typeof DecompressionStream === "undefined") {
     section.append(paragraph("This browser has no WebGL 2, without which no light can be moved. The image above shows the material.", "no-viewer"));
     return;
   }
