@@ -5,6 +5,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
 
+const browser = await launch();
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
 const at = (name) => join(folder, name);
 
@@ -202,7 +203,6 @@ gonio("report", at("scattered.csv"), "--truth", at("red.binary"), "-o", at("scat
 gonio("sample", at("red.binary"), "--count", "1500", "--noise", "0.05", "-o", at("many.csv"));
 gonio("report", at("many.csv"), "-o", at("many.html"));
 
-const browser = await launch();
 for (const name of ["scan", "scattered", "many"]) await check_page(browser, name);
 await browser.close();
 
