@@ -1,4 +1,4 @@
-// The viewer of the page: the material on a sphere or a flat sample under a light that is moved, in WebGL 2. A table is
+// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2. A table is
 // a texture over theta_h, theta_d and phi_d, read as gonio render reads one (include/gonio/render/horizon_lookup.hpp).
 
 // ---- shaders ---------------------------------------------------------------------------------------------------
@@ -26,35 +26,19 @@ const vertex_shader = `#version 300 es
 in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 
-// The sphere fills the square and is seen by a camera at infinity, as gonio render draws it. The flat sample is seen
-// from 50 degrees off its normal, under a lamp at three times half its width.
-const fragment_shader = `#version 300 es
+// What is seen of a lit point.
+const shading = `#version 300 es
 precision highp float;
 precision highp sampler3D;
 uniform sampler3D values, truth, known;
 uniform vec3 values_shift, truth_shift, light;
 uniform vec4 values_scale, truth_scale;
 uniform float exposure, size, border;  // right of the border the truth is shown
-uniform int samples, shape;  // 0: a sphere, 1: a flat sample
 uniform bool shows_known;
 out vec4 colour;
 ${look_up}
 
 struct lit_point { bool hit; vec3 n, wi, wo; float irradiance; };
-
-lit_point sphere(vec2 p) {
-  float squared = dot(p, p);
-  return lit_point(squared < 1.0, vec3(p, sqrt(max(1.0 - squared, 0.0))), light, vec3(0.0, 0.0, 1.0), 1.0);
-}
-
-lit_point flat_sample(vec2 p) {
-  vec3 n = vec3(0.0, 0.76604444, 0.64278761), right = vec3(1.0, 0.0, 0.0), up = cross(n, right);
-  vec3 eye = vec3(0.0, 0.0, 5.0), ray = normalize(vec3(1.3 * p, -5.0));
-  vec3 at = eye - ray * (dot(eye, n) / dot(ray, n));
-  vec3 lamp = 3.0 * light - at;
-  bool hit = max(abs(dot(at, right)), abs(dot(at, up))) < 1.0;
-  return lit_point(hit, n, normalize(lamp), -ray, 9.0 / dot(lamp, lamp));
-}
 
 // As the map of the page: light is 2 %, dark 100 %.
 vec3 colour_of_known(float share) {
@@ -76,6 +60,25 @@ vec3 seen(lit_point point, bool is_truth) {
     return linear_light(colour_of_known(0.001 * pow(10.0, 4.0 * level)));
   }
   return reflectance(is_truth, point.n, point.wi, point.wo) * (pi * cosine * point.irradiance * exposure);
+}`;
+
+// The sphere fills the square and is seen by a camera at infinity, as gonio render draws it. The flat sample is seen
+// from 50 degrees off its normal, under a lamp at three times half its width.
+const image_main = `
+uniform int samples, shape;  // 0: a sphere, 1: a flat sample
+
+lit_point sphere(vec2 p) {
+  float squared = dot(p, p);
+  return lit_point(squared < 1.0, vec3(p, sqrt(max(1.0 - squared, 0.0))), light, vec3(0.0, 0.0, 1.0), 1.0);
+}
+
+lit_point flat_sample(vec2 p) {
+  vec3 n = vec3(0.0, 0.76604444, 0.64278761), right = vec3(1.0, 0.0, 0.0), up = cross(n, right);
+  vec3 eye = vec3(0.0, 0.0, 5.0), ray = normalize(vec3(1.3 * p, -5.0));
+  vec3 at = eye - ray * (dot(eye, n) / dot(ray, n));
+  vec3 lamp = 3.0 * light - at;
+  bool hit = max(abs(dot(at, right)), abs(dot(at, up))) < 1.0;
+  return lit_point(hit, n, normalize(lamp), -ray, 9.0 / dot(lamp, lamp));
 }
 
 void main() {
@@ -126,47 +129,71 @@ const light_direction = ({ longitude, latitude }) => [Math.sin(radians(longitude
 
 class material_view {
   constructor(canvas, { table, truth, uncertainty }) {
-    const gl = this.gl = canvas.getContext("webgl2", { alpha: false, antialias: false });
+    const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
-    this.program = program_of(gl, vertex_shader, fragment_shader);
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
-    gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
-    gl.enableVertexAttribArray(gl.getAttribLocation(this.program, "corner"));
-    gl.vertexAttribPointer(gl.getAttribLocation(this.program, "corner"), 2, gl.FLOAT, false, 0, 0);
-    gl.useProgram(this.program);
-    this.take_table("values", 0, table);
-    if (truth) this.take_table("truth", 1, truth);
+    this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], new Float32Array([-1, -1, 3, -1, -1, 3]));
+    this.mesh = null;
+    this.textures = [["values", table], ["truth", truth ?? table]].map(([name, { grid, shift, scale, texels }], unit) => {
+      if (unit === 0 || truth) texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
+      const [heights, rows, columns] = grid;
+      return { name, unit: truth ? unit : 0, scale, shift: [columns, rows, heights].map((count) => shift / count) };
+    });
     texture_of(gl, 2, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
-    gl.uniform1i(this.at("known"), 2);
   }
 
-  take_table(name, unit, { grid, shift, scale, texels }) {
-    const { gl } = this, [heights, rows, columns] = grid;
-    texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
-    gl.uniform1i(this.at(name), unit);
-    gl.uniform3f(this.at(`${name}_shift`), shift / columns, shift / rows, shift / heights);
-    gl.uniform4f(this.at(`${name}_scale`), scale, scale, scale, 1);
+  // A program, and corners of triangles with attributes of so many numbers.
+  made_of(vertex, main, attributes, numbers) {
+    const { gl } = this, program = program_of(gl, vertex, shading + main), corners = gl.createVertexArray();
+    const size = attributes.reduce((sum, [, count]) => sum + count, 0);
+    gl.bindVertexArray(corners);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
+    attributes.reduce((offset, [name, count]) => {
+      const at = gl.getAttribLocation(program, name);
+      gl.enableVertexAttribArray(at);
+      gl.vertexAttribPointer(at, count, gl.FLOAT, false, 4 * size, offset);
+      return offset + 4 * count;
+    }, 0);
+    return { program, corners, count: numbers.length / size };
   }
 
-  at(name) { return this.gl.getUniformLocation(this.program, name); }
+  // `vertices` as read_obj returns them.
+  take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
 
-  // `samples` of a pixel along each axis.
-  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0 }) {
-    const { gl, canvas } = this;
+  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent.
+  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0, turn = 0 }) {
+    const { gl, canvas } = this, { program, corners, count } = shape === "mesh" && this.mesh ? this.mesh : this.image;
+    const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, canvas.width, canvas.height);
-    gl.uniform3f(this.at("light"), ...light_direction({ longitude, latitude }));
-    gl.uniform1f(this.at("exposure"), exposure);
-    gl.uniform1f(this.at("size"), canvas.width);
-    gl.uniform1f(this.at("border"), truth > 0 ? 1 - 0.02 * truth : 9);
-    gl.uniform1i(this.at("samples"), samples);
-    gl.uniform1i(this.at("shape"), shape === "sphere" ? 0 : 1);
-    gl.uniform1i(this.at("shows_known"), known);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.enable(gl.DEPTH_TEST);
+    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.useProgram(program);
+    gl.bindVertexArray(corners);
+    for (const { name, unit, scale, shift } of this.textures) {
+      gl.uniform1i(at(name), unit);
+      gl.uniform3f(at(`${name}_shift`), ...shift);
+      gl.uniform4f(at(`${name}_scale`), scale, scale, scale, 1);
+    }
+    gl.uniform1i(at("known"), 2);
+    gl.uniform3f(at("light"), ...light_direction({ longitude, latitude }));
+    gl.uniform1f(at("exposure"), exposure);
+    gl.uniform1f(at("size"), canvas.width);
+    gl.uniform1f(at("border"), truth > 0 ? 1 - 0.02 * truth : 9);
+    gl.uniform1i(at("shows_known"), known);
+    gl.uniform1f(at("turn"), radians(turn));
+    gl.uniform1i(at("samples"), samples);
+    gl.uniform1i(at("shape"), shape === "flat" ? 1 : 0);
+    gl.drawArrays(gl.TRIANGLES, 0, count);
   }
 }
 
 // ---- the section of the page -----------------------------------------------------------------------------------
-const viewer = { state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, truth: data.viewer?.truth ? 50 : 0 }, view: null, draw() {} };
+// What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
+const viewer = {
+  state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer?.truth ? 50 : 0 },
+  view: null,
+  draw: null,
+};
 
 function slider(label, key, [min, max, step], told, changed) {
   const output = element("output");
@@ -229,6 +256,22 @@ function choice(label, key, options, changed) {
   return element("label", {}, element("span", {}, label), select);
 }
 
+// A file of the reader's own, and a slider that turns it; both are shown while a model is.
+function model_rows(changed) {
+  const input = element("input", { type: "file", accept: ".obj" }), problem = element("output");
+  input.addEventListener("change", async () => {
+    problem.textContent = "";
+    try {
+      if (input.files.length) viewer.view.take_mesh(read_obj(await input.files[0].text()));
+    } catch (error) {
+      problem.textContent = `not a model: ${error.message}`;
+    }
+    changed();
+  });
+  const turn = slider("Turned by", "turn", [-180, 180, 1], (value) => `${value}\u00b0`, changed);
+  return { rows: [element("label", {}, element("span", {}, "File (.obj)"), input, problem), turn.row], show: turn.show };
+}
+
 function controls(changed) {
   const degrees = (value) => `${Math.round(value)}\u00b0`;
   const sliders = [
@@ -236,15 +279,18 @@ function controls(changed) {
     slider("Light, upwards", "latitude", [-90, 90, 1], degrees, changed),
     slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${value > 0 ? "+" : ""}${value} stops`, changed)];
   if (data.viewer.truth) sliders.push(slider("Truth, from the right", "truth", [0, 100, 1], (value) => `${value} %`, changed));
+  const model = model_rows(changed);
   const known = element("input", { type: "checkbox" });
   known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });
   const legend = element("p", { className: "legend soft" }, "2 %", element("span", { className: "ramp" }), "100 %");
   return {
     box: element("div", { className: "controls" },
-      choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"]], changed), ...sliders.map((each) => each.row),
+      choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"], ["mesh", "a model"]], changed), ...model.rows,
+      ...sliders.map((each) => each.row),
       element("label", {}, element("span", {}, "Uncertainty"), known), legend),
     show: () => {
-      sliders.forEach((each) => each.show());
+      [...sliders, model].forEach((each) => each.show());
+      model.rows.forEach((each) => { each.hidden = viewer.state.shape !== "mesh"; });
       legend.hidden = !viewer.state.known;
     },
   };
@@ -256,7 +302,7 @@ async function show_viewer() {
   canvas.setAttribute("aria-label", "The material under a light, which arrow keys move");
   const section = element("section", { className: "screen-only" }, element("h2", {}, "Under a light"));
   add(section);
-  if (!canvas.getContext("webgl2") || typeof DecompressionStream === "undefined") {
+  if (!canvas.getContext("webgl2", { alpha: false }) || typeof DecompressionStream === "undefined") {
     section.append(paragraph("This browser has no WebGL 2, without which no light can be moved. The image above shows the material.", "no-viewer"));
     return;
   }

@@ -5,6 +5,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
 
+const browser = await launch();
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
 const at = (name) => join(folder, name);
 
@@ -88,7 +89,7 @@ async function check_keyboard(page, name) {
     if (!tag) break;
     reached.push(tag);
   }
-  const wanted = await page.evaluate(() => [...document.querySelectorAll("canvas, select, input, summary")].map((each) => each.tagName.toLowerCase()));
+  const wanted = await page.evaluate(() => [...document.querySelectorAll("canvas, select, input, summary")].filter((each) => each.checkVisibility()).map((each) => each.tagName.toLowerCase()));
   check(wanted.every((tag) => reached.filter((each) => each === tag).length >= wanted.filter((each) => each === tag).length),
     `${name}: the tabulator key reaches all ${wanted.length} controls`);
   await page.locator("canvas").first().focus();
@@ -112,6 +113,56 @@ async function check_keyboard(page, name) {
   await page.keyboard.press("Enter");
 }
 
+// A ball of flat triangles, with smooth normals, as a file.
+function write_ball(file, rows = 60, columns = 120) {
+  const lines = [];
+  for (let i = 0; i <= rows; ++i)
+    for (let k = 0; k < columns; ++k) {
+      const theta = Math.PI * i / rows, phi = 2 * Math.PI * k / columns;
+      lines.push(`v ${2 + Math.sin(theta) * Math.cos(phi)} ${Math.cos(theta)} ${Math.sin(theta) * Math.sin(phi)}`);
+    }
+  for (let i = 0; i < rows; ++i)
+    for (let k = 0; k < columns; ++k) {
+      const corner = (row, column) => row * columns + (column % columns) + 1;
+      lines.push(`f ${corner(i, k)} ${corner(i, k + 1)} ${corner(i + 1, k + 1)} ${corner(i + 1, k)}`);
+    }
+  writeFileSync(file, lines.join("\n"));
+}
+
+// The mean difference of two shapes within 0.95 of the radius, of 255.
+const difference_of_shapes = (page, one, other) => page.evaluate(([one, other]) => {
+  const gl = viewer.view.gl, side = gl.drawingBufferWidth;
+  const [a, b] = [one, other].map((shape) => {
+    const pixels = new Uint8Array(4 * side * side);
+    viewer.view.draw({ ...viewer.state, exposure: 2, samples: 1, shape });
+    gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return pixels;
+  });
+  let sum = 0, count = 0, brightest = 0;
+  for (let i = 0; i < a.length; ++i) {
+    const x = 2 * (((i >> 2) % side) + 0.5) / side - 1, y = 2 * (Math.floor((i >> 2) / side) + 0.5) / side - 1;
+    if (i % 4 === 3 || x * x + y * y > 0.9) continue;
+    sum += Math.abs(a[i] - b[i]);
+    brightest = Math.max(brightest, a[i]);
+    ++count;
+  }
+  return { mean: sum / count, brightest };
+}, [one, other]);
+
+async function check_model(page, name) {
+  await page.locator("label", { hasText: "Shape" }).locator("select").selectOption("mesh");
+  write_ball(at("ball.obj"));
+  await page.locator("input[type=file]").setInputFiles(at("ball.obj"));
+  await page.waitForFunction(() => viewer.view.mesh !== null);
+  const { mean, brightest } = await difference_of_shapes(page, "sphere", "mesh");
+  check(mean < 1 && brightest > 50, `${name}: a ball as a file looks like the sphere, mean difference ${mean.toFixed(2)}/255`);
+  writeFileSync(at("broken.obj"), "v 0 0 0\nf 1 2 3\n");
+  await page.locator("input[type=file]").setInputFiles(at("broken.obj"));
+  await page.locator("output", { hasText: "not a model: there is no vertex 2" }).waitFor({ timeout: 2000 }).catch(() => {});
+  check(await page.locator("output", { hasText: "no vertex 2" }).count() === 1, `${name}: a broken file is refused`);
+  await page.locator("label", { hasText: "Shape" }).locator("select").selectOption("sphere");
+}
+
 async function check_access(page, name) {
   await page.addScriptTag({ content: axe });
   const found = await page.evaluate(() => axe.run());
@@ -132,6 +183,7 @@ async function check_page(browser, name) {
       await check_charts(page, name);
       await check_keyboard(page, name);
       await check_pointer(page, name);
+      await check_model(page, name);
       const pdf = await page.pdf({ path: at(`${name}.pdf`), format: "A4" });
       const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
       check(pages <= 2, `${name}: prints on ${pages} pages`);
@@ -175,7 +227,6 @@ try { gonio("check", at("scan.csv"), "--reference", at("reference.csv"), "--nois
 gonio("design", "-n", "6", "-o", at("six.csv"), "--report", at("design.html"));
 gonio("design", "-n", "3", "--given", at("reference.csv"), "--noise", "0.02", "-o", at("three.csv"), "--report", at("given.html"));
 
-const browser = await launch();
 await check_plain_page(browser, "check", 3);
 await check_plain_page(browser, "design", 1);
 await check_plain_page(browser, "given", 1);

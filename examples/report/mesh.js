@@ -1,0 +1,84 @@
+// Models of the viewer: Wavefront OBJ files, which the reader of the page has on his own disk.
+
+const most_triangles = 1e6;
+
+// Index of a field such as 3 or -1, from 0; the file's own count from 1, or back from the last.
+function obj_index(field, count) {
+  const index = Number(field) > 0 ? Number(field) - 1 : count + Number(field);
+  if (!Number.isInteger(index) || index < 0 || index >= count) throw new Error(`there is no vertex ${field}`);
+  return index;
+}
+
+// Corners of triangles, as indices of a place and of a normal, which may be absent: polygons are fans.
+function obj_triangles(text) {
+  const places = [], normals = [], corners = [];
+  const numbers = (fields) => {
+    const found = fields.slice(1, 4).map(Number);
+    if (found.length < 3 || !found.every(Number.isFinite)) throw new Error(`"${fields.join(" ")}" has no three numbers`);
+    return found;
+  };
+  for (const line of text.split("\n")) {
+    const fields = line.trim().split(/\s+/);
+    if (fields[0] === "v") places.push(numbers(fields));
+    if (fields[0] === "vn") normals.push(numbers(fields));
+    if (fields[0] !== "f") continue;
+    const face = fields.slice(1).map((each) => {
+      const [place, , normal] = each.split("/");
+      return [obj_index(place, places.length), normal ? obj_index(normal, normals.length) : null];
+    });
+    for (let i = 2; i < face.length; ++i) corners.push(face[0], face[i - 1], face[i]);
+    if (corners.length > 3 * most_triangles) throw new Error(`more than ${most_triangles} triangles`);
+  }
+  if (!corners.length) throw new Error("no faces");
+  return { places, normals, corners };
+}
+
+// Normals of places: the sum of those of their triangles, by area.
+function smooth_normals({ places, corners }) {
+  const sums = places.map(() => [0, 0, 0]);
+  for (let i = 0; i < corners.length; i += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => corners[i + k][0]);
+    const across = cross(along(places[b], places[a], -1), along(places[c], places[a], -1));
+    for (const k of [a, b, c]) sums[k] = along(sums[k], across, 1);
+  }
+  return sums;
+}
+
+// Places within the unit sphere and normals of triangles' corners, one after the other. Throws Error where the text is
+// not that of a model.
+function read_obj(text) {
+  const model = obj_triangles(text), smooth = smooth_normals(model);
+  const used = model.corners.map(([place]) => model.places[place]);
+  const bound = (pick) => [0, 1, 2].map((k) => used.reduce((best, each) => pick(best, each[k]), used[0][k]));
+  const low = bound(Math.min), high = bound(Math.max), centre = along(low, high, 1).map((each) => each / 2);
+  const radius = used.reduce((most, each) => Math.max(most, length(along(each, centre, -1))), 0);
+  if (!(radius > 0)) throw new Error("no extent");
+  const vertices = new Float32Array(6 * used.length);
+  model.corners.forEach(([place, normal], i) => {
+    vertices.set(along(model.places[place], centre, -1).map((each) => each / radius), 6 * i);
+    vertices.set(normal === null ? smooth[place] : model.normals[normal], 6 * i + 3);
+  });
+  return vertices;
+}
+
+const mesh_vertex_shader = `#version 300 es
+in vec3 place, towards;
+uniform float turn;
+out vec3 normal;
+vec3 turned(vec3 v) { return vec3(cos(turn) * v.x + sin(turn) * v.z, v.y, cos(turn) * v.z - sin(turn) * v.x); }
+void main() {
+  vec3 at = turned(place);
+  normal = turned(towards);
+  gl_Position = vec4(at.xy, -0.99 * at.z, 1.0);
+}`;
+
+// Both sides of a triangle are drawn, as the one that the camera sees.
+const mesh_main = `
+in vec3 normal;
+void main() {
+  vec3 n = normalize(normal);
+  if (n.z < 0.0 && !gl_FrontFacing) n = -n;
+  lit_point point = lit_point(true, n, light, vec3(0.0, 0.0, 1.0), 1.0);
+  colour = vec4(display_value(seen(point, gl_FragCoord.x / size * 2.0 - 1.0 > border)), 1.0);
+}`;
+
