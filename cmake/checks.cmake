@@ -1,8 +1,8 @@
-# cmake [-D ONLY=format|weight|site|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
+# cmake [-D ONLY=format|weight|site|bundle|others|libcxx|sanitize|wheel|debian] -P cmake/checks.cmake: what CI does besides
 # cmake/test.cmake, or one part of it. Two parts are for releases: a Python wheel, which asks PyPI, and Debian packages.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 
-set(parts format weight site others libcxx sanitize)
+set(parts format weight site bundle others libcxx sanitize)
 if(ONLY)
   if(NOT ONLY IN_LIST parts AND NOT ONLY MATCHES "^(wheel|debian)$")
     message(FATAL_ERROR "ONLY is one of ${parts};wheel;debian")
@@ -29,6 +29,12 @@ endif()
 # The site: no dead link, no docstring that Doxygen does not understand.
 if("site" IN_LIST parts)
   step("site" ${cmake} -P cmake/site.cmake)
+endif()
+
+# The scripts of gonio report's page, made again of the locked versions: where npm and its registry are, they are those
+# that are committed.
+if("bundle" IN_LIST parts)
+  include("${CMAKE_CURRENT_LIST_DIR}/bundle.cmake")
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
