@@ -1,8 +1,9 @@
-# cmake -P cmake/site.cmake (or the target `site`): docs/ and README.md as a static site with search, and the reference of
-# all headers, in build/site. mkdocs-material, Doxygen and linkchecker are Debian packages; once they are there, no network
+# cmake [-D TOOL=build/bin/gonio] -P cmake/site.cmake (or the target `site`): docs/ and README.md as a static site with
+# search, ten materials to turn under a light, and the reference of all headers, in build/site. Builds the tool as
+# demo.cmake does where none is given or built. mkdocs-material, Doxygen and linkchecker are Debian packages; once they are there, no network
 # is needed. A warning of any of them, or a dead link, is an error.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
-gonio_set_up(mkdocs mkdocs-material doxygen linkchecker)
+gonio_set_up(${gonio_library_packages} mkdocs mkdocs-material doxygen linkchecker)
 
 set(site "${source}/build/site")
 set(pages "${source}/build/site-pages")
@@ -21,6 +22,46 @@ foreach(program IN LISTS programs)
   string(APPEND listing "\n## ${program}\n\n```cpp\n${code}```\n")
 endforeach()
 file(WRITE "${pages}/examples/learn/README.md" "${listing}")
+
+# Ten materials of the shipped prior, each as gonio report shows what 20 samples make of it.
+foreach(built IN ITEMS test demo release)
+  if(NOT TOOL AND EXISTS "${source}/build/${built}/bin/gonio")
+    set(TOOL "${source}/build/${built}/bin/gonio")
+  endif()
+endforeach()
+if(NOT TOOL)
+  step("site: the tool" ${cmake} -P cmake/demo.cmake)
+  set(TOOL "${source}/build/demo/bin/gonio")
+endif()
+set(viewer "# Turn it under a light
+
+Ten materials of the shipped prior: from 20 samples with 2 % of noise, beside the truth. Each page is what `gonio report --truth` writes
+([a page for people](docs/learn/report.md)): drag the light, look at the lobe, show how well directions are known. The prior has seen
+these materials; [how it does with others](docs/results/real-materials.md) is measured elsewhere.
+
+|   |   |   |   |   |
+|---|---|---|---|---|
+")
+file(MAKE_DIRECTORY "${pages}/viewer")
+message("\n== site: ten materials")
+foreach(material IN ITEMS white-fabric pink-felt cardboard red-plastic vch_golden_yellow
+                          satin_gold blue-metallic-paint gold-paint brass specular-violet-phenolic)
+  foreach(line IN ITEMS
+          "expand --name ${material} -o truth.binary"
+          "sample truth.binary --directions ${source}/examples/data/nielsen-20.csv --noise 0.02 -o samples.csv"
+          "report samples.csv --noise 0.02 --truth truth.binary --title ${material} -o ${material}.html"
+          "render truth.binary --size 128 -o ${material}.png")
+    separate_arguments(arguments UNIX_COMMAND "${line}")
+    execute_process(COMMAND "${TOOL}" ${arguments} WORKING_DIRECTORY "${pages}/viewer" OUTPUT_QUIET ERROR_QUIET
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+  string(APPEND viewer "| [![${material}](viewer/${material}.png)](viewer/${material}.html)<br>${material} ")
+  if(material MATCHES "^(vch_golden_yellow|specular-violet-phenolic)$")
+    string(APPEND viewer "|\n")
+  endif()
+endforeach()
+file(REMOVE "${pages}/viewer/truth.binary" "${pages}/viewer/samples.csv")
+file(WRITE "${pages}/viewer.md" "${viewer}")
 
 # title_of(RESULT PAGE): its first heading.
 function(title_of result page)
@@ -51,7 +92,7 @@ function(add_folder title folder)
   set(nav "${nav}" PARENT_SCOPE)
 endfunction()
 
-set(nav "  - Home: README.md\n  - Gallery: docs/gallery.md\n")
+set(nav "  - Home: README.md\n  - Turn it under a light: viewer.md\n  - Gallery: docs/gallery.md\n")
 add_folder("How do I ..." docs/learn)
 add_folder("What is there" docs/reference)
 add_folder("Results" docs/results)
