@@ -5,9 +5,11 @@
 #include "command_line/measurement_files.hpp"
 #include "command_line/measures_as_json.hpp"
 #include "command_line/model_choice.hpp"
+#include "command_line/report_page.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "images.hpp"
+#include "report_data.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/renderer_material.hpp>
 
@@ -37,7 +39,7 @@ constexpr std::array renderer_formats{
 
 struct fit_command_options {
   measurement_options reading;
-  std::filesystem::path measurements, output, image;
+  std::filesystem::path measurements, output, image, report;
   std::array<std::filesystem::path, renderer_formats.size()> for_renderers;
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false, no_cosine_weight = false;
@@ -62,7 +64,23 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
   }
 }
 
-void fit(const fit_command_options& options) {
+/// The page for people. `samples` are those that were fitted, or some values of the table.
+void write_report(const fit_command_options& options, const gonio::model::analytic_brdf& model,
+                  const gonio::sample_set& samples, const json& details, const std::vector<std::string>& words) {
+  const image_options how{.size = 320, .exposure = {}};
+  std::array spheres{sphere_image(gonio::tabulate(model, gonio::valid_cells(), options.choice.fit.threads), how,
+                                  options.choice.fit.threads)};
+  expose_spheres(spheres, how);
+  json data = model_report_data({options.measurements.stem().string(), model, samples, spheres.front(), details});
+  json record = record_of_command(words);
+  add_to_record(record, "Measurements", options.measurements.string());
+  add_to_record(record, "Model", options.choice.model + ", metric " + options.choice.metric);
+  data["record"] = record;
+  data["of_table"] = is_table(options.measurements);
+  write_report_page(options.report, data);
+}
+
+void fit(const fit_command_options& options, const std::vector<std::string>& words) {
   if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
     gonio::refuse("--cell-weights needs a table: samples carry their own weights");
   // Read the measurements, and fit the model under the metric.
@@ -96,17 +114,19 @@ void fit(const fit_command_options& options) {
     }
   }
   // Print the fit.
-  if (!options.print_json) return print(found, observations.size());
   json all{{"measurements", observations.size()},  {"loss", found.loss},
            {"evaluations", found.evaluations},     {"converged", found.converged},
            {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}};
   all.update(facts_of(measured));
+  if (!options.report.empty())
+    write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all, words);
+  if (!options.print_json) return print(found, observations.size());
   std::cout << all.dump(2) << '\n';
 }
 
 }  // namespace
 
-void add_fit(command& app) {
+void add_fit(command& app, const std::vector<std::string>& words) {
   auto command = app.add_subcommand("fit", "Fit an analytic model to samples or a table");
   const auto options = std::make_shared<fit_command_options>();
   // Declare the measurements and the model.
@@ -144,13 +164,14 @@ void add_fit(command& app) {
     const auto& [option, extension, description, text] = renderer_formats[i];
     command.add_output(option, options->for_renderers[i], {extension}, description);
   }
+  add_report_option(command, options->report);
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->choice.fit.threads);
-  command.callback([command, options] {
+  command.callback([command, options, words] {
     if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
       gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
     options->choice.fit.cosine_weighted = !options->no_cosine_weight;
-    fit(*options);
+    fit(*options, words);
   });
 }
 

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -39,16 +40,20 @@ json five_digits(const gonio::rgb& value) {
   return {five_digits(value.x()), five_digits(value.y()), five_digits(value.z())};
 }
 
-/// A fit and how well it is known, in any directions.
+/// A fit in any directions and, where that is known, how well it is known.
 struct known_fit {
-  gonio::render::horizon_lookup value, relative;
+  using function = std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)>;
+  function value, relative;  ///< the latter may be none
 
-  explicit known_fit(const reconstruction& found) : value(found.table), relative(*found.uncertainty) {}
+  explicit known_fit(function model) : value(std::move(model)) {}
+  explicit known_fit(const reconstruction& found)
+      : value(gonio::render::horizon_lookup(found.table)),
+        relative(gonio::render::horizon_lookup(*found.uncertainty)) {}
 
   /// Adds both to what is told of a pair.
   void describe(const gonio::direction& wi, const gonio::direction& wo, json& told) const {
     told["fit"] = five_digits(gonio::rgb(value(wi, wo).max(0.0)));
-    told["known_to"] = five_digits(relative(wi, wo).y());
+    if (relative) told["known_to"] = five_digits(relative(wi, wo).y());
   }
 };
 
@@ -101,24 +106,24 @@ std::set<Eigen::Index> disagreeing(const reconstruction& found) {
   return numbers;
 }
 
+/// A sample with its number in the file, and what the fit is there.
+json told_sample(Eigen::Index number, const gonio::sample& sample, const known_fit& known) {
+  const auto& [wi, wo] = sample.directions.pair();
+  json told{{"sample", number}};
+  told.update(angles_as_json(sample.directions));
+  told["measured"] = five_digits(sample.value);
+  if (const double angle = in_plane_angle({wi, wo}); !std::isnan(angle)) told["in_plane"] = rounded_degrees(angle);
+  known.describe(wi, wo, told);
+  return told;
+}
+
 json samples_of(const reported_fit& fit, const known_fit& known) {
   std::map<Eigen::Index, const checked_sample*> checked;
   for (const checked_sample& each : fit.found.checked) checked[each.number] = &each;
   const std::set<Eigen::Index> off = disagreeing(fit.found);
   json all = json::array();
   for (const Eigen::Index i : shown_samples(fit)) {
-    const gonio::sample& sample = fit.measured.samples[i];
-    const auto& [wi, wo] = sample.directions.pair();
-    const auto [theta_h, theta_d, phi_d] = sample.angles();
-    json told{{"sample", i + 1},
-              {"theta_i", rounded_degrees(gonio::polar_angle(wi))},
-              {"theta_o", rounded_degrees(gonio::polar_angle(wo))},
-              {"theta_h", rounded_degrees(theta_h)},
-              {"theta_d", rounded_degrees(theta_d)},
-              {"phi_d", rounded_degrees(phi_d)},
-              {"measured", five_digits(sample.value)}};
-    if (const double angle = in_plane_angle({wi, wo}); !std::isnan(angle)) told["in_plane"] = rounded_degrees(angle);
-    known.describe(wi, wo, told);
+    json told = told_sample(i + 1, fit.measured.samples[i], known);
     if (const auto found = checked.find(i); found != checked.end()) {
       told["others"] = five_digits(found->second->others);
       told["deviation"] = five_digits(found->second->relative_deviation);
@@ -213,17 +218,23 @@ json map_of(const known_fit& known) {
 /// Albedo by angle; `known_to` is what it would be off by if all directions were off together.
 json albedo_of(const known_fit& known) {
   constexpr int bins = 120;
+  const auto value = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+    return known.value(wi, wo);
+  };
   const auto unsure = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
     return known.value(wi, wo) * known.relative(wi, wo);
   };
-  const auto values = gonio::model::albedo_by_angle(known.value, bins),
-             deviations = gonio::model::albedo_by_angle(unsure, bins);
+  const auto values = gonio::model::albedo_by_angle(value, bins);
+  const auto deviations =
+      known.relative ? gonio::model::albedo_by_angle(unsure, bins) : std::vector<gonio::model::albedo_at_angle>();
   json all = json::array();
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const double albedo = gonio::luminance(values[i].value), off = gonio::luminance(deviations[i].value);
-    all.push_back({{"theta_i", rounded_degrees(values[i].theta)},
-                   {"albedo", five_digits(values[i].value)},
-                   {"known_to", albedo > 0.0 ? json(five_digits(off / albedo)) : json(nullptr)}});
+    const double albedo = gonio::luminance(values[i].value);
+    const bool is_known = albedo > 0.0 && !deviations.empty();
+    all.push_back(
+        {{"theta_i", rounded_degrees(values[i].theta)},
+         {"albedo", five_digits(values[i].value)},
+         {"known_to", is_known ? json(five_digits(gonio::luminance(deviations[i].value) / albedo)) : json(nullptr)}});
   }
   return all;
 }
@@ -267,6 +278,38 @@ json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
 }  // namespace
 
 json known_map(const reconstruction& found) { return map_of(known_fit(found)); }
+
+gonio::sample_set in_plane_values(const gonio::brdf_table& table) {
+  const gonio::render::horizon_lookup value(table);
+  gonio::sample_set samples;
+  for (const double light : {15.0, 45.0, 70.0})
+    for (int viewer = -85; viewer <= 85; viewer += 5) {
+      const gonio::direction_pair pair{gonio::spherical_direction(radians(light), 0.0),
+                                       gonio::spherical_direction(radians(-viewer), 0.0)};
+      samples.push_back({pair, value(pair.wi, pair.wo), 1.0});
+    }
+  return samples;
+}
+
+json model_report_data(const reported_model& model) {
+  const known_fit known(model.value);
+  const std::vector<Eigen::Index> counting = counting_samples(model.samples);
+  json samples = json::array();
+  for (const Eigen::Index i : gonio::random_choice(std::ssize(counting), most_residuals, 0)) {
+    json told = told_sample(counting[i] + 1, model.samples[counting[i]], known);
+    told["disagrees"] = false;
+    samples.push_back(std::move(told));
+  }
+  json data{{"kind", "fit"},
+            {"name", model.name},
+            {"count", counting.size()},
+            {"sphere", data_url("image/png", gonio::io::encode_png(model.sphere, "the sphere"))},
+            {"details", model.details}};
+  data["scans"] = scans_of(samples, known);
+  data["samples"] = std::move(samples);
+  data["albedo"] = albedo_of(known);
+  return data;
+}
 
 json report_data(const reported_fit& fit, const std::vector<std::string>& words) {
   const known_fit known(fit.found);

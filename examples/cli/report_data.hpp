@@ -5,6 +5,7 @@
 #include "command_line/reconstruct_choice.hpp"
 #include <gonio/io/samples.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,21 @@ struct reported_fit {
 /// of 68 %. Of more than `most_residuals` samples, so many at random are shown, and those that were left out.
 /// `words` is the command line, for the record of what was done.
 [[nodiscard]] json report_data(const reported_fit& fit, const std::vector<std::string>& words);
+
+/// A model, what it was fitted to, and what `gonio fit --json` prints.
+struct reported_model {
+  std::string name;
+  std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)> value;
+  const gonio::sample_set& samples;  ///< of a table: some of its values in three planes of incidence
+  const gonio::image& sphere;        ///< exposed
+  json details;
+};
+
+/// The page of it, but for the record.
+[[nodiscard]] json model_report_data(const reported_model& model);
+
+/// The values of a table in the planes of lights at 15, 45 and 70 degrees, every five degrees of the viewer.
+[[nodiscard]] gonio::sample_set in_plane_values(const gonio::brdf_table& table);
 
 /// How well directions are known over theta_h and theta_d, of a reconstruction with its uncertainty.
 [[nodiscard]] json known_map(const reconstruction& found);

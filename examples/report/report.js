@@ -42,9 +42,10 @@ const by_number = new Map((data.samples ?? []).map((each) => [each.sample, each]
 const is_off = (each) => each.disagrees;
 const off = (data.samples ?? []).filter(is_off);
 const where = (each) => `theta_i ${angle(each.theta_i)}, theta_o ${angle(each.theta_o)}, half angle ${angle(each.theta_h)}`;
+const known_suffix = (each) => (each.known_to === undefined ? "" : `, known to ${percent(each.known_to)}`);
 function told(each) {
   const lines = [`sample ${each.sample}: ${where(each)}`, `measured ${channels(each.measured)}`,
-    `fit ${channels(each.fit)}, known to ${percent(each.known_to)}`];
+    `fit ${channels(each.fit)}${known_suffix(each)}`];
   if (each.others) lines.push(`the others say ${channels(each.others)}`, `off by ${digits(Math.sqrt(each.disagreement))} deviations`);
   if (each.disagrees) lines.push("disagrees with the others");
   return lines.join("\n");
@@ -132,13 +133,13 @@ function polar_plot(scan) {
     const r = Math.min(radius(value), 1.12), at = degrees * Math.PI / 180;
     return { x: r * Math.sin(at), y: r * Math.cos(at) };
   };
-  const outer = fit.map((each) => project(each.angle, each.y * (1 + each.known_to)));
-  const inner = fit.map((each) => project(each.angle, each.y / (1 + each.known_to))).reverse();
+  const outer = fit.map((each) => project(each.angle, each.y * (1 + (each.known_to ?? 0))));
+  const inner = fit.map((each) => project(each.angle, each.y / (1 + (each.known_to ?? 0)))).reverse();
   const placed = points.map((each) => ({ ...each, at: project(each.in_plane, luminance(each.measured)) }));
   // The fit has tips of its own where no sample is.
   const between = fit.filter((each) => points.every((point) => Math.abs(point.in_plane - each.angle) > 1.5)).map((each) => ({
     at: project(each.angle, each.y),
-    tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}\nknown to ${percent(each.known_to)}` }));
+    tip: `viewer ${angle(each.angle)}\nfit ${channels(each.fit)}${known_suffix(each)}` }));
   const ray = (degrees, r) => ({ x: r * Math.sin(degrees * Math.PI / 180), y: r * Math.cos(degrees * Math.PI / 180) });
   const spoke = (degrees, options) => Plot.line([ray(degrees, 0), ray(degrees, 1.04)], { x: "x", y: "y", ...options });
   const xy = { x: (each) => each[0], y: (each) => each[1] };
@@ -163,21 +164,23 @@ function polar_plot(scan) {
 }
 
 function scans() {
+  const has_band = data.scans.some((scan) => scan.curve.some((each) => each.known_to !== undefined));
+  const known = (each) => (has_band ? [percent(each.known_to)] : []);
   const measured = data.scans.some((scan) => scan.samples.length);
   add(element("h2", {}, measured ? "In-plane scans" : "In the plane of incidence"),
-    paragraph((measured ? "Dots: samples; crosses: those that disagree. " : "No three samples lie in the plane of one light: this is the fit alone. ") +
-      "Line: the fit. Band: in 68 of 100 cases the truth is within. The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
+    paragraph((data.of_table ? "Dots: the table. " : measured && !has_band ? "Dots: samples. " : measured ? "Dots: samples; crosses: those that disagree. " : "No three samples lie in the plane of one light: this is the fit alone. ") +
+      "Line: the fit." + (has_band ? " Band: in 68 of 100 cases the truth is within." : "") + " The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
   const charts = element("div", { className: "charts" });
   for (const scan of data.scans) {
     const chart = polar_plot(scan), every_tenth = scan.curve.filter((each) => each.angle % 5 === 0);
     const peak = scan.curve.reduce((best, each) => (luminance(each.fit) > luminance(best.fit) ? each : best));
     const rows = scan.samples.length
-      ? scan.samples.map((number) => by_number.get(number)).sort((a, b) => a.in_plane - b.in_plane).map((each) => [angle(each.in_plane), String(each.sample), channels(each.measured), channels(each.fit), percent(each.known_to)])
-      : every_tenth.map((each) => [angle(each.angle), "", "", channels(each.fit), percent(each.known_to)]);
+      ? scan.samples.map((number) => by_number.get(number)).sort((a, b) => a.in_plane - b.in_plane).map((each) => [angle(each.in_plane), String(each.sample), channels(each.measured), channels(each.fit), ...known(each)])
+      : every_tenth.map((each) => [angle(each.angle), "", "", channels(each.fit), ...known(each)]);
     charts.append(figure(chart,
       `Polar plot for light at ${angle(scan.theta_i)}: ${scan.samples.length} samples; the fit is largest at ${angle(peak.angle)}, ${digits(luminance(peak.fit))} per steradian`,
       `Light at ${angle(scan.theta_i)}; radius ${chart.getAttribute("aria-description")}`,
-      ["viewer", "sample", "measured", "fit", "known to"], rows));
+      ["viewer", "sample", "measured", "fit", ...(has_band ? ["known to"] : [])], rows));
   }
   add(charts);
 }
@@ -235,7 +238,8 @@ function residuals() {
     .filter((each) => Number.isFinite(each.residual));
   add(element("h2", {}, "Residuals by direction"),
     paragraph(has_others ? "By how many deviations each sample is above or below what all others say of it. 95 of 100 should be in the band."
-      : `By how many percent each sample is above or below the fit; ${data.samples.length} of ${data.count} samples: 1000 at random, and the worst.`));
+      : `By how many percent each ${data.of_table ? "value of the table in these planes" : "sample"} is above or below the fit` +
+        (data.samples.length < data.count ? `; ${data.samples.length} of ${data.count} samples: 1000 at random${data.kind === "fit" ? "." : ", and the worst."}` : ".")));
   residual_charts(shown, { title: "Residuals", unit: has_others ? "deviations" : "percent", has_band: has_others, tip: told,
     head: ["measured", has_others ? "the others" : "fit"], values: (each) => [each.measured, has_others ? each.others : each.fit] });
 }
@@ -268,7 +272,8 @@ function residual_charts(shown, { title, unit, has_band, tip, head, values }) {
 // ---- albedo ----------------------------------------------------------------------------------------------------
 function albedo() {
   add(element("h2", {}, "Albedo by angle"),
-    paragraph("What share of the light is reflected in all directions together. Band, and thin line: the luminance, and what it would be if all directions were off together."));
+    paragraph("What share of the light is reflected in all directions together." + (data.kind === "fit" ? " Thin line: the luminance."
+      : " Band, and thin line: the luminance, and what it would be if all directions were off together.")));
   const grey = data.albedo.every((each) => is_grey(each.albedo)), names = grey ? ["grey"] : ["red", "green", "blue"];
   const dashes = ["none", "8 3", "2 3"], last = data.albedo[data.albedo.length - 1];
   const bands = data.albedo.filter((each) => each.known_to !== null);
@@ -296,8 +301,8 @@ function albedo() {
   });
   const key = names.length === 1 ? "" : " Red: solid; green: dashes; blue: dots.";
   add(figure(chart, `Albedo by angle: ${channels(data.albedo[0].albedo)} at 0 degrees, ${channels(last.albedo)} at ${angle(last.theta_i)}`,
-    `At normal incidence ${channels(data.albedo[0].albedo)} (red, green, blue).` + key, ["light", ...names, "known to"],
-    data.albedo.map((each) => [angle(each.theta_i), ...names.map((_, c) => digits(each.albedo[c])), each.known_to === null ? "-" : percent(each.known_to)])));
+    `At normal incidence ${channels(data.albedo[0].albedo)} (red, green, blue).` + key, ["light", ...names, ...(bands.length ? ["known to"] : [])],
+    data.albedo.map((each) => [angle(each.theta_i), ...names.map((_, c) => digits(each.albedo[c])), ...(bands.length ? [each.known_to === null ? "-" : percent(each.known_to)] : [])])));
 }
 
 // ---- what was done ---------------------------------------------------------------------------------------------
@@ -309,6 +314,7 @@ function record() {
 const pages = {
   reconstruct: [answer, show_viewer, scans, uncertainty_map, residuals, albedo, record],
   check: [check_answer, check_differences, check_places, record],
+  fit: [fit_answer, scans, residuals, albedo, record],
   design: [design_answer, design_map, design_table, record],
 };
 for (const part of pages[data.kind]) part();
