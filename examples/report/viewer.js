@@ -110,6 +110,7 @@ function program_of(gl, vertex, fragment) {
 
 // Over phi_d, which wraps, theta_d and theta_h, which end with their first and last nodes.
 function texture_of(gl, unit, [heights, rows, columns], internal, format, type, values) {
+  if (Math.max(heights, rows, columns) > gl.getParameter(gl.MAX_3D_TEXTURE_SIZE)) throw new Error("the table is too large for WebGL");
   gl.activeTexture(gl.TEXTURE0 + unit);
   gl.bindTexture(gl.TEXTURE_3D, gl.createTexture());
   gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
@@ -296,16 +297,12 @@ function controls(changed) {
   };
 }
 
-async function show_viewer() {
+async function fill_viewer(section) {
   const canvas = element("canvas", { width: 512, height: 512, tabIndex: 0 });
   canvas.setAttribute("role", "img");
   canvas.setAttribute("aria-label", "The material under a light, which arrow keys move");
-  const section = element("section", { className: "screen-only" }, element("h2", {}, "Under a light"));
-  add(section);
-  if (!canvas.getContext("webgl2", { alpha: false }) || typeof DecompressionStream === "undefined") {
-    section.append(paragraph("This browser has no WebGL 2, without which no light can be moved. The image above shows the material.", "no-viewer"));
-    return;
-  }
+  if (!canvas.getContext("webgl2", { alpha: false })) throw new Error("this browser has no WebGL 2");
+  if (typeof DecompressionStream === "undefined") throw new Error("this browser cannot unpack tables");
   const table = await read_table(data.viewer.table);
   const uncertainty = { grid: data.viewer.uncertainty.grid, levels: await inflated(data.viewer.uncertainty.codes) };
   const truth = data.viewer.truth ? await read_table(data.viewer.truth) : null;
@@ -331,5 +328,15 @@ async function show_viewer() {
   section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF there, and shows its lobe."),
     element("div", { className: "viewer" }, element("div", {}, canvas, readout), panel.box));
   changed();
+}
+
+async function show_viewer() {
+  const section = element("section", { className: "screen-only" }, element("h2", {}, "Under a light"));
+  add(section);
+  try {
+    await fill_viewer(section);
+  } catch (error) {
+    section.append(paragraph(`No light can be moved here: ${error.message}. The image above shows the material.`, "no-viewer"));
+  }
 }
 

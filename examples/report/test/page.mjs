@@ -236,7 +236,7 @@ await browser.close();
 const without = await launch("--disable-3d-apis");
 const { page, complaints } = await open(without, at("scan.html"));
 await ready(page);
-check(await page.locator(".no-viewer").count() === 1 && await page.locator("canvas").count() === 0, "without WebGL the page says so");
+check(await page.locator(".no-viewer", { hasText: "has no WebGL 2" }).count() === 1 && await page.locator("canvas").count() === 0, "without WebGL the page says so");
 check(complaints.every((each) => /webgl/i.test(each)), `without WebGL the console has nothing else ${complaints}`);
 await without.close();
 finish();
