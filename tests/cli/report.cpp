@@ -283,7 +283,7 @@ TEST_CASE("gonio report: what is wrong is refused, and nothing is written") {
   CHECK_FALSE(std::filesystem::exists(files.folder / "page.html"));
 }
 
-TEST_CASE("--report: pages of reconstruct, check and design") {
+TEST_CASE("--report: pages of reconstruct, check, design and fit") {
   const page_files files;
   scratch::put(files.folder / "ref.csv", in_plane_scan("# instrument: </script><script>alert(1)</script>\n", false));
   scratch::put(files.folder / "part.csv", in_plane_scan("", true));
@@ -314,6 +314,20 @@ TEST_CASE("--report: pages of reconstruct, check and design") {
   CHECK(check["check"]["directions"][0]["theta_i"] == 45.0);
   CHECK(check["check"]["directions"][0]["theta_o"] == 70.0);
   CHECK(check["check"]["reference"]["instrument"] == "</script><script>alert(1)</script>");
+
+  const auto of_samples = data_of("fit " + ref + " --model ggx");
+  CHECK(of_samples["kind"] == "fit");
+  CHECK(of_samples["name"] == "ref");
+  CHECK(of_samples["details"]["lobes"][1]["lobe"] == "ggx");
+  CHECK(of_samples["of_table"] == false);
+  REQUIRE(of_samples["samples"].size() == 15);
+  CHECK_FALSE(of_samples["samples"][0].contains("known_to"));
+  CHECK(of_samples["scans"][0]["samples"].size() == 15);
+  CHECK(of_samples["albedo"][0]["known_to"].is_null());
+  const auto of_table = data_of("fit " + files.path("out.binary") + " --model ggx");
+  CHECK(of_table["of_table"] == true);
+  CHECK(of_table["scans"].size() == 3);
+  CHECK(of_table["samples"].size() == 3 * 35);
 
   const auto design = data_of("design -n 3" + out + ".csv");
   CHECK(design["kind"] == "design");
