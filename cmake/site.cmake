@@ -63,6 +63,17 @@ endforeach()
 file(REMOVE "${pages}/viewer/truth.binary" "${pages}/viewer/samples.csv")
 file(WRITE "${pages}/viewer.md" "${viewer}")
 
+# Lessons have a viewer where a page of the repository says how to get one.
+file(GLOB lessons "${pages}/docs/learn/*.md")
+foreach(lesson IN LISTS lessons)
+  file(READ "${lesson}" text)
+  string(REGEX REPLACE "<!-- viewer ([a-z_-]+) -->.*<!-- end of viewer -->"
+         "<iframe src=\"../../viewer/\\1.html\" title=\"\\1 under a light\" width=\"100%\" height=\"900\"></iframe>" shown "${text}")
+  if(NOT shown STREQUAL text)
+    file(WRITE "${lesson}" "${shown}")
+  endif()
+endforeach()
+
 # title_of(RESULT PAGE): its first heading.
 function(title_of result page)
   file(STRINGS "${pages}/${page}" heading REGEX "^# " LIMIT_COUNT 1)
