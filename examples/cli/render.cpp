@@ -1,19 +1,24 @@
 /// gonio render: images of tables, side by side.
 
 #include "command_line/file_start.hpp"
+#include "command_line/fixed.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "exr_files.hpp"
+#include "image_text.hpp"
 #include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/render/false_colour.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,7 +38,7 @@ struct render_options {
   std::vector<std::filesystem::path> tables;
   std::vector<std::string> lights;
   std::filesystem::path output, environment;
-  bool slices = false;
+  bool slices = false, compares = false;
   int quality = 64, columns = 0;
   image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
@@ -80,7 +85,46 @@ gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t col
   return sheet;
 }
 
+/// CIELAB's Delta E of each pixel of two images as a colour, with its scale over the lowest rows: blue is 0, red 20 and
+/// more (Noell et al. 2014, Fig. 3). `mean` is that of the pixels that are not black in both.
+gonio::image difference_image(const gonio::image& one, const gonio::image& other, double& mean) {
+  const std::size_t rows = one.shape(0), columns = one.shape(1);
+  const std::size_t scale = std::max<std::size_t>(columns / 200, 1), strip = 2 * scale + 14 * scale;
+  gonio::image found = gonio::uniform_image(rows, columns, gonio::rgb::Zero());
+  const gonio::render::false_colour_range range;
+  double sum = 0.0, count = 0.0;
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const gonio::rgb a = gonio::pixel(one, row, column), b = gonio::pixel(other, row, column);
+      if ((a == 0.0).all() && (b == 0.0).all()) continue;  // not of the sphere, or not lit
+      const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
+      sum += delta_e;
+      count += 1.0;
+      gonio::set_pixel(found, row, column, gonio::render::false_colour(delta_e, range));
+    }
+  mean = count > 0.0 ? sum / count : 0.0;
+  // The scale is drawn over the lowest rows, where a sphere is narrow.
+  for (std::size_t row = rows - strip; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double value = range.red * static_cast<double>(column) / static_cast<double>(columns - 1);
+      gonio::set_pixel(
+          found, row, column,
+          row < rows - strip + 4 * scale ? gonio::render::false_colour(value, range) : gonio::rgb(gonio::rgb::Zero()));
+    }
+  for (const int value : {0, 5, 10, 15, 20}) {
+    const std::string text = value == 20 ? "20+" : std::to_string(value);
+    const std::size_t width = extent_of(text, scale).columns, middle = columns * static_cast<std::size_t>(value) / 20;
+    const std::size_t left = std::min(middle > width / 2 ? middle - width / 2 : 0, columns - std::min(width, columns));
+    draw_text(found, rows - strip + 6 * scale, left, text, scale, gonio::rgb::Constant(0.6));
+  }
+  return found;
+}
+
 void render(const render_options& options) {
+  if (options.compares && options.tables.size() != 2)
+    gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
+  if (options.compares && is_exr(options.output))
+    gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
@@ -99,6 +143,11 @@ void render(const render_options& options) {
   std::vector<gonio::image> images;
   for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(images, options.image);
+  if (options.compares) {
+    double mean = 0.0;
+    images.push_back(difference_image(images[0], images[1], mean));
+    std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
+  }
   const gonio::image beside = contact_sheet(images, static_cast<std::size_t>(options.columns));
   if (is_exr(options.output))
     write_exr(options.output, beside);
@@ -135,6 +184,9 @@ void add_render(command& app) {
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
+  command.add_flag(
+      "--compare", options->compares,
+      "Two tables: beside them how far their colours are apart, CIELAB's Delta E of each pixel as a colour");
   command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
       .check(check::range(1, 1000))
       .default_str("all in one row");
