@@ -39,7 +39,7 @@ struct render_options {
   std::vector<std::string> lights;
   std::filesystem::path output, environment;
   bool slices = false, compares = false;
-  int quality = 64, columns = 0;
+  int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
   image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
   gonio::thread_count threads;
@@ -74,10 +74,9 @@ gonio::render::directional_lighting lighting_of(const render_options& options) {
   return gonio::render::directional_lighting(std::move(lights));
 }
 
-/// Images of one size, row by row; all in one row if there are 0 columns.
+/// Images of one size, row by row.
 gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t columns) {
   constexpr std::size_t margin = 8;
-  if (columns == 0 || columns >= images.size()) return gonio::render::side_by_side(images, margin);
   const std::size_t step = images[0].shape(0) + margin, rows = (images.size() + columns - 1) / columns;
   gonio::image sheet = gonio::uniform_image(rows * step + margin, columns * step + margin, gonio::rgb::Zero());
   for (std::size_t i = 0; i < images.size(); ++i)
@@ -85,46 +84,65 @@ gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t col
   return sheet;
 }
 
-/// CIELAB's Delta E of each pixel of two images as a colour, with its scale over the lowest rows: blue is 0, red 20 and
-/// more (Noell et al. 2014, Fig. 3). `mean` is that of the pixels that are not black in both.
-gonio::image difference_image(const gonio::image& one, const gonio::image& other, double& mean) {
-  const std::size_t rows = one.shape(0), columns = one.shape(1);
-  const std::size_t scale = std::max<std::size_t>(columns / 200, 1), strip = 2 * scale + 14 * scale;
-  gonio::image found = gonio::uniform_image(rows, columns, gonio::rgb::Zero());
+/// From so many columns on the numbers of a scale have room.
+constexpr int smallest_with_scale = 64;
+
+/// The colours of Delta E from 0 to 20 with numbers, over the lowest rows, where a sphere is narrow.
+void draw_scale(gonio::image& image) {
+  const std::size_t columns = image.shape(1), unit = std::max<std::size_t>(columns / 200, 1);
+  const std::size_t top = image.shape(0) - 16 * unit;
   const gonio::render::false_colour_range range;
-  double sum = 0.0, count = 0.0;
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
-      const gonio::rgb a = gonio::pixel(one, row, column), b = gonio::pixel(other, row, column);
-      if ((a == 0.0).all() && (b == 0.0).all()) continue;  // not of the sphere, or not lit
-      const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
-      sum += delta_e;
-      count += 1.0;
-      gonio::set_pixel(found, row, column, gonio::render::false_colour(delta_e, range));
-    }
-  mean = count > 0.0 ? sum / count : 0.0;
-  // The scale is drawn over the lowest rows, where a sphere is narrow.
-  for (std::size_t row = rows - strip; row < rows; ++row)
+  for (std::size_t row = top; row < image.shape(0); ++row)
     for (std::size_t column = 0; column < columns; ++column) {
       const double value = range.red * static_cast<double>(column) / static_cast<double>(columns - 1);
-      gonio::set_pixel(
-          found, row, column,
-          row < rows - strip + 4 * scale ? gonio::render::false_colour(value, range) : gonio::rgb(gonio::rgb::Zero()));
+      const bool is_bar = row < top + 4 * unit;
+      gonio::set_pixel(image, row, column,
+                       is_bar ? gonio::render::false_colour(value, range) : gonio::rgb(gonio::rgb::Zero()));
     }
   for (const int value : {0, 5, 10, 15, 20}) {
     const std::string text = value == 20 ? "20+" : std::to_string(value);
-    const std::size_t width = extent_of(text, scale).columns, middle = columns * static_cast<std::size_t>(value) / 20;
-    const std::size_t left = std::min(middle > width / 2 ? middle - width / 2 : 0, columns - std::min(width, columns));
-    draw_text(found, rows - strip + 6 * scale, left, text, scale, gonio::rgb::Constant(0.6));
+    const std::size_t width = extent_of(text, unit).columns, middle = columns * static_cast<std::size_t>(value) / 20;
+    const std::size_t left = std::min(std::max(middle, width / 2) - width / 2, columns - width);
+    draw_text(image, top + 6 * unit, left, text, unit, gonio::rgb::Constant(0.6));
   }
+}
+
+/// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
+/// pixels that are not black in both: those are beside the sphere, or not lit.
+struct image_difference {
+  gonio::image image;
+  double mean = 0.0;
+};
+
+image_difference difference_of(const gonio::image& one, const gonio::image& other) {
+  image_difference found{gonio::uniform_image(one.shape(0), one.shape(1), gonio::rgb::Zero())};
+  double sum = 0.0, count = 0.0;
+  for (std::size_t row = 0; row < one.shape(0); ++row)
+    for (std::size_t column = 0; column < one.shape(1); ++column) {
+      const gonio::rgb a = gonio::pixel(one, row, column), b = gonio::pixel(other, row, column);
+      if ((a == 0.0).all() && (b == 0.0).all()) continue;
+      const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
+      sum += delta_e;
+      count += 1.0;
+      gonio::set_pixel(found.image, row, column, gonio::render::false_colour(delta_e));
+    }
+  found.mean = count > 0.0 ? sum / count : 0.0;
+  draw_scale(found.image);
   return found;
 }
 
-void render(const render_options& options) {
-  if (options.compares && options.tables.size() != 2)
+/// Refuses what --compare cannot draw, before anything is drawn.
+void require_comparable(const render_options& options) {
+  if (options.tables.size() != 2)
     gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
-  if (options.compares && is_exr(options.output))
-    gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
+  if (is_exr(options.output)) gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
+  if (options.image.size < smallest_with_scale)
+    gonio::refuse("--compare needs a --size of at least " + std::to_string(smallest_with_scale) +
+                  ", for the numbers of its scale");
+}
+
+void render(const render_options& options) {
+  if (options.compares) require_comparable(options);
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
@@ -144,11 +162,12 @@ void render(const render_options& options) {
   for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(images, options.image);
   if (options.compares) {
-    double mean = 0.0;
-    images.push_back(difference_image(images[0], images[1], mean));
+    auto [image, mean] = difference_of(images[0], images[1]);
+    images.push_back(std::move(image));
     std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
   }
-  const gonio::image beside = contact_sheet(images, static_cast<std::size_t>(options.columns));
+  const gonio::image beside = contact_sheet(
+      images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()));
   if (is_exr(options.output))
     write_exr(options.output, beside);
   else

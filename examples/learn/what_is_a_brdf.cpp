@@ -8,7 +8,8 @@
 #include <numbers>
 
 /// The share of the light from wi that is reflected in all directions together: the integral of f cos(theta_o) over the
-/// hemisphere, by the midpoint rule in theta_o and phi_o.
+/// hemisphere, by the midpoint rule in theta_o and phi_o. The library has model::directional_albedo, which resolves
+/// narrow highlights as well.
 template <gonio::brdf Brdf>
 double albedo(const Brdf& f, const gonio::direction& wi) {
   constexpr int steps = 400;

@@ -142,6 +142,8 @@ TEST_CASE("gonio render --compare: the difference of two tables as a third image
   CHECK(drawn.shape(1) == 3u * 128 + 4 * 8);
   refuses("render --compare " + given.table + " -o " + given.at("x.png"), {"--compare", "two tables"});
   refuses("render --compare " + given.table + " " + given.table + " -o " + given.at("x.exr"), {"--compare", ".png"});
+  refuses("render --compare --size 63 " + given.table + " " + given.table + " -o " + given.at("x.png"),
+          {"--compare", "--size", "64"});
   CHECK_FALSE(std::filesystem::exists(given.folder / "x.png"));
 }
 
