@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -56,12 +57,13 @@ TEST_CASE("texels: the weights are those of a decomposition of each texel") {
       const textured_sample sample(1100, n, 0.02);
       const gonio::texel_decomposition texels(sample.prior, sample.locations, gonio::tikhonov{eta});
       CHECK(texels.images() == n);
-      CHECK(texels.components() == 12);
+      CHECK(texels.functions().rows() == 12);
+      CHECK(texels.functions().cols() == std::min<Eigen::Index>(n, 12));
       const auto found = texels.solve(sample.images);
       const gonio::decomposition one_by_one{sample.prior, gonio::tikhonov{eta}};
       for (Eigen::Index t = 0; t < 1100; t += 37) {
         const Eigen::MatrixXd expected = one_by_one.fit(sample.samples_of(t)).weights();
-        const Eigen::MatrixXd weights = found.weights.middleCols<3>(3 * t).cast<double>();
+        const Eigen::MatrixXd weights = (texels.functions() * found.weights.middleCols<3>(3 * t)).cast<double>();
         CHECK((weights - expected).cwiseAbs().maxCoeff() < 1e-5 * expected.cwiseAbs().maxCoeff());
       }
     }

@@ -4,8 +4,10 @@
 /// alone: one factorisation, and then a product, serve all texels.
 ///
 /// With A the n rows of k components, m the prior's observations and K = A A' + eta I, the weights of the mapped values
-/// y of a texel's channel are A' K^-1 y. Under the prior y has the covariance K / m, from which follow what the other
-/// images say of each one (leave-one-out residuals: Rasmussen and Williams 2006, Eq. 5.12) and how sure an estimate is.
+/// y of a texel's channel are x = A' K^-1 y. They are all combinations of the n rows: of A = U S V' the r = min(n, k)
+/// columns of V span them, and V' x = S (S^2 + eta I)^-1 U' y says as much as x in fewer numbers. Under the prior y has
+/// the covariance K / m, from which follow what the other images say of each one (leave-one-out residuals: Rasmussen
+/// and Williams 2006, Eq. 5.12) and how sure an estimate is.
 
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/parallel.hpp>
@@ -21,7 +23,7 @@ namespace gonio {
 
 /// What was found of t texels.
 struct texel_estimates {
-  Eigen::MatrixXf weights;  ///< k x 3t: column 3i + c has the weights of channel c of texel i
+  Eigen::MatrixXf weights;  ///< r x 3t: column 3i + c has the weights V' x of channel c of texel i
   /// t values: the standard deviation of a mapped value, root mean square over all cells of the prior; natural
   /// logarithms, so that 0.06 is 6 %.
   Eigen::ArrayXf uncertainty;
@@ -46,12 +48,12 @@ class texel_decomposition {
 
   /// n.
   [[nodiscard]] Eigen::Index images() const noexcept { return scale_.size(); }
-  /// k.
-  [[nodiscard]] Eigen::Index components() const noexcept { return products_.rows() - images(); }
+  /// V, k x r: the weights of the prior's components are V times what `solve` finds.
+  [[nodiscard]] const Eigen::MatrixXf& functions() const noexcept { return functions_; }
 
   /// From reflectance in sr^-1, 3t x n: a column is an image, red, green and blue of the first texel, then of the next.
   /// Negative reflectance counts as zero, as in the metric. Throws gonio::error naming image and texel of the first
-  /// value that is not finite, or if the size is another one. Same bytes for any number of threads. O(t n (n + k)).
+  /// value that is not finite, or if the size is another one. Same bytes for any number of threads. O(t n (n + r)).
   [[nodiscard]] texel_estimates solve(const float_matrix_view& reflectance, thread_count threads = {}) const;
 
  private:
@@ -60,9 +62,10 @@ class texel_decomposition {
   void solve_block(const float_matrix_view& reflectance, block texels, texel_estimates& found) const;
 
   Eigen::ArrayXf scale_, offset_;  ///< of each image: the mapped value is ln(scale max(rho, 0) + epsilon) - offset
-  Eigen::MatrixXf products_;       ///< (k + n) x n: A' K^-1, and below it K^-1 such that residuals have variance 1
-  Eigen::RowVectorXf of_energy_;   ///< what these residuals are multiplied by to sum up to m y' K^-1 y
-  float deviation_ = 0.0f;         ///< of a mapped value, expected before anything is known of the texel
+  Eigen::MatrixXf functions_;
+  Eigen::MatrixXf products_;      ///< (r + n) x n: V' A' K^-1, and below it K^-1 such that residuals have variance 1
+  Eigen::RowVectorXf of_energy_;  ///< what these residuals are multiplied by to sum up to m y' K^-1 y
+  float deviation_ = 0.0f;        ///< of a mapped value, expected before anything is known of the texel
 };
 
 }  // namespace gonio

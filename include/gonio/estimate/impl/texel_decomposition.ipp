@@ -7,11 +7,13 @@
 #include <gonio/estimate/texel_decomposition.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/product.hpp>
+#include <gonio/solve/symmetric_eigen.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace gonio {
@@ -45,21 +47,28 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
         static_cast<float>(std::log(metric.reference(at) * weight + log_relative::epsilon) + offset_at(prior, at));
   }
   const Eigen::MatrixXd rows = rows_at(prior, locations);
-  Eigen::MatrixXd covariance = product_with_transpose(rows);
-  covariance.diagonal().array() += penalty.eta();
-  const cholesky factors(covariance);
-  if (!factors.positive_definite())
+  // A A' = U S^2 U'.
+  const symmetric_eigen gram = decompose_symmetric(product_with_transpose(rows), "the products of the images' rows");
+  const Eigen::ArrayXd squares = gram.values.array().max(0.0), penalised = squares + penalty.eta();
+  const double largest = squares.maxCoeff();
+  if (!(penalised.minCoeff() > 1e-14 * largest))
     refuse({"eta is ", penalty.eta(), ", too small for ", n, " images: rounding leaves no optimum"});
-  const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(n, n));
-  const Eigen::MatrixXd weights = product(rows.transpose(), inverse);
+  const Eigen::MatrixXd inverse =
+      product(gram.vectors * penalised.inverse().matrix().asDiagonal(), gram.vectors.transpose());
+  const Eigen::Index r = std::max<Eigen::Index>((squares > 1e-12 * largest).count(), 1);
+  // The largest are the last.
+  const Eigen::ArrayXd scales = squares.tail(r).sqrt().max(std::numeric_limits<double>::min());
+  const Eigen::MatrixXd spanning = gram.vectors.rightCols(r);
+  functions_ = (product(rows.transpose(), spanning) * scales.inverse().matrix().asDiagonal()).cast<float>();
   // Residuals whose variance the prior expects to be 1: those of leaving out each image.
   const auto observations = static_cast<double>(prior.coefficients().rows());
   const Eigen::ArrayXd deviations = (inverse.diagonal().array() / observations).sqrt();
-  products_.resize(k + n, n);
-  products_.topRows(k) = weights.cast<float>();
-  for (Eigen::Index i = 0; i < n; ++i) products_.row(k + i) = (inverse.row(i) / deviations[i]).cast<float>();
+  products_.resize(r + n, n);
+  products_.topRows(r) = ((scales / penalised.tail(r)).matrix().asDiagonal() * spanning.transpose()).cast<float>();
+  for (Eigen::Index i = 0; i < n; ++i) products_.row(r + i) = (inverse.row(i) / deviations[i]).cast<float>();
   of_energy_ = (observations * deviations).matrix().transpose().cast<float>();
   // The mean variance over all cells: the components are orthogonal there, their squared norms the singular values'.
+  const Eigen::MatrixXd weights = product(rows.transpose(), inverse);
   double variance = penalty.eta() / observations;
   const auto cells = static_cast<double>(prior.cells().size());
   for (Eigen::Index j = 0; j < k; ++j)
@@ -82,10 +91,10 @@ GONIO_INLINE Eigen::MatrixXf texel_decomposition::mapped(const float_matrix_view
 
 GONIO_INLINE void texel_decomposition::solve_block(const float_matrix_view& reflectance, block texels,
                                                    texel_estimates& found) const {
-  const Eigen::Index n = images(), k = components();
+  const Eigen::Index n = images(), r = functions_.cols();
   const Eigen::MatrixXf values = mapped(reflectance, texels);
   const Eigen::MatrixXf results = product(products_, values);
-  found.weights.middleCols(3 * texels.begin, results.cols()) = results.topRows(k);
+  found.weights.middleCols(3 * texels.begin, results.cols()) = results.topRows(r);
   // What is known before is worth ten images, as in `posterior`.
   constexpr float before = 10.0f;
   const auto of_all = static_cast<float>(n);
@@ -108,7 +117,7 @@ GONIO_INLINE texel_estimates texel_decomposition::solve(const float_matrix_view&
     refuse({"there are ", reflectance.cols(), " images of ", reflectance.rows(), " numbers, expected ", images(),
             " of three for each texel"});
   const Eigen::Index texels = reflectance.rows() / 3;
-  texel_estimates found{Eigen::MatrixXf(components(), 3 * texels), Eigen::ArrayXf(texels), Eigen::ArrayXf(texels)};
+  texel_estimates found{Eigen::MatrixXf(functions_.cols(), 3 * texels), Eigen::ArrayXf(texels), Eigen::ArrayXf(texels)};
   for_each_block(
       texels, detail::texels_at_once, [&](block some) { solve_block(reflectance, some, found); }, threads);
   return found;
