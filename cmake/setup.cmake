@@ -42,7 +42,10 @@ set(gonio_packages
   "mkdocs              program mkdocs"
   "mkdocs-material     header  mkdocs/themes/material/main.html"
   "doxygen             program doxygen"
-  "linkchecker         program linkchecker")
+  "linkchecker         program linkchecker"
+  "chromium            program chromium"
+  "nodejs              program node"
+  "npm                 program npm")
 
 # The packages of ARGN that are not there.
 function(gonio_find_missing result)
