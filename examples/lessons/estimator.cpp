@@ -1,0 +1,185 @@
+/// What the lessons' pages compute, as WebAssembly: the library's own estimators, on the prior that ships. Memory of
+/// doubles, the room, is what a page and this program exchange; each function says what it finds and leaves there.
+/// Angles are in degrees, reflectance in sr^-1.
+
+#include <gonio/basis/component_variance.hpp>
+#include <gonio/design/published_directions.hpp>
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/screened_samples.hpp>
+#include <gonio/evaluate/comparison.hpp>
+#include <gonio/io/prior_payload.hpp>
+#include <gonio/model/formula_materials.hpp>
+#include <gonio/solve/tikhonov.hpp>
+
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#define PAGE_CALLS(name) extern "C" __attribute__((export_name(#name)))  // NOLINT: attributes are no expressions
+
+/// Of the page: it is told a message and throws it.
+extern "C" __attribute__((import_module("page"), import_name("refused"))) [[noreturn]] void refused(const char* message);
+
+// Nothing is caught here: an exception ends the call, and the page has its message.
+extern "C" void* __cxa_allocate_exception(std::size_t size) noexcept { return std::malloc(size); }  // NOLINT
+extern "C" [[noreturn]] void __cxa_throw(void* thrown, void* /*type*/, void (*/*destroy*/)(void*)) {  // NOLINT
+  refused(static_cast<const std::exception*>(thrown)->what());
+}
+
+namespace {
+
+constexpr Eigen::Index shown_components = 5;
+
+std::vector<double> room;
+std::optional<gonio::log_relative_pca> prior, first_components;
+
+/// Weights of the first components in a column for each channel.
+auto weights_in_room() { return Eigen::Map<Eigen::MatrixXd>(room.data(), shown_components, 3); }
+
+/// Colours of spheres with and without the truth of a formula material.
+struct judge {
+  gonio::appearance_metric appearance;
+  gonio::brdf_table truth;
+
+  judge(const gonio::valid_cells& cells, const gonio::model::formula_brdf& material)
+      : appearance(cells), truth(gonio::tabulate(material, cells)) {}
+
+  [[nodiscard]] gonio::comparison operator()(const gonio::brdf_table& estimate) const {
+    return gonio::compare(estimate, truth, prior->metric(), appearance);
+  }
+};
+
+/// A scan in the plane of a light at 45 degrees: positive angles are on the side of the mirror direction.
+constexpr double light = 45.0, last_sample = 75.0, sample_step = 5.0, last_of_curve = 85.0, curve_step = 0.5;
+
+gonio::direction_pair in_plane(double theta_o) {
+  return {gonio::spherical_direction(gonio::radians(light), std::numbers::pi),
+          gonio::spherical_direction(gonio::radians(theta_o), 0.0)};
+}
+
+std::vector<gonio::direction_pair> pairs_of(double last, double step) {
+  std::vector<gonio::direction_pair> pairs;
+  for (Eigen::Index i = 0; static_cast<double>(i) * step <= 2.0 * last; ++i)
+    pairs.push_back(in_plane(static_cast<double>(i) * step - last));
+  return pairs;
+}
+
+const std::vector<gonio::direction_pair>& sampled() {
+  static const auto pairs = pairs_of(last_sample, sample_step);
+  return pairs;
+}
+
+template <gonio::brdf Brdf>
+void leave_values(const Brdf& f, const std::vector<gonio::direction_pair>& pairs) {
+  for (const auto& [wi, wo] : pairs)
+    for (const double value : f(wi, wo)) room.push_back(value);
+}
+
+const gonio::model::formula_brdf& scanned_material() {
+  static const auto material = gonio::model::formula_material("red-paint");
+  return material;
+}
+
+}  // namespace
+
+/// Where a page finds that many doubles of room, and may write into them. It moves when the room grows.
+PAGE_CALLS(room_of) double* room_of(Eigen::Index doubles) {
+  room.resize(doubles);
+  return room.data();
+}
+
+PAGE_CALLS(room_size) Eigen::Index room_size() { return std::ssize(room); }
+
+/// Finds: the inflated payload of a prior's file, of so many bytes.
+PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
+  gonio::io::byte_reader in(std::as_bytes(std::span(room)).first(bytes), "the prior of the page");
+  prior = gonio::io::take_prior(in, "the prior of the page");
+  first_components = prior->truncated(shown_components);
+}
+
+/// Leaves: of each component that is shown the standard deviation of its weights, and its share of the variance.
+PAGE_CALLS(describe_components) void describe_components() {
+  const Eigen::VectorXd deviations = gonio::weight_deviations(prior->coefficients());
+  const Eigen::VectorXd shares = gonio::variance_shares(*prior);
+  room.assign(deviations.begin(), deviations.begin() + shown_components);
+  room.insert(room.end(), shares.begin(), shares.begin() + shown_components);
+}
+
+/// Leaves: weights of a material of the prior. Returns whether there is one of that number.
+PAGE_CALLS(weights_of) bool weights_of(Eigen::Index material) {
+  if (material >= std::ssize(prior->names())) return false;
+  room.resize(3 * shown_components);
+  weights_in_room() = prior->weights_of(material).topRows(shown_components);
+  return true;
+}
+
+/// The name of a material of the prior, as a C string.
+PAGE_CALLS(name_of) const char* name_of(Eigen::Index material) { return prior->names()[material].c_str(); }
+
+/// Leaves: the numbers of theta_h, theta_d and phi_d of the prior's grid, and of its valid cells.
+PAGE_CALLS(describe_cells) void describe_cells() {
+  const auto [theta_h, theta_d, phi_d] = prior->cells().grid().extents();
+  room.assign({static_cast<double>(theta_h), static_cast<double>(theta_d), static_cast<double>(phi_d),
+               static_cast<double>(prior->cells().size())});
+}
+
+/// Finds: weights. Returns the reflectance of each valid cell: red, green, blue as floats.
+PAGE_CALLS(tabulate) const float* tabulate() {
+  static gonio::brdf_table table(first_components->cells());
+  table = gonio::fitted_brdf(*first_components, Eigen::MatrixXd(weights_in_room())).tabulate(table.cells());
+  return table.values().data();
+}
+
+/// Finds: nothing. Delta E of a sphere of a formula material (0: red-paint, 1: blue-rubber), reconstructed from one of
+/// the sets of 1, 2, 5, 10 and 20 directions of Nielsen et al. 2015 by so many components: examples/learn/why_twenty.cpp.
+PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen::Index components) {
+  static const std::array names{"red-paint", "blue-rubber"};
+  static std::array<std::unique_ptr<const judge>, 2> judges;
+  const auto truth = gonio::model::formula_material(names[material]);
+  if (!judges[material])
+    judges[material] = std::make_unique<judge>(gonio::valid_cells(gonio::grid({90, 30, 36})), truth);
+  gonio::sample_set samples;
+  for (const gonio::half_difference& angles : gonio::design::nielsen_directions(directions)) {
+    const auto [wi, wo] = gonio::to_directions(angles);
+    samples.push_back({angles, truth(wi, wo)});
+  }
+  const auto fit = gonio::decomposition{prior->truncated(components), gonio::tikhonov{5.0}}.fit(samples);
+  return (*judges[material])(fit.tabulate(judges[material]->truth.cells())).delta_e_env;
+}
+
+/// Leaves: red, green and blue of the truth at the scan's samples.
+PAGE_CALLS(scan) void scan() {
+  room.clear();
+  leave_values(scanned_material(), sampled());
+}
+
+/// Leaves: the same of the truth along the curve.
+PAGE_CALLS(true_curve) void true_curve() {
+  room.clear();
+  leave_values(scanned_material(), pairs_of(last_of_curve, curve_step));
+}
+
+/// Finds: red, green and blue of each sample, with 2 % of noise. Leaves: Delta E of a sphere, the mapped rms over all
+/// directions, of each sample the probability that it is wrong, or 0 where it is kept, and the curve. `rejects`: as
+/// gonio reconstruct does it, else as with --no-reject.
+PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
+  static const judge off(gonio::valid_cells(gonio::grid({45, 15, 18})), scanned_material());
+  gonio::sample_set samples;
+  for (std::size_t i = 0; i < sampled().size(); ++i)
+    samples.push_back({sampled()[i], gonio::rgb(room[3 * i], room[3 * i + 1], room[3 * i + 2])});
+  const gonio::discrepancy_decomposition estimator{*prior, {.noise = 0.02}};
+  const auto located = gonio::locate_samples(prior->cells(), samples);
+  const auto screened = rejects ? gonio::screen(estimator, located) : gonio::screened_samples{located};
+  const auto fit = estimator.fit_located(screened.kept);
+  const gonio::comparison difference = off(fit.tabulate(off.truth.cells()));
+  room.assign(2 + samples.size(), 0.0);
+  room[0] = difference.delta_e_env;
+  room[1] = difference.mapped_rms.mean();
+  for (const gonio::outlying_sample& out : screened.contradicted) room[2 + out.number] = out.probability;
+  leave_values(fit, pairs_of(last_of_curve, curve_step));
+}
