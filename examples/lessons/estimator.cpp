@@ -7,27 +7,31 @@
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/screened_samples.hpp>
 #include <gonio/evaluate/comparison.hpp>
+#include <gonio/evaluate/simulated_measurement.hpp>
 #include <gonio/io/prior_payload.hpp>
 #include <gonio/model/formula_materials.hpp>
 #include <gonio/solve/tikhonov.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdlib>
 #include <exception>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 #define PAGE_CALLS(name) extern "C" __attribute__((export_name(#name)))  // NOLINT: attributes are no expressions
 
 /// Of the page: it is told a message and throws it.
-extern "C" __attribute__((import_module("page"), import_name("refused"))) [[noreturn]] void refused(const char* message);
+extern "C" __attribute__((import_module("page"), import_name("refused"))) [[noreturn]] void refused(
+    const char* message);
 
 // Nothing is caught here: an exception ends the call, and the page has its message.
-extern "C" void* __cxa_allocate_exception(std::size_t size) noexcept { return std::malloc(size); }  // NOLINT
-extern "C" [[noreturn]] void __cxa_throw(void* thrown, void* /*type*/, void (*/*destroy*/)(void*)) {  // NOLINT
+extern "C" void* __cxa_allocate_exception(std::size_t size) noexcept { return std::malloc(size); }     // NOLINT
+extern "C" [[noreturn]] void __cxa_throw(void* thrown, void* /*type*/, void (* /*destroy*/)(void*)) {  // NOLINT
   refused(static_cast<const std::exception*>(thrown)->what());
 }
 
@@ -41,7 +45,7 @@ std::optional<gonio::log_relative_pca> prior, first_components;
 /// Weights of the first components in a column for each channel.
 auto weights_in_room() { return Eigen::Map<Eigen::MatrixXd>(room.data(), shown_components, 3); }
 
-/// Colours of spheres with and without the truth of a formula material.
+/// A formula material as the truth, and how far estimates are from it.
 struct judge {
   gonio::appearance_metric appearance;
   gonio::brdf_table truth;
@@ -54,30 +58,30 @@ struct judge {
   }
 };
 
-/// A scan in the plane of a light at 45 degrees: positive angles are on the side of the mirror direction.
+/// A scan in the plane of a light at 45 degrees, of the viewer: positive angles are on the side of the mirror
+/// direction.
 constexpr double light = 45.0, last_sample = 75.0, sample_step = 5.0, last_of_curve = 85.0, curve_step = 0.5;
+constexpr double scan_noise = 0.02;
 
 gonio::direction_pair in_plane(double theta_o) {
   return {gonio::spherical_direction(gonio::radians(light), std::numbers::pi),
           gonio::spherical_direction(gonio::radians(theta_o), 0.0)};
 }
 
-std::vector<gonio::direction_pair> pairs_of(double last, double step) {
-  std::vector<gonio::direction_pair> pairs;
+/// From -last to last.
+std::vector<double> angles_of(double last, double step) {
+  std::vector<double> angles;
   for (Eigen::Index i = 0; static_cast<double>(i) * step <= 2.0 * last; ++i)
-    pairs.push_back(in_plane(static_cast<double>(i) * step - last));
-  return pairs;
-}
-
-const std::vector<gonio::direction_pair>& sampled() {
-  static const auto pairs = pairs_of(last_sample, sample_step);
-  return pairs;
+    angles.push_back(static_cast<double>(i) * step - last);
+  return angles;
 }
 
 template <gonio::brdf Brdf>
-void leave_values(const Brdf& f, const std::vector<gonio::direction_pair>& pairs) {
-  for (const auto& [wi, wo] : pairs)
+void leave_curve(const Brdf& f) {
+  for (const double theta_o : angles_of(last_of_curve, curve_step)) {
+    const auto [wi, wo] = in_plane(theta_o);
     for (const double value : f(wi, wo)) room.push_back(value);
+  }
 }
 
 const gonio::model::formula_brdf& scanned_material() {
@@ -121,11 +125,14 @@ PAGE_CALLS(weights_of) bool weights_of(Eigen::Index material) {
 /// The name of a material of the prior, as a C string.
 PAGE_CALLS(name_of) const char* name_of(Eigen::Index material) { return prior->names()[material].c_str(); }
 
-/// Leaves: the numbers of theta_h, theta_d and phi_d of the prior's grid, and of its valid cells.
+/// Leaves: the numbers of theta_h, theta_d and phi_d of the prior's grid, where in a cell its node is, the smallest
+/// cosine of a valid cell, and the number of valid cells.
 PAGE_CALLS(describe_cells) void describe_cells() {
-  const auto [theta_h, theta_d, phi_d] = prior->cells().grid().extents();
+  const gonio::valid_cells& cells = prior->cells();
+  const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
   room.assign({static_cast<double>(theta_h), static_cast<double>(theta_d), static_cast<double>(phi_d),
-               static_cast<double>(prior->cells().size())});
+               cells.grid().anchor() == gonio::cell_anchor::centre ? 0.5 : 0.0,
+               std::max(cells.minimum_cosine(), gonio::valid_cells::horizon), static_cast<double>(cells.size())});
 }
 
 /// Finds: weights. Returns the reflectance of each valid cell: red, green, blue as floats.
@@ -136,7 +143,8 @@ PAGE_CALLS(tabulate) const float* tabulate() {
 }
 
 /// Finds: nothing. Delta E of a sphere of a formula material (0: red-paint, 1: blue-rubber), reconstructed from one of
-/// the sets of 1, 2, 5, 10 and 20 directions of Nielsen et al. 2015 by so many components: examples/learn/why_twenty.cpp.
+/// the sets of 1, 2, 5, 10 and 20 directions of Nielsen et al. 2015 by so many components:
+/// examples/learn/why_twenty.cpp.
 PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen::Index components) {
   static const std::array names{"red-paint", "blue-rubber"};
   static std::array<std::unique_ptr<const judge>, 2> judges;
@@ -152,27 +160,43 @@ PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen:
   return (*judges[material])(fit.tabulate(judges[material]->truth.cells())).delta_e_env;
 }
 
-/// Leaves: red, green and blue of the truth at the scan's samples.
-PAGE_CALLS(scan) void scan() {
+/// Leaves: of each sample of the scan the angle of the viewer.
+PAGE_CALLS(sample_angles) void sample_angles() { room = angles_of(last_sample, sample_step); }
+
+/// Leaves: red, green and blue of each sample, with noise.
+PAGE_CALLS(measure_scan) void measure_scan() {
+  gonio::sample_set samples;
+  for (const double theta_o : angles_of(last_sample, sample_step)) {
+    const gonio::direction_pair pair = in_plane(theta_o);
+    samples.push_back({pair, scanned_material()(pair.wi, pair.wo)});
+  }
+  const auto no_outlier = [](auto&) { return gonio::rgb(gonio::rgb::Zero()); };
   room.clear();
-  leave_values(scanned_material(), sampled());
+  for (const gonio::sample& each : gonio::corrupt(samples, {.noise = scan_noise}, 1, no_outlier))
+    room.insert(room.end(), each.value.begin(), each.value.end());
 }
 
-/// Leaves: the same of the truth along the curve.
+/// Leaves: of each point of a curve the angle of the viewer.
+PAGE_CALLS(curve_angles) void curve_angles() { room = angles_of(last_of_curve, curve_step); }
+
+/// Leaves: red, green and blue of the truth along the curve.
 PAGE_CALLS(true_curve) void true_curve() {
   room.clear();
-  leave_values(scanned_material(), pairs_of(last_of_curve, curve_step));
+  leave_curve(scanned_material());
 }
 
-/// Finds: red, green and blue of each sample, with 2 % of noise. Leaves: Delta E of a sphere, the mapped rms over all
-/// directions, of each sample the probability that it is wrong, or 0 where it is kept, and the curve. `rejects`: as
-/// gonio reconstruct does it, else as with --no-reject.
+/// Finds: red, green and blue of each sample, as `measure_scan` leaves them. Leaves: Delta E of a sphere, the mapped
+/// rms over all directions, of each sample the probability that it is wrong, or 0 where it is kept, and the curve.
+/// `rejects`: as gonio reconstruct does it, else as with --no-reject.
 PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
   static const judge off(gonio::valid_cells(gonio::grid({45, 15, 18})), scanned_material());
   gonio::sample_set samples;
-  for (std::size_t i = 0; i < sampled().size(); ++i)
-    samples.push_back({sampled()[i], gonio::rgb(room[3 * i], room[3 * i + 1], room[3 * i + 2])});
-  const gonio::discrepancy_decomposition estimator{*prior, {.noise = 0.02}};
+  const double* value = room.data();
+  for (const double theta_o : angles_of(last_sample, sample_step)) {
+    samples.push_back({in_plane(theta_o), gonio::rgb(value[0], value[1], value[2])});
+    value += 3;
+  }
+  const gonio::discrepancy_decomposition estimator{*prior, {.noise = scan_noise}};
   const auto located = gonio::locate_samples(prior->cells(), samples);
   const auto screened = rejects ? gonio::screen(estimator, located) : gonio::screened_samples{located};
   const auto fit = estimator.fit_located(screened.kept);
@@ -181,5 +205,5 @@ PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
   room[0] = difference.delta_e_env;
   room[1] = difference.mapped_rms.mean();
   for (const gonio::outlying_sample& out : screened.contradicted) room[2 + out.number] = out.probability;
-  leave_values(fit, pairs_of(last_of_curve, curve_step));
+  leave_curve(fit);
 }
