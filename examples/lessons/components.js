@@ -42,6 +42,8 @@ class changing_table {
   }
 }
 
+let shown_table = null; // the one on the sphere
+
 // Weights, red, then green, then blue, of a start and of what the sliders add in all channels alike.
 const weights_by = (start, deviations) => start.map((weight, i) => weight + viewer.state[keys[i % keys.length]] * deviations[i % keys.length]);
 
@@ -60,13 +62,13 @@ async function fill_material(section, computed) {
   const deviations = described.slice(0, count), shares = described.slice(count);
   const mean = { name: "the mean of all materials", weights: new Array(3 * count).fill(0) };
   const materials = [mean, ...computed.materials().sort((a, b) => a.name.localeCompare(b.name, "en"))];
-  const values = new changing_table(computed.cells());
+  const values = shown_table = new changing_table(computed.cells());
   viewer.view = new material_view(canvas, { table: values.shown, truth: null, uncertainty: { grid: [1, 1, 1], levels: new Uint8Array(1) } });
   const start = angle_between(light_direction(viewer.state), [0, 0, 1]);
-  const redraw = redraw_with(viewer.view, 1 / white_mean(start));
+  const redraw = redraw_with(viewer.view, 2 / white_mean(start));
 
   const told = (value) => `${value > 0 ? "+" : ""}${value.toFixed(1)}`;
-  const sliders = keys.map((key, i) => slider(`${i + 1}. ${named[i]}, ${(100 * shares[i]).toFixed(0)} %`, key, [-3, 3, 0.1], told, () => material_changed()));
+  const sliders = keys.map((key, i) => slider(`${i + 1}. ${named[i]}, ${(100 * shares[i]).toFixed(0)}\u00a0%`, key, [-3, 3, 0.1], told, () => material_changed()));
   const exposure = slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${told(value)} stops`, () => { exposure.show(); redraw(); });
   const from = choose_start(materials, () => material_changed());
   const reset = element("button", { type: "button" }, "Reset");

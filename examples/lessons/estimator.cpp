@@ -1,6 +1,6 @@
-/// What the lessons' pages compute, as WebAssembly: the library's own estimators, on the prior that ships. Memory of
-/// doubles, the room, is what a page and this program exchange; each function says what it finds and leaves there.
-/// Angles are in degrees, reflectance in sr^-1.
+/// What the pages of the lessons compute, as WebAssembly: the library's own estimators on the prior that ships. A page
+/// and this program exchange doubles in one buffer: each function says what it finds there and what it leaves. Angles
+/// are in degrees, reflectance in sr^-1.
 
 #include <gonio/basis/component_variance.hpp>
 #include <gonio/design/published_directions.hpp>
@@ -17,7 +17,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <exception>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -39,24 +38,11 @@ namespace {
 
 constexpr Eigen::Index shown_components = 5;
 
-std::vector<double> room;
+std::vector<double> buffer;
 std::optional<gonio::log_relative_pca> prior, first_components;
 
 /// Weights of the first components in a column for each channel.
-auto weights_in_room() { return Eigen::Map<Eigen::MatrixXd>(room.data(), shown_components, 3); }
-
-/// A formula material as the truth, and how far estimates are from it.
-struct judge {
-  gonio::appearance_metric appearance;
-  gonio::brdf_table truth;
-
-  judge(const gonio::valid_cells& cells, const gonio::model::formula_brdf& material)
-      : appearance(cells), truth(gonio::tabulate(material, cells)) {}
-
-  [[nodiscard]] gonio::comparison operator()(const gonio::brdf_table& estimate) const {
-    return gonio::compare(estimate, truth, prior->metric(), appearance);
-  }
-};
+auto weights_in_buffer() { return Eigen::Map<Eigen::MatrixXd>(buffer.data(), shown_components, 3); }
 
 /// A scan in the plane of a light at 45 degrees, of the viewer: positive angles are on the side of the mirror
 /// direction.
@@ -80,7 +66,7 @@ template <gonio::brdf Brdf>
 void leave_curve(const Brdf& f) {
   for (const double theta_o : angles_of(last_of_curve, curve_step)) {
     const auto [wi, wo] = in_plane(theta_o);
-    for (const double value : f(wi, wo)) room.push_back(value);
+    for (const double value : f(wi, wo)) buffer.push_back(value);
   }
 }
 
@@ -91,17 +77,17 @@ const gonio::model::formula_brdf& scanned_material() {
 
 }  // namespace
 
-/// Where a page finds that many doubles of room, and may write into them. It moves when the room grows.
-PAGE_CALLS(room_of) double* room_of(Eigen::Index doubles) {
-  room.resize(doubles);
-  return room.data();
+/// Resizes the buffer to so many doubles; returns where it is. All memory may move when it grows.
+PAGE_CALLS(buffer_of) double* buffer_of(Eigen::Index doubles) {
+  buffer.resize(doubles);
+  return buffer.data();
 }
 
-PAGE_CALLS(room_size) Eigen::Index room_size() { return std::ssize(room); }
+PAGE_CALLS(buffer_size) Eigen::Index buffer_size() { return std::ssize(buffer); }
 
 /// Finds: the inflated payload of a prior's file, of so many bytes.
 PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
-  gonio::io::byte_reader in(std::as_bytes(std::span(room)).first(bytes), "the prior of the page");
+  gonio::io::byte_reader in(std::as_bytes(std::span(buffer)).first(bytes), "the prior of the page");
   prior = gonio::io::take_prior(in, "the prior of the page");
   first_components = prior->truncated(shown_components);
 }
@@ -110,15 +96,15 @@ PAGE_CALLS(take_prior) void take_prior(std::size_t bytes) {
 PAGE_CALLS(describe_components) void describe_components() {
   const Eigen::VectorXd deviations = gonio::weight_deviations(prior->coefficients());
   const Eigen::VectorXd shares = gonio::variance_shares(*prior);
-  room.assign(deviations.begin(), deviations.begin() + shown_components);
-  room.insert(room.end(), shares.begin(), shares.begin() + shown_components);
+  buffer.assign(deviations.begin(), deviations.begin() + shown_components);
+  buffer.insert(buffer.end(), shares.begin(), shares.begin() + shown_components);
 }
 
 /// Leaves: weights of a material of the prior. Returns whether there is one of that number.
 PAGE_CALLS(weights_of) bool weights_of(Eigen::Index material) {
   if (material >= std::ssize(prior->names())) return false;
-  room.resize(3 * shown_components);
-  weights_in_room() = prior->weights_of(material).topRows(shown_components);
+  buffer.resize(3 * shown_components);
+  weights_in_buffer() = prior->weights_of(material).topRows(shown_components);
   return true;
 }
 
@@ -130,7 +116,7 @@ PAGE_CALLS(name_of) const char* name_of(Eigen::Index material) { return prior->n
 PAGE_CALLS(describe_cells) void describe_cells() {
   const gonio::valid_cells& cells = prior->cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
-  room.assign({static_cast<double>(theta_h), static_cast<double>(theta_d), static_cast<double>(phi_d),
+  buffer.assign({static_cast<double>(theta_h), static_cast<double>(theta_d), static_cast<double>(phi_d),
                cells.grid().anchor() == gonio::cell_anchor::centre ? 0.5 : 0.0,
                std::max(cells.minimum_cosine(), gonio::valid_cells::horizon), static_cast<double>(cells.size())});
 }
@@ -138,7 +124,7 @@ PAGE_CALLS(describe_cells) void describe_cells() {
 /// Finds: weights. Returns the reflectance of each valid cell: red, green, blue as floats.
 PAGE_CALLS(tabulate) const float* tabulate() {
   static gonio::brdf_table table(first_components->cells());
-  table = gonio::fitted_brdf(*first_components, Eigen::MatrixXd(weights_in_room())).tabulate(table.cells());
+  table = gonio::fitted_brdf(*first_components, Eigen::MatrixXd(weights_in_buffer())).tabulate(table.cells());
   return table.values().data();
 }
 
@@ -146,22 +132,21 @@ PAGE_CALLS(tabulate) const float* tabulate() {
 /// the sets of 1, 2, 5, 10 and 20 directions of Nielsen et al. 2015 by so many components:
 /// examples/learn/why_twenty.cpp.
 PAGE_CALLS(delta_e) double delta_e(int material, Eigen::Index directions, Eigen::Index components) {
+  static const gonio::appearance_metric appearance(gonio::valid_cells(gonio::grid({90, 30, 36})));
   static const std::array names{"red-paint", "blue-rubber"};
-  static std::array<std::unique_ptr<const judge>, 2> judges;
   const auto truth = gonio::model::formula_material(names[material]);
-  if (!judges[material])
-    judges[material] = std::make_unique<judge>(gonio::valid_cells(gonio::grid({90, 30, 36})), truth);
   gonio::sample_set samples;
   for (const gonio::half_difference& angles : gonio::design::nielsen_directions(directions)) {
     const auto [wi, wo] = gonio::to_directions(angles);
     samples.push_back({angles, truth(wi, wo)});
   }
   const auto fit = gonio::decomposition{prior->truncated(components), gonio::tikhonov{5.0}}.fit(samples);
-  return (*judges[material])(fit.tabulate(judges[material]->truth.cells())).delta_e_env;
+  return appearance.difference(fit.tabulate(appearance.cells()), gonio::tabulate(truth, appearance.cells()))
+      .environment;
 }
 
 /// Leaves: of each sample of the scan the angle of the viewer.
-PAGE_CALLS(sample_angles) void sample_angles() { room = angles_of(last_sample, sample_step); }
+PAGE_CALLS(sample_angles) void sample_angles() { buffer = angles_of(last_sample, sample_step); }
 
 /// Leaves: red, green and blue of each sample, with noise.
 PAGE_CALLS(measure_scan) void measure_scan() {
@@ -171,17 +156,17 @@ PAGE_CALLS(measure_scan) void measure_scan() {
     samples.push_back({pair, scanned_material()(pair.wi, pair.wo)});
   }
   const auto no_outlier = [](auto&) { return gonio::rgb(gonio::rgb::Zero()); };
-  room.clear();
+  buffer.clear();
   for (const gonio::sample& each : gonio::corrupt(samples, {.noise = scan_noise}, 1, no_outlier))
-    room.insert(room.end(), each.value.begin(), each.value.end());
+    buffer.insert(buffer.end(), each.value.begin(), each.value.end());
 }
 
 /// Leaves: of each point of a curve the angle of the viewer.
-PAGE_CALLS(curve_angles) void curve_angles() { room = angles_of(last_of_curve, curve_step); }
+PAGE_CALLS(curve_angles) void curve_angles() { buffer = angles_of(last_of_curve, curve_step); }
 
 /// Leaves: red, green and blue of the truth along the curve.
 PAGE_CALLS(true_curve) void true_curve() {
-  room.clear();
+  buffer.clear();
   leave_curve(scanned_material());
 }
 
@@ -189,9 +174,10 @@ PAGE_CALLS(true_curve) void true_curve() {
 /// rms over all directions, of each sample the probability that it is wrong, or 0 where it is kept, and the curve.
 /// `rejects`: as gonio reconstruct does it, else as with --no-reject.
 PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
-  static const judge off(gonio::valid_cells(gonio::grid({45, 15, 18})), scanned_material());
+  static const gonio::appearance_metric appearance(prior->cells());
+  static const gonio::brdf_table truth = gonio::tabulate(scanned_material(), appearance.cells());
   gonio::sample_set samples;
-  const double* value = room.data();
+  const double* value = buffer.data();
   for (const double theta_o : angles_of(last_sample, sample_step)) {
     samples.push_back({in_plane(theta_o), gonio::rgb(value[0], value[1], value[2])});
     value += 3;
@@ -200,10 +186,10 @@ PAGE_CALLS(fit_scan) void fit_scan(bool rejects) {
   const auto located = gonio::locate_samples(prior->cells(), samples);
   const auto screened = rejects ? gonio::screen(estimator, located) : gonio::screened_samples{located};
   const auto fit = estimator.fit_located(screened.kept);
-  const gonio::comparison difference = off(fit.tabulate(off.truth.cells()));
-  room.assign(2 + samples.size(), 0.0);
-  room[0] = difference.delta_e_env;
-  room[1] = difference.mapped_rms.mean();
-  for (const gonio::outlying_sample& out : screened.contradicted) room[2 + out.number] = out.probability;
+  const auto difference = gonio::compare(fit.tabulate(truth.cells()), truth, prior->metric(), appearance);
+  buffer.assign(2 + samples.size(), 0.0);
+  buffer[0] = difference.delta_e_env;
+  buffer[1] = difference.mapped_rms.mean();
+  for (const gonio::outlying_sample& out : screened.contradicted) buffer[2 + out.number] = out.probability;
   leave_curve(fit);
 }

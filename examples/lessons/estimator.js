@@ -42,8 +42,8 @@ class estimator {
     const { instance: made } = await WebAssembly.instantiate(module, { page: { refused }, wasi_snapshot_preview1: no_files });
     made.exports._initialize();
     const started = new estimator(made.exports);
-    const room = made.exports.room_of(Math.ceil(prior.length / 8)); // which may move the memory
-    new Uint8Array(made.exports.memory.buffer, room).set(prior);
+    const buffer = made.exports.buffer_of(Math.ceil(prior.length / 8)); // which may move the memory
+    new Uint8Array(made.exports.memory.buffer, buffer).set(prior);
     made.exports.take_prior(prior.length);
     return started;
   }
@@ -52,13 +52,13 @@ class estimator {
   ask(name, numbers = [], ...words) {
     this.tell(numbers);
     this.calls[name](...words);
-    const size = this.calls.room_size(), room = this.calls.room_of(size);
-    return Array.from(new Float64Array(this.calls.memory.buffer, room, size));
+    const size = this.calls.buffer_size(), buffer = this.calls.buffer_of(size);
+    return Array.from(new Float64Array(this.calls.memory.buffer, buffer, size));
   }
 
   tell(numbers) {
-    const room = this.calls.room_of(numbers.length);
-    new Float64Array(this.calls.memory.buffer, room, numbers.length).set(numbers);
+    const buffer = this.calls.buffer_of(numbers.length);
+    new Float64Array(this.calls.memory.buffer, buffer, numbers.length).set(numbers);
   }
 
   // Reflectance over the prior's valid cells: red, green, blue, until the next call.
