@@ -5,7 +5,7 @@ const fits = [
   { name: "All samples count", rejects: 0, colour: "var(--wrong)", dash: "7,4", command: "gonio reconstruct --no-reject" },
   { name: "Contradicted ones left out", rejects: 1, colour: "var(--fit)", dash: "none", command: "gonio reconstruct" },
 ];
-const lesson = { spoiled: new Set(), found: [], focused: 0, ready: null };
+const lesson = { spoiled: new Set(), found: [], focused: 0, scan: null, fit_again: null };
 const signed = (degrees) => `${degrees < 0 ? "\u2212" : ""}${Math.abs(degrees)}\u00b0`;
 const reds = (numbers) => numbers.filter((_, i) => i % 3 === channel);
 
@@ -88,11 +88,10 @@ const legend = () => element("ul", { className: "curves" },
   element("li", {}, "\u25cf a sample, orange where it is spoiled"), element("li", {}, "\u2715 left out"));
 
 async function fill_scan(section, computed) {
-  const scan = { angles: computed.ask("sample_angles"), curve_angles: computed.ask("curve_angles"), measured: computed.ask("measure_scan"), truth: computed.ask("true_curve") };
-  lesson.scan = scan;
+  const scan = lesson.scan = { angles: computed.ask("sample_angles"), curve_angles: computed.ask("curve_angles"), measured: computed.ask("measure_scan"), truth: computed.ask("true_curve") };
   const figure = element("figure"), values = element("div"), status = element("p");
   status.setAttribute("role", "status");
-  const fit_again = (keeps_focus) => {
+  const fit_again = lesson.fit_again = (keeps_focus) => {
     lesson.found = fits.map((each) => fit(computed, scan, each));
     const { chart, focus } = make_buttons(scan_chart(scan), scan, toggle);
     figure.replaceChildren(chart);
@@ -118,10 +117,10 @@ open_lesson("Spoil a sample",
     page.append(section);
     await fill_scan(section, computed);
     page.append(element("section", {}, element("h2", {}, "What to try"), element("ul", {},
-      element("li", {}, "Spoil one sample far from the highlight. The fit that counts all of them is wrong elsewhere, too."),
-      element("li", {}, "Spoil the one at 45\u00b0, in the highlight. Who could tell it from a better polish?"),
-      element("li", {}, "Spoil two neighbours, then three. When do they outvote the others?"),
-      element("li", {}, "Go on until a sample is left out although it is right."))),
+      element("li", {}, "Spoil any one sample. The fit that counts all of them is wrong in all directions: look at its Delta E."),
+      element("li", {}, "Spoil the one at 45\u00b0, in the highlight. It is not noticed: who could tell it from a better polish?"),
+      element("li", {}, "Spoil those at 0\u00b0, 5\u00b0 and 10\u00b0. Three that tell the same story support each other."),
+      element("li", {}, "Spoil those from \u221235\u00b0 to \u221220\u00b0. Now the right ones beside them are left out."))),
       paragraph("The estimator is gonio itself, compiled for this page, on the prior that ships; the scan is of red-paint, a formula that the prior does not contain. " +
         "A scan in one plane leaves much open: the error over all directions is not zero without any spoiled sample.", "soft"));
   });

@@ -143,6 +143,28 @@ async function check_spoiling(page) {
   await page.locator("button", { hasText: "Restore all" }).click();
   const back = (await found(page)).found;
   check(back[0].delta_e === clean[0].delta_e && back[1].rms === clean[1].rms, "spoil: restoring all brings back the first fits");
+  await check_proposals(page);
+}
+
+// What the page says of the samples that it proposes to spoil, and of single ones.
+async function check_proposals(page) {
+  const left_out_of = (spoiled) => page.evaluate((spoiled) => {
+    lesson.spoiled = new Set(spoiled);
+    lesson.fit_again(false);
+    return left_out(lesson.found[1]);
+  }, spoiled);
+  const unnoticed = [];
+  for (let i = 0; i < 31; ++i) if ((await left_out_of([i])).join() !== String(i)) unnoticed.push(i);
+  check(unnoticed.join() === "24", `spoil: of single samples all are noticed but number ${unnoticed}, at 45 degrees`);
+  check((await left_out_of([15, 16, 17])).length === 0, "spoil: three neighbours from 0 to 10 degrees support each other");
+  const wronged = await left_out_of([8, 9, 10, 11]);
+  check(wronged.length > 0 && wronged.every((i) => i < 8 || i > 11), `spoil: four from -35 to -20 degrees have right ones left out, ${wronged}`);
+  const seconds = await page.evaluate(() => {
+    const start = performance.now();
+    for (let i = 0; i < 10; ++i) lesson.fit_again(false);
+    return (performance.now() - start) / 10000;
+  });
+  console.log(`- spoil: both fits, their tables, errors and the chart take ${(1000 * seconds).toFixed(0)} ms`);
 }
 
 // ---- both ------------------------------------------------------------------------------------------------------
