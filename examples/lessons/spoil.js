@@ -117,7 +117,7 @@ open_lesson("Spoil a sample",
     page.append(section);
     await fill_scan(section, computed);
     page.append(element("section", {}, element("h2", {}, "What to try"), element("ul", {},
-      element("li", {}, "Spoil any one sample. The fit that counts all of them is wrong in all directions: look at its Delta E."),
+      element("li", {}, "Spoil any one sample. The fit that counts all of them follows it, and its Delta E rises."),
       element("li", {}, "Spoil the one at 45\u00b0, in the highlight. It is not noticed: who could tell it from a better polish?"),
       element("li", {}, "Spoil those at 0\u00b0, 5\u00b0 and 10\u00b0. Three that tell the same story support each other."),
       element("li", {}, "Spoil those from \u221235\u00b0 to \u221220\u00b0. Now the right ones beside them are left out."))),
