@@ -95,8 +95,8 @@ const counts = [1, 2, 5, 10, 20], painted_materials = ["red-paint", "blue-rubber
 
 function error_chart(points) {
   const chart = Plot.plot({
-    width: 640, height: 340, marginLeft: 56, marginRight: 92, marginBottom: 44, style: { fontSize: "13px" },
-    x: { type: "log", domain: [0.9, 22], label: "measurements", ticks: counts, tickFormat: String, labelAnchor: "center" },
+    width: width_of(640), height: 340, marginLeft: 56, marginRight: 92, marginBottom: 44, style: { fontSize: "13px" },
+    x: { type: "log", domain: [0.9, 22], label: "measurements", labelArrow: "none", ticks: counts, tickFormat: String, labelAnchor: "center" },
     y: { type: "log", domain: [0.8, 90], label: "Delta E of a sphere", ticks: [1, 2, 5, 10, 20, 50], tickFormat: String, grid: true },
     marks: [
       Plot.ruleY([1], { stroke: "var(--soft)", strokeDasharray: "4,3" }),

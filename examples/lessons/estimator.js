@@ -15,6 +15,9 @@ function table(caption, head, rows) {
     element("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
 }
 
+// Of a chart that wants so many pixels, as far as the page has them.
+const width_of = (most) => Math.min(most, page.clientWidth - 40);
+
 // What Plot calls its marks is kept, for tests, but not as a name: parts of an image have none.
 function without_names(svg) {
   for (const mark of svg.querySelectorAll("g[aria-label]")) {

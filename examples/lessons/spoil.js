@@ -25,8 +25,8 @@ function scan_chart(scan) {
   const samples = scan.angles.map((angle, i) => ({ angle, value: values[i], spoiled: lesson.spoiled.has(i), left_out: wrong[i] > 0 }));
   const left_out = samples.filter((each) => each.left_out);
   return without_names(Plot.plot({
-    width: 860, height: 430, marginLeft: 60, marginBottom: 44, style: { fontSize: "13px" },
-    x: { domain: [-88, 88], label: "viewer, degrees from the normal; the light is at \u221245", labelAnchor: "center", ticks: [-75, -60, -45, -30, -15, 0, 15, 30, 45, 60, 75] },
+    width: width_of(860), height: 430, marginLeft: 60, marginBottom: 44, style: { fontSize: "13px" },
+    x: { domain: [-88, 88], label: "viewer, degrees from the normal; the light is at \u221245", labelArrow: "none", labelAnchor: "center", ticks: [-75, -60, -45, -30, -15, 0, 15, 30, 45, 60, 75] },
     y: { type: "log", domain: [0.08, 8], label: "red reflectance, sr\u207b\u00b9", ticks: [0.1, 0.2, 0.5, 1, 2, 5], tickFormat: String, grid: true, clamp: true },
     marks: [
       Plot.line(curve_points(scan, scan.truth), { x: "angle", y: "value", stroke: "var(--soft)", strokeWidth: 5, strokeOpacity: 0.4 }),
