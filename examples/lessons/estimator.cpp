@@ -117,8 +117,8 @@ PAGE_CALLS(describe_cells) void describe_cells() {
   const gonio::valid_cells& cells = prior->cells();
   const auto [theta_h, theta_d, phi_d] = cells.grid().extents();
   buffer.assign({static_cast<double>(theta_h), static_cast<double>(theta_d), static_cast<double>(phi_d),
-               cells.grid().anchor() == gonio::cell_anchor::centre ? 0.5 : 0.0,
-               std::max(cells.minimum_cosine(), gonio::valid_cells::horizon), static_cast<double>(cells.size())});
+                 cells.grid().anchor() == gonio::cell_anchor::centre ? 0.5 : 0.0,
+                 std::max(cells.minimum_cosine(), gonio::valid_cells::horizon), static_cast<double>(cells.size())});
 }
 
 /// Finds: weights. Returns the reflectance of each valid cell: red, green, blue as floats.
