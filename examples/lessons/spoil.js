@@ -26,7 +26,7 @@ function scan_chart(scan) {
   const left_out = samples.filter((each) => each.left_out);
   return without_names(Plot.plot({
     width: width_of(860), height: 430, marginLeft: 60, marginBottom: 44, style: { fontSize: "13px" },
-    x: { domain: [-88, 88], label: "viewer, degrees from the normal; the light is at \u221245", labelArrow: "none", labelAnchor: "center", ticks: [-75, -60, -45, -30, -15, 0, 15, 30, 45, 60, 75] },
+    x: { domain: [-88, 88], label: "viewer, degrees from the normal; the light is at \u221245", labelArrow: "none", labelAnchor: "center", ticks: [-75, -45, -15, 15, 45, 75] },
     y: { type: "log", domain: [0.08, 8], label: "red reflectance, sr\u207b\u00b9", ticks: [0.1, 0.2, 0.5, 1, 2, 5], tickFormat: String, grid: true, clamp: true },
     marks: [
       Plot.line(curve_points(scan, scan.truth), { x: "angle", y: "value", stroke: "var(--soft)", strokeWidth: 5, strokeOpacity: 0.4 }),
