@@ -38,9 +38,9 @@ if("bundle" IN_LIST parts)
 endif()
 
 # In the build of cmake/test.cmake: programs of the headers alone, projects that know the installed package alone, the
-# quick runs of the papers' experiments, 50 kills of each long command, the Python module, and pages in a browser, if
-# npm ci was run in examples/report.
+# quick runs of the papers' experiments, 50 kills of each long command, the Python module, and pages in a browser.
 if("others" IN_LIST parts)
+  include("${CMAKE_CURRENT_LIST_DIR}/browser.cmake")
   step("others: configure" ${cmake} -S . -B build/test -G Ninja
        -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
        -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=ON -D GONIO_TEST_CONSUMERS=ON

@@ -19,6 +19,11 @@ set(gonio_packages
   "libclang-rt-19-dev  header  sanitizer/asan_interface.h"
   "libc++-19-dev       header  c++/v1/vector"
   "libc++abi-19-dev    header  c++/v1/cxxabi.h"
+  "lld-19              program wasm-ld-19"
+  "wasi-libc           header  wasm32-wasi/wasi/api.h"
+  "libclang-rt-19-dev-wasm32 header llvm-19/lib/clang/19/lib/wasi/libclang_rt.builtins-wasm32.a"
+  "libc++-19-dev-wasm32 header wasm32-wasi/c++/v1/vector"
+  "libc++abi-19-dev-wasm32 header wasm32-wasi/c++/v1/cxxabi.h"
   "libeigen3-dev       header  eigen3/Eigen/Core"
   "libxtensor-dev      header  xtensor/xtensor.hpp"
   "zlib1g-dev          header  zlib.h"
@@ -42,7 +47,10 @@ set(gonio_packages
   "mkdocs              program mkdocs"
   "mkdocs-material     header  mkdocs/themes/material/main.html"
   "doxygen             program doxygen"
-  "linkchecker         program linkchecker")
+  "linkchecker         program linkchecker"
+  "chromium            program chromium"
+  "nodejs              program node"
+  "npm                 program npm")
 
 # The packages of ARGN that are not there.
 function(gonio_find_missing result)

@@ -1,7 +1,7 @@
 # cmake [-D TOOL=build/bin/gonio] -P cmake/site.cmake (or the target `site`): docs/ and README.md as a static site with
-# search, ten materials to turn under a light, and the reference of all headers, in build/site. Builds the tool as
-# demo.cmake does where none is given or built. mkdocs-material, Doxygen and linkchecker are Debian packages; once they are there, no network
-# is needed. A warning of any of them, or a dead link, is an error.
+# search, ten materials to turn under a light, lessons that compute, and the reference of all headers, in build/site. Builds the tool as
+# demo.cmake does where none is given or built. mkdocs-material, Doxygen, linkchecker and what lessons.cmake needs are Debian packages; once
+# they are there, no network is needed. A warning of any of them, or a dead link, is an error.
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 gonio_set_up(${gonio_library_packages} mkdocs mkdocs-material doxygen linkchecker)
 
@@ -63,14 +63,23 @@ while(shown)
   string(APPEND viewer "|\n")
 endwhile()
 file(REMOVE "${pages}/viewer/truth.binary" "${pages}/viewer/samples.csv")
+string(APPEND viewer "
+Two pages compute in the browser: [five components by slider](viewer/components.html), of the lesson on
+[why 20 measurements are enough](docs/learn/why-twenty.md), and [spoil a sample](viewer/spoil.html), of the lesson on
+[outliers](docs/learn/robust-estimation.md).
+")
 file(WRITE "${pages}/viewer.md" "${viewer}")
+step("site: lessons that compute" ${cmake} -D "OUTPUT=${pages}/viewer" -P cmake/lessons.cmake)
 
-# Lessons have a viewer where a page of the repository says how to get one.
+# Lessons have pages within them where a page of the repository says how to get one.
 file(GLOB lessons "${pages}/docs/learn/*.md")
 foreach(lesson IN LISTS lessons)
   file(READ "${lesson}" text)
-  string(REGEX REPLACE "<!-- viewer ([a-z_-]+) -->.*<!-- end of viewer -->"
-         "<iframe src=\"../../viewer/\\1.html\" title=\"\\1 under a light\" width=\"100%\" height=\"900\"></iframe>" shown "${text}")
+  string(REGEX REPLACE "<!-- viewer ([a-z_-]+) -->[^<]*<!-- end of viewer -->"
+         "<iframe src=\"../../viewer/\\1.html\" title=\"\\1, interactive\" width=\"100%\" height=\"900\"></iframe>\n<a href=\"../../viewer/\\1.html\">\\1, as a page of its own</a>" shown "${text}")
+  if(shown MATCHES "<!-- viewer")
+    message(FATAL_ERROR "${lesson}: text between the marks of a viewer must be without <")
+  endif()
   if(NOT shown STREQUAL text)
     file(WRITE "${lesson}" "${shown}")
   endif()

@@ -11,6 +11,7 @@
 #include <gonio/core/impl/random.ipp>
 #include <gonio/core/impl/rotation.ipp>
 #include <gonio/core/impl/spelling.ipp>
+#include <gonio/core/impl/vector_kernels.ipp>
 
 namespace gonio::detail {
 

@@ -24,6 +24,7 @@
 #include <gonio/io/impl/openmaterial.ipp>
 #include <gonio/io/impl/pnm.ipp>
 #include <gonio/io/impl/prior.ipp>
+#include <gonio/io/impl/prior_payload.ipp>
 #include <gonio/io/impl/reference_reflectance.ipp>
 #include <gonio/io/impl/renderer_material.ipp>
 #include <gonio/io/impl/rgl.ipp>

@@ -7,4 +7,3 @@
 #include <gonio/solve/impl/singular_values.ipp>
 #include <gonio/solve/impl/symmetric_eigen.ipp>
 #include <gonio/solve/impl/thin_product.ipp>
-#include <gonio/solve/impl/vector_kernels.ipp>

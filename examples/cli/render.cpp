@@ -5,6 +5,7 @@
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
+#include "contact_sheet.hpp"
 #include "exr_files.hpp"
 #include "image_text.hpp"
 #include "images.hpp"
@@ -38,7 +39,8 @@ struct render_options {
   std::vector<std::filesystem::path> tables;
   std::vector<std::string> lights;
   std::filesystem::path output, environment;
-  bool slices = false, compares = false;
+  bool slices = false, compares = false, labels = false;
+  std::string caption;
   int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
   image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
@@ -72,16 +74,6 @@ gonio::render::directional_lighting lighting_of(const render_options& options) {
   std::vector<gonio::directional_light> lights;
   for (const std::string& text : options.lights) lights.push_back({light_of(text)});
   return gonio::render::directional_lighting(std::move(lights));
-}
-
-/// Images of one size, row by row.
-gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t columns) {
-  constexpr std::size_t margin = 8;
-  const std::size_t step = images[0].shape(0) + margin, rows = (images.size() + columns - 1) / columns;
-  gonio::image sheet = gonio::uniform_image(rows * step + margin, columns * step + margin, gonio::rgb::Zero());
-  for (std::size_t i = 0; i < images.size(); ++i)
-    gonio::render::paste(sheet, images[i], margin + i / columns * step, margin + i % columns * step);
-  return sheet;
 }
 
 /// From so many columns on the numbers of a scale have room.
@@ -141,7 +133,27 @@ void require_comparable(const render_options& options) {
                   ", for the numbers of its scale");
 }
 
+/// The tables' names without folders and extensions, where they are asked for.
+sheet_text text_of(const render_options& options) {
+  sheet_text text{{}, options.caption};
+  if (!options.labels) return text;
+  for (std::filesystem::path name : options.tables) {
+    name = name.filename();
+    if (lower_extension(name) == ".gz") name.replace_extension();
+    text.labels.push_back(name.stem().string());
+  }
+  if (options.compares) text.labels.emplace_back("Delta E");
+  return text;
+}
+
+/// Refuses text in an image whose numbers are radiance.
+void require_no_text(const render_options& options) {
+  if (is_exr(options.output) && (options.labels || !options.caption.empty()))
+    gonio::refuse("--labels and --caption draw text for people: their -o needs the extension .png");
+}
+
 void render(const render_options& options) {
+  require_no_text(options);
   if (options.compares) require_comparable(options);
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
@@ -167,7 +179,8 @@ void render(const render_options& options) {
     std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
   }
   const gonio::image beside = contact_sheet(
-      images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()));
+      images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()),
+      text_of(options));
   if (is_exr(options.output))
     write_exr(options.output, beside);
   else
@@ -209,6 +222,8 @@ void add_render(command& app) {
   command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
       .check(check::range(1, 1000))
       .default_str("all in one row");
+  command.add_flag("--labels", options->labels, "Under each image the name of its table");
+  command.add_option("--caption", options->caption, "A line of text under all images");
   add_image_options_to(command, options->image,
                        "0.4 in an environment; under the lights such that the brightest sphere is white at its 99th "
                        "percentile")

@@ -23,3 +23,4 @@
 #include <gonio/core/spectrum.hpp>
 #include <gonio/core/spelling.hpp>
 #include <gonio/core/statistics.hpp>
+#include <gonio/core/vector_kernels.hpp>

@@ -27,6 +27,7 @@
 #include <gonio/io/openmaterial.hpp>
 #include <gonio/io/pnm.hpp>
 #include <gonio/io/prior.hpp>
+#include <gonio/io/prior_payload.hpp>
 #include <gonio/io/quantise.hpp>
 #include <gonio/io/reference_reflectance.hpp>
 #include <gonio/io/renderer_material.hpp>

@@ -25,6 +25,7 @@
 #include <gonio/solve/nnls.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/product.hpp>
+#include <gonio/solve/product_sum.hpp>
 #include <gonio/solve/quadratic_program.hpp>
 #include <gonio/solve/row_active_set.hpp>
 #include <gonio/solve/row_equations.hpp>
@@ -38,5 +39,4 @@
 #include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/tikhonov.hpp>
 #include <gonio/solve/truncated_svd.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 #include <gonio/solve/working_set.hpp>

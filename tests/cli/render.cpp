@@ -147,6 +147,42 @@ TEST_CASE("gonio render --compare: the difference of two tables as a third image
   CHECK_FALSE(std::filesystem::exists(given.folder / "x.png"));
 }
 
+TEST_CASE("gonio render: --labels under each image, --caption under all") {
+  const rendered_folder given;
+  run("expand --formula red-paint -o " + given.at("red.binary"));
+  const auto draw = [&](const std::string& arguments) {
+    run("render --slices --size 200 " + arguments + " -o " + given.at("text.png"));
+    return gonio::io::read_png(given.folder / "text.png");
+  };
+  // How many pixels of a part are not black.
+  const auto drawn = [](const gonio::image& image, std::size_t top, std::size_t left, std::size_t columns) {
+    int count = 0;
+    for (std::size_t row = top; row < std::min<std::size_t>(top + 14, image.shape(0)); ++row)
+      for (std::size_t column = left; column < left + columns; ++column)
+        count += (gonio::pixel(image, row, column) != 0.0).any();
+    return count;
+  };
+  const std::string tables = given.table + " " + given.at("red.binary");
+  const gonio::image plain = draw(tables), labelled = draw("--labels " + tables);
+  REQUIRE(plain.shape(0) == 216u);
+  REQUIRE(labelled.shape(0) == 230u);
+  CHECK(drawn(labelled, 8 + 200, 8, 200) > 20);
+  CHECK(drawn(labelled, 8 + 200, 216, 200) > 20);
+  for (std::size_t row = 0; row < 200; row += 7)
+    CHECK((gonio::pixel(labelled, 8 + row, 100) == gonio::pixel(plain, 8 + row, 100)).all());
+
+  const gonio::image captioned = draw("--caption \"Two paints\" " + tables);
+  REQUIRE(captioned.shape(0) == 230u);
+  CHECK(drawn(captioned, 216, 8, 400) > 20);
+  std::string words;
+  for (int i = 0; i < 40; ++i) words += "word ";
+  const gonio::image lines = draw("--caption \"" + words + "\" " + tables);
+  CHECK(lines.shape(0) > 240u);
+  CHECK(drawn(lines, lines.shape(0) - 14, 8, 200) > 20);
+  CHECK(draw("--caption \"" + std::string(200, 'w') + "\" " + tables).shape(0) == 230u);
+  refuses("render --labels " + tables + " -o " + given.at("x.exr"), {"--labels", ".png"});
+}
+
 #if defined(GONIO_HAS_EXR)
 TEST_CASE("gonio render: an .exr image has the values themselves, and may be the environment") {
   const rendered_folder given;

@@ -7,6 +7,8 @@
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
+#include <ranges>
+
 using gonio::locate_samples;
 using gonio::rgb;
 

@@ -5,6 +5,8 @@
 
 #include <rapidcheck.h>
 
+#include <ranges>
+
 using gonio::degrees;
 using gonio::radians;
 using gonio::io::parse_samples;

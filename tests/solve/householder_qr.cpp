@@ -1,6 +1,6 @@
 #include "random_problems.hpp"
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/householder_qr.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 #include <doctest/doctest.h>

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <limits>
+#include <ranges>
 
 using gonio::rgb;
 using gonio::sample;

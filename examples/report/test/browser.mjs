@@ -11,7 +11,7 @@ export const [tool, folder] = process.argv.slice(2);
 if (!tool || !folder) throw new Error("usage: node page.mjs TOOL FOLDER");
 mkdirSync(folder, { recursive: true });
 
-function skip(reason) {
+export function skip(reason) {
   console.log(`skipped: ${reason}`);
   process.exit(77);
 }

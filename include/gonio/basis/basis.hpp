@@ -222,7 +222,10 @@ template <basis Basis>
 template <basis Basis>
 [[nodiscard]] Eigen::MatrixXd rows_at(const Basis& functions, std::span<const location> at) {
   Eigen::MatrixXd rows(std::ssize(at), functions.size());
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) rows.row(i) = row_at(functions, at[i]);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const Eigen::RowVectorXd row = row_at(functions, at[i]);
+    for (Eigen::Index k = 0; k < row.size(); ++k) rows(i, k) = row[k];
+  }
   return rows;
 }
 

@@ -3,7 +3,7 @@
 
 #include <gonio/basis/basis.hpp>
 #include <gonio/core/parallel.hpp>
-#include <gonio/solve/vector_kernels.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/table/upsample.hpp>
 
 #include <Eigen/Core>
@@ -31,7 +31,7 @@ template <combinable_basis Basis>
   if constexpr (combining_basis<Basis>) {
     return functions.combination(weights, threads);
   } else {
-    const Eigen::MatrixXf columns = weights.cast<float>();
+    const Eigen::MatrixXf columns = to_float(weights);
     cell_fields<3> field(3, functions.cells().size());
     for_each_index(
         functions.cells().size(), 4096,

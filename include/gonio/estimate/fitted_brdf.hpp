@@ -5,9 +5,9 @@
 #include <gonio/basis/combine.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/estimate/estimator.hpp>
 #include <gonio/solve/solver.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 #include <gonio/table/upsample.hpp>
 
 #include <Eigen/Core>
@@ -119,7 +119,7 @@ class fitted_brdf {
     for (Eigen::Index c = 0; c < 3; ++c) {
       const channel_type& functions = channels_[c];
       if (c == 0 || !basis<Basis>) functions.read_row(at, row);
-      value[c] = row.dot(weights_.col(c)) + offset_at(functions, at);
+      value[c] = dot(row.data(), &weights_(0, c), row.size()) + offset_at(functions, at);
     }
     return value;
   }
@@ -148,13 +148,12 @@ requires std::same_as<domain_of<Basis>, valid_cells> fitted_brdf<Basis>::fitted_
       channels_{channel_of(basis_, 0), channel_of(basis_, 1), channel_of(basis_, 2)},
       weights_(std::move(weights)),
       report_(std::move(report)),
-      float_weights_(weights_.rows(), weights_.cols()) {
+      float_weights_(to_float(weights_)) {
   if (const Eigen::Index size = basis_.size(); weights_.rows() != size || weights_.cols() != 3)
     refuse({"a fit by ", basis_.size(), " functions needs as many weights for each of 3 channels"});
   if (computed && weights_.rows() > most_computed_functions)
     refuse({"a fit by functions that are computed can have at most ", most_computed_functions, " of them, not ",
             basis_.size()});
-  for (Eigen::Index i = 0; i < weights_.size(); ++i) float_weights_.data()[i] = static_cast<float>(weights_.data()[i]);
 }
 
 template <colour_basis Basis>
@@ -178,7 +177,8 @@ const {
       return mapped_at(at);
     else
       return interpolate(
-          at, [&](Eigen::Index cell) { return field.col(cell).template cast<double>(); }, rgb(rgb::Zero()));
+          at, [&](Eigen::Index cell) { return rgb(field(0, cell), field(1, cell), field(2, cell)); },
+          rgb(0.0, 0.0, 0.0));
   };
   const bool own = cells == basis_.cells();
   brdf_table table(cells);

@@ -1,6 +1,7 @@
 #pragma once
 /// The logarithmic metric ln(1 + rho). Noell, Koehler and Stricker 2014, section 2.4 and Eq. 14.
 
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/metric/place_free.hpp>
 
 #include <cmath>
@@ -19,7 +20,8 @@ struct log : place_free_metric<log> {
   template <class Values>
   static void unmap_all(Values& values) {
     constexpr float border = 0.5f;
-    const float exp_at_border = Eigen::Array<float, 8, 1>::Constant(border).exp()[0];  // rounded as all others
+    float exp_at_border = border;
+    exponentiate(&exp_at_border, 1);  // rounded as all others
     const auto y = values.max(0.0f).min(border);
     const auto high = 1.0f / 24 + y * (1.0f / 120 + y * (1.0f / 720 + y * (1.0f / 5040)));
     const auto series = y * (1.0f + y * (1.0f / 2 + y * (1.0f / 6 + y * high)));

@@ -4,6 +4,7 @@
 /// SIGGRAPH Asia 2015 (doi:10.1145/2816795.2818085), Eq. 1-4; weighed by the larger cosine: Xu et al. 2016
 /// (doi:10.1145/2980179.2982396), section 3.
 
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/metric/error_metric.hpp>
 #include <gonio/table/cell_matrix.hpp>
 
@@ -95,12 +96,12 @@ class log_relative {
   template <class Values>
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
     constexpr auto small = static_cast<float>(epsilon);
-    values = values.exp();
-    for (Eigen::Index i = 0; i < row.count; ++i) {
+    exponentiate(values.data(), values.size());
+    const float* relative = values.data();
+    for (Eigen::Index i = 0; i < row.count; ++i, relative += 4) {
       const float shift = small / static_cast<float>(cosine_weight(row.cosine(i)));
-      // All four of a column at once; the fourth is not used.
-      const Eigen::Array4f rho = (values.col(i) * (values(3, i) + shift) - shift).max(0.0f);
-      std::copy_n(rho.data(), 3, out.data() + 3 * i);
+      for (Eigen::Index channel = 0; channel < 3; ++channel)
+        out[3 * i + channel] = std::max(relative[channel] * (relative[3] + shift) - shift, 0.0f);
     }
   }
 

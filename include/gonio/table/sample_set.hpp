@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include <concepts>
-#include <ranges>
+#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -16,7 +16,7 @@ namespace gonio {
 /// How much a measurement counts in each colour channel. A number alone counts in all three: `sample.weight = 0.5`.
 class channel_weights {
  public:
-  channel_weights(double of_all = 1.0) : of_each_(rgb::Constant(of_all)) {}
+  channel_weights(double of_all = 1.0) : of_each_(of_all, of_all, of_all) {}
   channel_weights(const rgb& of_each) : of_each_(of_each) {}
 
   [[nodiscard]] double operator[](Eigen::Index channel) const { return of_each_[channel]; }
@@ -106,8 +106,11 @@ struct sample {
 /// }
 /// ```
 template <class Range>
-concept sample_range =
-    std::ranges::forward_range<Range> && std::convertible_to<std::ranges::range_reference_t<Range>, sample>;
+concept sample_range = requires(Range& range) {
+  { std::ranges::begin(range) } -> std::forward_iterator;
+  { *std::ranges::begin(range) } -> std::convertible_to<sample>;
+  std::ranges::end(range);
+};
 
 using sample_set = std::vector<sample>;
 static_assert(sample_range<sample_set>);
@@ -131,9 +134,9 @@ void require_usable(const Samples& samples) {
 
 /// Does one of the measurements count more in one channel than in another? They are samples, or whatever else has a
 /// `weight` of type `channel_weights`.
-template <std::ranges::forward_range Measurements>
+template <class Measurements>
 [[nodiscard]] bool weigh_channels_apart(const Measurements& measurements) {
-  using value = std::ranges::range_value_t<Measurements>;
+  using value = std::iter_value_t<decltype(std::ranges::begin(measurements))>;
   using measurement = std::conditional_t<sample_range<Measurements>, sample, value>;
   for (const measurement& each : measurements)
     if (!each.weight.is_uniform()) return true;

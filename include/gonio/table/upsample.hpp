@@ -4,12 +4,14 @@
 /// is a product of three linear ones, so the two polar axes are blended once for a whole row of phi_d.
 
 #include <gonio/core/parallel.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/table/location.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace gonio {
@@ -64,16 +66,16 @@ struct phi_d_nodes {
 /// Blends a grid's rows around (theta_h, theta_d) into one line over phi_d.
 template <int Fields>
 void blend_rows(const grid& source, const cell_fields<Fields>& dense, double theta_h, double theta_d,
-                cell_fields<Fields>& line) {
+                std::span<float> line) {
   const grid_extents extents = source.extents();
   const auto h = clamped_interval(source.theta_h_coordinate(theta_h), extents.theta_h);
   const auto d = clamped_interval(source.theta_d_coordinate(theta_d), extents.theta_d);
-  std::fill_n(line.data(), line.size(), 0.0f);
+  std::ranges::fill(line, 0.0f);
   for (Eigen::Index a = 0; a < 2; ++a)
     for (Eigen::Index b = 0; b < 2; ++b) {
       const auto weight = static_cast<float>(h.weight[a] * d.weight[b]);
       const auto start = source.linear({h.node[a], d.node[b], 0});
-      if (weight != 0.0f) line += weight * dense.middleCols(start, extents.phi_d);
+      if (weight != 0.0f) add_scaled(weight, dense.data() + Fields * start, line.data(), std::ssize(line));
     }
 }
 
@@ -95,7 +97,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
   for_each_block(
       target.extents().theta_h * theta_d_count, theta_d_count,
       [&](block range) {
-        cell_fields<Fields> line(Fields, source.extents().phi_d), values(Fields, target.extents().phi_d);
+        std::vector<float> line(Fields * source.extents().phi_d), values(Fields * phi_d_count);
         std::vector<int> phi_d(phi_d_count);
         for (Eigen::Index r = range.begin; r < range.end; ++r) {
           const auto count = to.row_begin(r + 1) - to.row_begin(r);
@@ -109,11 +111,13 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
             const Eigen::Index k = to.linear(first + i) - before;
             phi_d[i] = static_cast<int>(k);
             const detail::axis_interval& p = nodes.along[k];
-            values.col(i) = static_cast<float>(p.weight[0]) * line.col(p.node[0]) +
-                            static_cast<float>(p.weight[1]) * line.col(p.node[1]);
+            const float *before_it = line.data() + Fields * p.node[0], *after_it = line.data() + Fields * p.node[1];
+            const auto share_before = static_cast<float>(p.weight[0]), share_after = static_cast<float>(p.weight[1]);
+            for (int field = 0; field < Fields; ++field)
+              values[Fields * i + field] = share_before * before_it[field] + share_after * after_it[field];
           }
           // Hand the row to the caller.
-          auto row_values = values.leftCols(count);
+          Eigen::Map<cell_fields<Fields>> row_values(values.data(), Fields, count);
           const cell_row row{first,
                              count,
                              theta_h,

@@ -4,8 +4,8 @@
 #include <gonio/basis/discrepancy.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/product.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <algorithm>
 #include <cmath>

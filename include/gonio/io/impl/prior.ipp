@@ -4,20 +4,15 @@
 #include <gonio/basis/pca.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/core/finite.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/io/prior.hpp>
-#include <gonio/io/quantise.hpp>
+#include <gonio/io/prior_payload.hpp>
 #include <gonio/io/text.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace gonio::io::detail {
@@ -25,156 +20,13 @@ namespace gonio::io::detail {
 inline constexpr checked_file_kind prior_kind{"gonio-pca", 1, "prior"};
 inline constexpr checked_file_kind soft_specular_kind{"gonio-split", 1, "soft and specular prior"};
 
-/// How cells are anchored and reflectance is weighted, in one number: version 1 has had the anchor's 0 and 1 there from
-/// the start, so that older programs refuse weights that they do not know.
-[[nodiscard]] GONIO_INLINE std::uint32_t conventions_of(const log_relative_pca& prior) {
-  const bool corner = prior.cells().grid().anchor() == cell_anchor::lower_corner;
-  const bool larger = prior.metric().weighting() == cosine_weighting::larger;
-  return (corner ? 1u : 0u) + (larger ? 2u : 0u);
-}
-
-[[nodiscard]] GONIO_INLINE std::vector<float> log_of_reference(const log_relative& metric) {
-  std::vector<float> logarithm;
-  logarithm.reserve(metric.cells().size());
-  for (const float rho : metric.reference()) logarithm.push_back(static_cast<float>(log_relative::log_reference(rho)));
-  return logarithm;
-}
-
-GONIO_INLINE void put_prior(byte_writer& out, const log_relative_pca& prior) {
-  const gonio::grid& grid = prior.cells().grid();
-  out.put(static_cast<std::uint32_t>(grid.extents().theta_h));
-  out.put(static_cast<std::uint32_t>(grid.extents().theta_d));
-  out.put(static_cast<std::uint32_t>(grid.extents().phi_d));
-  out.put(conventions_of(prior));
-  out.put(prior.cells().minimum_cosine());
-  out.put(static_cast<std::uint32_t>(prior.size()));
-  out.put(static_cast<std::uint32_t>(prior.names().size()));
-  out.put(prior.explained_variance());
-  out.put_text(prior.source());
-  for (const std::string& name : prior.names()) out.put_text(name);
-  out.put_bytes(prior.singular_values().data(), prior.size() * sizeof(double));
-  const Eigen::MatrixXf& coefficients = prior.coefficients();
-  out.put_bytes(coefficients.data(), coefficients.size() * sizeof(float));
-  put_quantised(out, quantise<std::uint16_t>(log_of_reference(prior.metric())));
-  put_quantised(out, quantise<std::uint16_t>(prior.mean()));
-  std::vector<float> component(prior.cells().size());
-  for (Eigen::Index k = 0; k < prior.size(); ++k) {
-    for (std::size_t cell = 0; cell < component.size(); ++cell) component[cell] = prior.row(cell)[k];
-    put_quantised(out, quantise<std::uint8_t>(component));
-  }
-}
-
-/// What `act` returns; what it throws names the file.
-template <class Act>
-[[nodiscard]] auto naming_prior(const std::string& name, const Act& act) {
-  try {
-    return act();
-  } catch (const error& refusal) {
-    gonio::refuse({name, ": ", refusal.what()});
-  }
-}
-
-/// The cells of a prior and the weight of its metric.
-struct prior_domain {
-  valid_cells cells;
-  cosine_weighting weighting;
-};
-
-[[nodiscard]] GONIO_INLINE prior_domain take_domain(byte_reader& in, const std::string& name) {
-  const auto extent = [&] { return static_cast<int>(std::min<std::uint32_t>(in.take<std::uint32_t>(), 1u << 30)); };
-  const int theta_h = extent(), theta_d = extent(), phi_d = extent();
-  const auto conventions = in.take<std::uint32_t>();
-  if (conventions > 3)
-    gonio::refuse({name, ": cell anchor and cosine weight are ", conventions,
-                   ", expected 0 (centre) or 1 (lower corner), and 2 more for the larger cosine"});
-  const auto minimum_cosine = in.take<double>();
-  if (!(minimum_cosine >= 0.0 && minimum_cosine < 1.0))
-    gonio::refuse({name, ": the smallest cosine of a valid cell must be in [0, 1)"});
-  const gonio::grid grid = naming_prior(name, [&] {
-    return gonio::grid({theta_h, theta_d, phi_d},
-                       conventions % 2 == 0 ? cell_anchor::centre : cell_anchor::lower_corner);
-  });
-  // A valid cell takes 5 bytes at least: two codes of 16 bits, and one of 8 for each component. On a grid of any size
-  // half of the cells are valid, unless they are few or the smallest cosine is large.
-  constexpr Eigen::Index small_grid = Eigen::Index{1} << 21;
-  const Eigen::Index most = in.left() / 5;
-  Eigen::Index valid = 0;
-  if (grid.size() <= std::max(2 * most, small_grid))
-    for_each_smaller_cosine(grid, [&](Eigen::Index, double cosine) {
-      if (cosine > std::max(minimum_cosine, valid_cells::horizon)) ++valid;
-    });
-  if (valid > most || grid.size() > std::max(2 * most, small_grid))
-    gonio::refuse({name, ": the grid has more cells than the file has values"});
-  return {naming_prior(name, [&] { return valid_cells(grid, minimum_cosine); }),
-          conventions < 2 ? cosine_weighting::product : cosine_weighting::larger};
-}
-
-/// The fewest bytes that follow the counts: the share of the variance, a length for each text, all numbers.
-[[nodiscard]] GONIO_INLINE double least_rest(double cells, double components, double materials) {
-  return 8.0 + 4.0 * (1.0 + materials) + components * (8.0 + 12.0 * materials) + 2.0 * (8.0 + 2.0 * cells) +
-         components * (8.0 + cells);
-}
-
-[[nodiscard]] GONIO_INLINE std::vector<float> dequantise_all(const quantised<std::uint16_t>& column) {
-  std::vector<float> values(column.codes.size());
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = dequantise(column, i);
-  return values;
-}
-
-[[nodiscard]] GONIO_INLINE log_relative_pca take_prior(byte_reader& in, const std::string& name) {
-  // Read the grid and the counts, and refuse counts that the rest of the file cannot hold.
-  const auto [cells, weighting] = take_domain(in, name);
-  const auto components = in.take<std::uint32_t>();
-  const auto materials = in.take<std::uint32_t>();
-  if (components == 0 || components > 3 * std::uint64_t{materials})
-    gonio::refuse({name, ": ", components, " components of ", materials, " materials are impossible"});
-  if (least_rest(static_cast<double>(cells.size()), components, materials) > static_cast<double>(in.left()))
-    gonio::refuse({name, ": the file is truncated or its counts are wrong: ", in.left(), " bytes cannot hold ",
-                   components, " components of ", materials, " materials over ", cells.size(), " cells"});
-  // Read what describes the training: variance, source, names, singular values and coefficients.
-  const auto explained_variance = in.take<double>();
-  std::string source = in.take_text();
-  std::vector<std::string> names(materials);
-  for (std::string& material : names) material = in.take_text();
-  const Eigen::Index k = components;
-  const auto singular = in.take_all<double>(components);
-  const auto observed = in.take_all<float>(std::size_t{3} * materials * components);
-
-  // Decode the quantised reference, mean and components.
-  std::vector<float> reference = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  for (float& value : reference) value = std::exp(value);
-  std::vector<float> mean = dequantise_all(take_quantised<std::uint16_t>(in, cells.size()));
-  cell_matrix functions(cells.size(), k);
-  for (Eigen::Index c = 0; c < k; ++c) {
-    const auto column = take_quantised<std::uint8_t>(in, cells.size());
-    for (Eigen::Index cell = 0; cell < cells.size(); ++cell) functions(cell, c) = dequantise(column, cell);
-  }
-  if (in.left() != 0) gonio::refuse({name, ": ", in.left(), " bytes follow the last component"});
-
-  // Refuse values that are not finite.
-  Eigen::VectorXd singular_values(k);
-  std::copy(singular.begin(), singular.end(), singular_values.data());
-  Eigen::MatrixXf coefficients(3 * materials, k);
-  std::copy(observed.begin(), observed.end(), coefficients.data());
-  const std::span<const float> values(functions.data(), functions.size());
-  const bool finite = std::isfinite(explained_variance) && all_finite(singular) && all_finite(observed) &&
-                      all_finite(values) && all_finite(mean);
-  if (!finite) gonio::refuse({name, ": a value of the prior is not finite"});
-  // Construct the prior; its own checks name the file.
-  return naming_prior(name, [&] {
-    return log_relative_pca({cells, log_relative(cells, std::move(reference), weighting), std::move(names),
-                             std::move(singular_values), std::move(functions), std::move(mean), std::move(coefficients),
-                             explained_variance, std::move(source)});
-  });
-}
-
 }  // namespace gonio::io::detail
 
 namespace gonio::io {
 
 GONIO_INLINE std::vector<std::byte> encode_prior(const log_relative_pca& prior) {
   byte_writer payload;
-  detail::put_prior(payload, prior);
+  put_prior(payload, prior);
   return encode_checked(detail::prior_kind, payload.bytes());
 }
 
@@ -183,7 +35,7 @@ GONIO_INLINE log_relative_pca decode_prior(std::span<const std::byte> bytes, con
     gonio::refuse({name, ": a soft and a specular prior, where one prior of all materials is expected"});
   const auto payload = decode_checked(detail::prior_kind, bytes, name);
   byte_reader in(payload, name);
-  return detail::take_prior(in, name);
+  return take_prior(in, name);
 }
 
 GONIO_INLINE bool is_prior(const std::filesystem::path& path) { return is_of_kind(detail::prior_kind, path); }

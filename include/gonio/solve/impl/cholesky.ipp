@@ -2,10 +2,11 @@
 /// Bodies of solve/cholesky.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/cholesky.hpp>
-#include <gonio/solve/vector_kernels.hpp>
+#include <gonio/solve/product_sum.hpp>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
@@ -13,21 +14,49 @@
 namespace gonio {
 
 GONIO_INLINE Eigen::MatrixXd product_with_transpose(const matrix_view& a) {
-  const Eigen::Index n = a.rows();
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n, n);
-  whole.selfadjointView<Eigen::Lower>().rankUpdate(a);
-  for (Eigen::Index j = 0; j < n; ++j)
-    for (Eigen::Index i = j + 1; i < n; ++i) whole(j, i) = whole(i, j);
-  return whole;
+  using sum_type = detail::product_sum<double>;
+  sum_type sum(a.rows(), std::min(a.cols(), sum_type::block_rows));
+  for (Eigen::Index begin = 0; begin < a.cols(); begin += sum_type::block_rows) {
+    const Eigen::Index count = std::min(a.cols() - begin, sum_type::block_rows);
+    for (Eigen::Index i = 0; i < count; ++i)
+      std::copy_n(a.data() + (begin + i) * a.outerStride(), a.rows(), sum.row(i));
+    sum.add(count);
+  }
+  return sum.symmetric();
 }
 
-GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_definite_(false) {
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(lower_);
-  positive_definite_ = in_place.info() == Eigen::Success;
+// Factorisation and substitution by our own loops. Eigen's generate a blocked kernel for each triangle, and products of
+// blocks of blocks: they cost every program that solves a system a second of compilation.
+
+GONIO_INLINE cholesky::cholesky(const matrix_view& a) : lower_(a), positive_definite_(true) {
+  constexpr Eigen::Index panel = 64;
+  const Eigen::Index k = lower_.rows();
+  for (Eigen::Index begin = 0; begin < k && positive_definite_; begin += panel) {
+    const Eigen::Index end = std::min(begin + panel, k);
+    factorise_columns(begin, end);
+    // Take what they explain from the rest: A22 - L21 L21'.
+    if (end == k) break;
+    detail::product_sum<double> explained(k - end, end - begin);
+    for (Eigen::Index j = begin; j < end; ++j) std::copy_n(&lower_(end, j), k - end, explained.row(j - begin));
+    explained.add(end - begin);
+    explained.subtract_lower_from(&lower_(end, end), k);
+  }
 }
 
-// Substitution by our own loops rather than Eigen's, which generates a blocked kernel for each triangle, and without a
-// matrix product, which costs every program that solves a system a second of compilation.
+GONIO_INLINE void cholesky::factorise_columns(Eigen::Index begin, Eigen::Index end) {
+  const Eigen::Index k = lower_.rows();
+  for (Eigen::Index j = begin; j < end; ++j) {
+    double* column = &lower_(j, j);
+    for (Eigen::Index known = begin; known < j; ++known)
+      add_scaled(-lower_(j, known), &lower_(j, known), column, k - j);
+    if (!(column[0] > 0.0)) {
+      positive_definite_ = false;
+      return;
+    }
+    const double root = std::sqrt(column[0]);
+    for (Eigen::Index i = 0; i < k - j; ++i) column[i] /= root;
+  }
+}
 
 GONIO_INLINE void cholesky::solve_lower_in_place(double* b) const noexcept {
   const Eigen::Index k = lower_.rows();

@@ -2,8 +2,8 @@
 /// Bodies of solve/householder_qr.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/householder_qr.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

@@ -3,11 +3,11 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/gram.hpp>
 #include <gonio/solve/least_squares_problem.hpp>
 #include <gonio/solve/normal_equations.hpp>
 #include <gonio/solve/row_source.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

@@ -3,8 +3,8 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/normal_equations.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

@@ -2,12 +2,12 @@
 /// Bodies of solve/row_active_set.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/compensated.hpp>
 #include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/iteration.hpp>
 #include <gonio/solve/row_active_set.hpp>
 #include <gonio/solve/thin_product.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

@@ -2,9 +2,9 @@
 /// Bodies of solve/row_equations.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/row_equations.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

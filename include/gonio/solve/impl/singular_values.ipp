@@ -3,10 +3,10 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/householder_qr.hpp>
 #include <gonio/solve/singular_values.hpp>
 #include <gonio/solve/symmetric_eigen.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <Eigen/Core>
 

@@ -2,8 +2,8 @@
 /// Bodies of solve/thin_product.hpp.
 
 #include <gonio/core/compiled.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/thin_product.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 namespace gonio {
 

@@ -3,10 +3,10 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/vector_kernels.hpp>
 #include <gonio/solve/cholesky.hpp>
 #include <gonio/solve/thin_product.hpp>
 #include <gonio/solve/tikhonov.hpp>
-#include <gonio/solve/vector_kernels.hpp>
 
 #include <algorithm>
 #include <cmath>

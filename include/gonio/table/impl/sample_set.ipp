@@ -17,8 +17,9 @@ GONIO_INLINE void require_usable_sample(const sample& s, Eigen::Index number) {
   if (!std::isfinite(theta_h) || !std::isfinite(theta_d) || !std::isfinite(phi_d)) refuse("an angle is not finite");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.value[channel])) refuse("a reflectance is not finite");
-  if ((s.value.abs() > double{std::numeric_limits<float>::max()}).any())
-    refuse("a reflectance is beyond the range of float");
+  for (Eigen::Index channel = 0; channel < 3; ++channel)
+    if (std::abs(s.value[channel]) > double{std::numeric_limits<float>::max()})
+      refuse("a reflectance is beyond the range of float");
   for (Eigen::Index channel = 0; channel < 3; ++channel)
     if (!std::isfinite(s.weight[channel]) || s.weight[channel] < 0.0)
       refuse("the weight must be finite and not negative");

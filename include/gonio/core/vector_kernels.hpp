@@ -18,9 +18,16 @@ namespace gonio {
 
 /// Adds factor a[i] to sum[i].
 void add_scaled(double factor, const double* a, double* sum, Eigen::Index count);
+void add_scaled(float factor, const float* a, float* sum, Eigen::Index count);
+
+/// Replaces each number by its exponential, within 2 units of the last place, and the same wherever a number stands.
+void exponentiate(float* numbers, Eigen::Index count);
+
+/// A copy in single precision.
+[[nodiscard]] Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers);
 
 }  // namespace gonio
 
 #if !defined(GONIO_COMPILED)
-#include <gonio/solve/impl/vector_kernels.ipp>
+#include <gonio/core/impl/vector_kernels.ipp>
 #endif

@@ -1,8 +1,8 @@
 #pragma once
-/// Bodies of solve/vector_kernels.hpp.
+/// Bodies of core/vector_kernels.hpp.
 
 #include <gonio/core/compiled.hpp>
-#include <gonio/solve/vector_kernels.hpp>
+#include <gonio/core/vector_kernels.hpp>
 
 #include <Eigen/Core>
 
@@ -35,6 +35,33 @@ GONIO_INLINE double norm(const double* a, Eigen::Index count) {
 
 GONIO_INLINE void add_scaled(double factor, const double* a, double* sum, Eigen::Index count) {
   Eigen::Map<Eigen::VectorXd>(sum, count) += factor * Eigen::Map<const Eigen::VectorXd>(a, count);
+}
+
+GONIO_INLINE void add_scaled(float factor, const float* a, float* sum, Eigen::Index count) {
+  Eigen::Map<Eigen::VectorXf>(sum, count) += factor * Eigen::Map<const Eigen::VectorXf>(a, count);
+}
+
+GONIO_INLINE void exponentiate(float* numbers, Eigen::Index count) {
+  // Eight at a time, the last ones too: Eigen rounds otherwise where a number stands alone before or after whole vector
+  // registers, which depends on where the memory begins.
+  using eight = Eigen::Array<float, 8, 1>;
+  const Eigen::Index whole = count / 8 * 8;
+  for (Eigen::Index i = 0; i < whole; i += 8) {
+    Eigen::Map<eight> these(numbers + i);
+    these = these.exp();
+  }
+  if (whole == count) return;
+  eight rest;
+  std::fill_n(rest.data(), 8, 0.0f);
+  std::copy_n(numbers + whole, count - whole, rest.data());
+  rest = rest.exp();
+  std::copy_n(rest.data(), count - whole, numbers + whole);
+}
+
+GONIO_INLINE Eigen::MatrixXf to_float(const Eigen::MatrixXd& numbers) {
+  Eigen::MatrixXf copy(numbers.rows(), numbers.cols());
+  for (Eigen::Index i = 0; i < copy.size(); ++i) copy.data()[i] = static_cast<float>(numbers.data()[i]);
+  return copy;
 }
 
 }  // namespace gonio

@@ -1,0 +1,59 @@
+# cmake [-D OUTPUT=DIR] -P cmake/lessons.cmake: the pages of the lessons that compute, as files that ask no network, in
+# build/lessons or DIR (examples/lessons/README.md). The estimator is compiled to WebAssembly by Debian's clang and
+# wasi-libc; once these packages are there, no network is needed.
+include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
+gonio_set_up(libeigen3-dev clang-19 lld-19 wasi-libc libclang-rt-19-dev-wasm32 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32)
+if(NOT OUTPUT)
+  set(OUTPUT "${source}/build/lessons")
+endif()
+set(lessons "${source}/examples/lessons")
+set(report "${source}/examples/report")
+file(MAKE_DIRECTORY "${OUTPUT}")
+find_path(eigen Eigen/Core PATHS /usr/include /usr/local/include PATH_SUFFIXES eigen3 NO_CACHE REQUIRED)
+find_program(clang NAMES clang++-19 clang++ NO_CACHE REQUIRED)
+
+# An index has 32 bits there: that a cell's number fits into one is no news.
+set(estimator "${OUTPUT}/estimator.wasm")
+step("lessons: the estimator" "${clang}" --target=wasm32-wasi -mexec-model=reactor -msimd128 -std=c++20 -O2 -DNDEBUG
+     -Wno-c++11-narrowing "-I${lessons}/single_threaded" "-I${source}/include" -isystem "${eigen}" -Wl,--strip-all
+     "${lessons}/estimator.cpp" -o "${estimator}")
+
+# base64(RESULT FILE FIRST): the bytes of a file from the FIRST on, which is 1.
+function(base64 result file first)
+  execute_process(COMMAND tail -c "+${first}" "${file}" COMMAND base64 -w 0 OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+
+# The payload of the prior follows a head of 25 bytes (docs/reference/formats.md).
+base64(module "${estimator}" 1)
+base64(prior "${source}/examples/data/materials.prior" 26)
+set(data "{\"estimator\": \"${module}\", \"prior\": \"${prior}\"}")
+file(REMOVE "${estimator}")
+
+# The form and the style are those of gonio report's pages, whose policy allows no WebAssembly.
+file(READ "${report}/page.html" form)
+string(REPLACE "script-src 'unsafe-inline'" "script-src 'unsafe-inline' 'wasm-unsafe-eval'" form "${form}")
+function(text_of result)
+  set(text)
+  foreach(file IN LISTS ARGN)
+    file(READ "${file}" piece)
+    string(APPEND text "${piece}")
+  endforeach()
+  set(${result} "${text}" PARENT_SCOPE)
+endfunction()
+text_of(style "${report}/style.css" "${lessons}/style.css")
+text_of(bundle "${report}/bundle.js")
+text_of(components "${report}/tables.js" "${report}/mesh.js" "${report}/viewer.js" "${lessons}/estimator.js" "${lessons}/components.js")
+text_of(spoil "${report}/tables.js" "${lessons}/estimator.js" "${lessons}/spoil.js")
+foreach(page IN ITEMS "components:Five components by slider" "spoil:Spoil a sample")
+  string(REGEX MATCH "(.*):(.*)" matched "${page}")
+  set(html "${form}")
+  foreach(part IN ITEMS "TITLE:CMAKE_MATCH_2" STYLE:style DATA:data BUNDLE:bundle "SCRIPT:${CMAKE_MATCH_1}")
+    string(REPLACE ":" ";" part "${part}")
+    list(GET part 0 mark)
+    list(GET part 1 variable)
+    string(REPLACE "@${mark}@" "${${variable}}" html "${html}")
+  endforeach()
+  file(WRITE "${OUTPUT}/${CMAKE_MATCH_1}.html" "${html}")
+endforeach()
+message("\nThe pages are in ${OUTPUT}")
