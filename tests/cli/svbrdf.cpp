@@ -4,6 +4,8 @@
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
 #include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/io/image.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/svbrdf_map.hpp>
@@ -14,7 +16,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <limits>
@@ -194,4 +198,27 @@ TEST_CASE("svbrdf: quantities are made BRDFs") {
   };
   const Eigen::MatrixXd expected = weights("flat.gsv");
   CHECK((weights("percent.gsv") - expected).cwiseAbs().maxCoeff() < 1e-3 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("svbrdf: a map is drawn as a flat sample, and with its own prior only") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  const std::string map = (given.folder / "map.gsv").string(), image = (given.folder / "map.png").string();
+  const std::string prior = " --prior " + (given.folder / "small.prior").string();
+  run("render " + map + prior + " --light 20,10 --exposure 0.5 -o " + image);
+  const gonio::image drawn = gonio::io::read_png(image);
+  REQUIRE(drawn.shape(0) == 70);
+  REQUIRE(drawn.shape(1) == 1500);
+  const gonio::io::svbrdf_map read(map);
+  const double right = gonio::radians(20.0), up = gonio::radians(10.0);
+  const gonio::direction light{std::sin(right) * std::cos(up), std::sin(up), std::cos(right) * std::cos(up)};
+  const auto band = read.read_band(1);
+  for (const Eigen::Index column : {0, 700, 1499}) {
+    const gonio::fitted_brdf fit(given.prior, gonio::io::weights_of_texel(read.header(), band, 2 * 1500 + column));
+    const gonio::rgb radiance = fit(light, gonio::direction(0, 0, 1)) * light.z() * 3.14159265 * 0.5;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      CHECK(drawn(45, column, c) == doctest::Approx(std::clamp(radiance[c], 0.0, 1.0)).epsilon(0.03));
+  }
+  refuses("render " + map + " -o " + image, {"map.gsv", "another prior"});
+  refuses("render " + map + prior + " --slices -o " + image, {"map.gsv", "alone"});
 }
