@@ -28,6 +28,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <random>
@@ -317,8 +318,8 @@ class svbrdf_experiment {
     header_ = false;
     double sum = 0.0;
     for (const double each : values) sum += each;
-    std::cout << "| " << what << " | " << fixed(gonio::median(values), 2) << " | "
-              << fixed(sum / static_cast<double>(values.size()), 2) << " | " << fixed(gonio::quantile(values, 0.95), 2)
+    std::cout << "| " << what << " | " << fixed(gonio::median(std::vector(values)), 2) << " | "
+              << fixed(sum / static_cast<double>(values.size()), 2) << " | " << fixed(gonio::quantile(std::vector(values), 0.95), 2)
               << " |\n";
   }
 

@@ -16,6 +16,7 @@
 #include <numbers>
 #include <random>
 #include <span>
+#include <utility>
 #include <string>
 #include <vector>
 

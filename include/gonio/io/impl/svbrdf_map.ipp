@@ -149,6 +149,7 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
 [[nodiscard]] GONIO_INLINE std::uint64_t size_of(const descriptor& file, const std::filesystem::path& path) {
   struct stat info {};
   if (::fstat(file.get(), &info) != 0) refuse_file(path, {"cannot be read: ", system_reason(errno)});
+  if (S_ISDIR(info.st_mode)) refuse_file(path, "is a directory");
   if (!S_ISREG(info.st_mode)) refuse_file(path, "is not a regular file");
   return static_cast<std::uint64_t>(info.st_size);
 }
