@@ -7,13 +7,18 @@
 #include "commands.hpp"
 #include <gonio/estimate/eta_of_noise.hpp>
 #include <gonio/estimate/texel_decomposition.hpp>
+#include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace cli {
@@ -21,7 +26,7 @@ namespace cli {
 namespace {
 
 struct svbrdf_command {
-  std::filesystem::path images, prior, output;
+  std::filesystem::path images, prior, output, weights, functions, uncertainty, disagreement;
   double noise = 0.02;
   std::optional<double> eta;
   gonio::thread_count threads;
@@ -79,6 +84,39 @@ class svbrdf_job {
   image_stack images_;
 };
 
+/// A part of all bands as an array of half floats, with these extents behind rows and columns.
+void write_array(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
+                 std::vector<std::uint16_t> gonio::io::svbrdf_band::*part, const std::vector<std::size_t>& extents) {
+  if (path.empty()) return;
+  const gonio::io::svbrdf_header& header = map.header();
+  std::vector<std::size_t> shape{static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns)};
+  shape.insert(shape.end(), extents.begin(), extents.end());
+  const std::string start = gonio::io::detail::npy_header("<f2", gonio::io::detail::npy_shape_text(shape));
+  gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
+    file.write(std::as_bytes(std::span(start)));
+    for (Eigen::Index band = 0; band < header.bands(); ++band) {
+      const gonio::io::svbrdf_band values = map.read_band(band);
+      file.write(std::as_bytes(std::span(values.*part)));
+    }
+  });
+}
+
+/// What is asked for of a whole map.
+void write_arrays(const svbrdf_command& options) {
+  const gonio::io::svbrdf_map map(options.output);
+  const Eigen::MatrixXf& functions = map.header().functions;
+  using band = gonio::io::svbrdf_band;
+  write_array(options.weights, map, &band::weights, {3, static_cast<std::size_t>(functions.cols())});
+  write_array(options.uncertainty, map, &band::uncertainty, {});
+  write_array(options.disagreement, map, &band::disagreement, {});
+  if (options.functions.empty()) return;
+  xt::xtensor<float, 2> columns(std::array<std::size_t, 2>{static_cast<std::size_t>(functions.rows()),
+                                                           static_cast<std::size_t>(functions.cols())});
+  for (Eigen::Index k = 0; k < functions.rows(); ++k)
+    for (Eigen::Index r = 0; r < functions.cols(); ++r) columns(k, r) = functions(k, r);
+  gonio::io::write_npy(options.functions, columns);
+}
+
 void run(const svbrdf_command& options) {
   const svbrdf_job job(options);
   const auto header = job.header();
@@ -94,6 +132,7 @@ void run(const svbrdf_command& options) {
   }
   map.commit();
   bar.wipe();
+  write_arrays(options);
   std::cout << header.columns << " x " << header.rows << " texels, " << header.directions.size() << " images, "
             << header.functions.rows() << " components, eta " << header.eta;
   if (before > 0) std::cout << ", went on behind band " << before << " of " << header.bands();
@@ -124,6 +163,17 @@ void add_svbrdf(command& app) {
       .add_output("-o,--output", options->output, {".gsv"},
                   "Map to write (.gsv). An interrupted command goes on where it was when it is given again")
       .required();
+  command.add_output("--weights", options->weights, {".npy"},
+                     "Array to write of the map's weights: rows x columns x 3 x functions, half floats");
+  command.add_output("--functions", options->functions, {".npy"},
+                     "Array to write of the weights that the prior's components have in each function: components x "
+                     "functions");
+  command.add_output("--uncertainty", options->uncertainty, {".npy"},
+                     "Array to write of how well each texel is known, over all directions: 0.06 is to 6 % in 68 of 100 "
+                     "cases; rows x columns");
+  command.add_output("--disagreement", options->disagreement, {".npy"},
+                     "Array to write of how far each texel's images contradict each other: 1 is as expected; rows x "
+                     "columns");
   add_threads_option(command, options->threads);
   command.callback([options] { run(*options); });
 }

@@ -203,6 +203,29 @@ TEST_CASE("svbrdf: quantities are made BRDFs") {
   CHECK((weights("percent.gsv") - expected).cwiseAbs().maxCoeff() < 1e-3 * expected.cwiseAbs().maxCoeff());
 }
 
+TEST_CASE("svbrdf: weights, functions, uncertainty and disagreement as arrays") {
+  const images_folder given;
+  const auto file = [&](const char* name) { return (given.folder / name).string(); };
+  run(given.command("map.gsv") + " --weights " + file("w.npy") + " --functions " + file("f.npy") + " --uncertainty " +
+      file("u.npy") + " --disagreement " + file("d.npy"));
+  const auto weights = gonio::io::read_npy<float, 4>(file("w.npy"));
+  const auto functions = gonio::io::read_npy<float, 2>(file("f.npy"));
+  const auto disagreement = gonio::io::read_npy<float, 2>(file("d.npy"));
+  CHECK(gonio::io::read_npy<float, 2>(file("u.npy")).shape(1) == 1500);
+  REQUIRE(weights.shape(3) == 4);
+  REQUIRE(functions.shape(0) == 6);
+  const gonio::io::svbrdf_map map(given.folder / "map.gsv");
+  const auto band = map.read_band(1);
+  const Eigen::MatrixXd expected = gonio::io::weights_of_texel(map.header(), band, 2 * 1500 + 9);
+  for (Eigen::Index c = 0; c < 3; ++c)
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      double sum = 0.0;
+      for (std::size_t r = 0; r < 4; ++r) sum += double{functions(k, r)} * double{weights(45, 9, c, r)};
+      CHECK(sum == doctest::Approx(expected(k, c)).epsilon(1e-4));
+    }
+  CHECK(disagreement(45, 9) == gonio::io::detail::from_half(band.disagreement[2 * 1500 + 9]));
+}
+
 TEST_CASE("svbrdf: a map is drawn as a flat sample, and with its own prior only") {
   const images_folder given;
   run(given.command("map.gsv"));
