@@ -79,6 +79,7 @@ void main() {
   vec3 n = normalize(normal);
   if (n.z < 0.0 && !gl_FrontFacing) n = -n;
   lit_point point = lit_point(true, n, light, vec3(0.0, 0.0, 1.0), 1.0);
-  colour = vec4(display_value(seen(point, gl_FragCoord.x / size * 2.0 - 1.0 > border)), 1.0);
+  vec3 light_seen = seen(point, gl_FragCoord.x / size * 2.0 - 1.0 > border);
+  colour = vec4(surrounded ? light_seen : display_value(light_seen), 1.0);
 }`;
 

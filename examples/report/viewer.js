@@ -34,7 +34,10 @@ uniform sampler3D values, truth, known;
 uniform vec3 values_shift, truth_shift, light;
 uniform vec4 values_scale, truth_scale;
 uniform float exposure, size, border;  // right of the border the truth is shown
-uniform bool shows_known;
+uniform bool shows_known, surrounded;
+uniform sampler2D towards_light, weights, added;  // of light from all around, and the frames so far
+uniform int frame;
+uniform float around;
 out vec4 colour;
 ${look_up}
 
@@ -51,8 +54,34 @@ vec3 display_value(vec3 v) {
   return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
 }
 
+float random(uvec3 v) {  // M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020
+  v = v * 1664525u + 1013904223u;
+  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+  v ^= v >> 16u;
+  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
+  return float(v.x >> 8) / 16777216.0;
+}
+
+// Sixteen directions of the environment, one from each share of its light, added to the frames before.
+vec3 seen_all_around(lit_point point, bool is_truth) {
+  vec3 sum = texelFetch(added, ivec2(gl_FragCoord.xy), 0).rgb * (frame > 0 ? 1.0 : 0.0);
+  if (!point.hit || dot(point.n, point.wo) <= 0.0) return sum;
+  for (int i = 0; i < 16; ++i) {
+    float share = (float(i) + random(uvec3(gl_FragCoord.xy, 16 * frame + i))) / 16.0;
+    int at = min(int(share * 65536.0), 65535);
+    vec3 d = texelFetch(towards_light, ivec2(at % 256, at / 256), 0).xyz;
+    vec3 wi = vec3(cos(around) * d.x + sin(around) * d.z, d.y, cos(around) * d.z - sin(around) * d.x);
+    float cosine = dot(point.n, wi);
+    if (cosine <= 0.0) continue;
+    vec3 weight = texelFetch(weights, ivec2(at % 256, at / 256), 0).rgb * 4096.0;
+    sum += reflectance(is_truth, point.n, wi, point.wo) * weight * (cosine * exposure);
+  }
+  return sum;
+}
+
 // A white Lambertian surface that faces the light is 1, times the exposure.
 vec3 seen(lit_point point, bool is_truth) {
+  if (surrounded) return seen_all_around(point, is_truth);
   float cosine = dot(point.n, point.wi);
   if (!point.hit || cosine <= 0.0 || dot(point.n, point.wo) <= 0.0) return vec3(0.0);
   if (shows_known && !is_truth) {
@@ -85,9 +114,14 @@ void main() {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < samples * samples; ++i) {
     vec2 within = (vec2(i % samples, i / samples) + 0.5) / float(samples);
+    if (surrounded) within = fract(vec2(0.5) + float(frame) * vec2(0.75487767, 0.56984029));
     vec2 p = (floor(gl_FragCoord.xy) + within) / size * 2.0 - 1.0;
     if (shape == 0) sum += seen(sphere(p), p.x > border);
     else sum += seen(flat_sample(p), p.x > border);
+  }
+  if (surrounded) {
+    colour = vec4(sum, 1.0);
+    return;
   }
   colour = vec4(display_value(sum / float(samples * samples)), 1.0);
   if (abs(gl_FragCoord.x / size * 2.0 - 1.0 - border) < 1.5 / size) colour.rgb = vec3(0.6);
@@ -162,8 +196,8 @@ class material_view {
   take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
 
   // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent.
-  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0, turn = 0 }) {
-    const { gl, canvas } = this, { program, corners, count } = shape === "mesh" && this.mesh ? this.mesh : this.image;
+  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0, turn = 0, frame = 0, surrounded = false }, drawn) {
+    const { gl, canvas } = this, { program, corners, count } = drawn ?? (shape === "mesh" && this.mesh ? this.mesh : this.image);
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.enable(gl.DEPTH_TEST);
@@ -175,7 +209,10 @@ class material_view {
       gl.uniform3f(at(`${name}_shift`), ...shift);
       gl.uniform4f(at(`${name}_scale`), scale, scale, scale, 1);
     }
-    gl.uniform1i(at("known"), 2);
+    ["known", "towards_light", "weights", "added"].forEach((name, i) => gl.uniform1i(at(name), 2 + i));
+    gl.uniform1i(at("surrounded"), surrounded);
+    gl.uniform1i(at("frame"), frame);
+    gl.uniform1f(at("around"), radians(longitude));
     gl.uniform3f(at("light"), ...light_direction({ longitude, latitude }));
     gl.uniform1f(at("exposure"), exposure);
     gl.uniform1f(at("size"), canvas.width);
@@ -191,8 +228,9 @@ class material_view {
 // ---- the section of the page -----------------------------------------------------------------------------------
 // What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
 const viewer = {
-  state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer?.truth ? 50 : 0 },
+  state: { light: "lamp", longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer?.truth ? 50 : 0 },
   view: null,
+  surrounded: null,
   draw: null,
 };
 
@@ -209,9 +247,21 @@ function redraw_with(view, base) {
   let waiting = 0;
   const drawn = (samples) => view.draw({ ...viewer.state, exposure: base * 2 ** viewer.state.stops, samples });
   viewer.draw = drawn;
+  let change = 0;
+  const converge = (mine) => {
+    if (mine !== change || viewer.surrounded.frame >= last_frame) return;
+    viewer.surrounded.draw({ ...viewer.state, exposure: 0.4 * 2 ** viewer.state.stops });
+    requestAnimationFrame(() => converge(mine));
+  };
   return () => {
-    requestAnimationFrame(() => drawn(1));
     clearTimeout(waiting);
+    const mine = ++change;
+    if (viewer.state.light === "environment" && viewer.surrounded && !viewer.state.known) {
+      viewer.surrounded.frame = 0;
+      requestAnimationFrame(() => converge(mine));
+      return;
+    }
+    requestAnimationFrame(() => { if (mine === change) drawn(1); });
     waiting = setTimeout(() => requestAnimationFrame(() => drawn(3)), 150);
   };
 }
@@ -273,6 +323,28 @@ function model_rows(changed) {
   return { rows: [element("label", {}, element("span", {}, "File (.obj)"), input, problem), turn.row], show: turn.show };
 }
 
+// A lamp, or an environment: a sky, or a light probe of the reader's own.
+function light_rows(changed) {
+  const input = element("input", { type: "file", accept: ".hdr" }), problem = element("output");
+  const attempt = async (what) => {
+    problem.textContent = "";
+    try {
+      await what();
+    } catch (error) {
+      problem.textContent = `no such light: ${error.message}`;
+    }
+    changed();
+  };
+  input.addEventListener("change", () => attempt(async () => {
+    if (input.files.length) viewer.surrounded.take(read_hdr(new Uint8Array(await input.files[0].arrayBuffer())));
+  }));
+  const lights = choice("Light", "light", [["lamp", "a lamp"], ["environment", "from all around"]], () => attempt(() => {
+    if (viewer.state.light === "environment") viewer.surrounded ??= new surrounded_view(viewer.view);
+  }));
+  const file = element("label", {}, element("span", {}, "Light probe (.hdr)"), input);
+  return { rows: [lights, file, problem], show: () => { file.hidden = viewer.state.light !== "environment"; } };
+}
+
 function controls(changed) {
   const degrees = (value) => `${Math.round(value)}\u00b0`;
   const sliders = [
@@ -280,17 +352,17 @@ function controls(changed) {
     slider("Light, upwards", "latitude", [-90, 90, 1], degrees, changed),
     slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${value > 0 ? "+" : ""}${value} stops`, changed)];
   if (data.viewer.truth) sliders.push(slider("Truth, from the right", "truth", [0, 100, 1], (value) => `${value} %`, changed));
-  const model = model_rows(changed);
+  const model = model_rows(changed), light = light_rows(changed);
   const known = element("input", { type: "checkbox" });
   known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });
   const legend = element("p", { className: "legend soft" }, "2 %", element("span", { className: "ramp" }), "100 %");
   return {
     box: element("div", { className: "controls" },
       choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"], ["mesh", "a model"]], changed), ...model.rows,
-      ...sliders.map((each) => each.row),
+      ...light.rows, ...sliders.map((each) => each.row),
       element("label", {}, element("span", {}, "Uncertainty"), known), legend),
     show: () => {
-      [...sliders, model].forEach((each) => each.show());
+      [...sliders, model, light].forEach((each) => each.show());
       model.rows.forEach((each) => { each.hidden = viewer.state.shape !== "mesh"; });
       legend.hidden = !viewer.state.known;
     },
