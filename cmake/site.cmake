@@ -44,24 +44,37 @@ these materials; [how it does with others](docs/results/real-materials.md) is me
 ")
 file(MAKE_DIRECTORY "${pages}/viewer")
 message("\n== site: ten materials")
-foreach(material IN ITEMS white-fabric pink-felt cardboard red-plastic vch_golden_yellow
-                          satin_gold blue-metallic-paint gold-paint brass specular-violet-phenolic)
-  foreach(line IN ITEMS
-          "expand --name ${material} -o truth.binary"
-          "sample truth.binary --directions ${source}/examples/data/nielsen-20.csv --noise 0.02 -o samples.csv"
-          "report samples.csv --noise 0.02 --truth truth.binary --title ${material} -o ${material}.html"
-          "render truth.binary --size 128 -o ${material}.png")
-    separate_arguments(arguments UNIX_COMMAND "${line}")
-    execute_process(COMMAND "${TOOL}" ${arguments} WORKING_DIRECTORY "${pages}/viewer" OUTPUT_QUIET ERROR_QUIET
-                    COMMAND_ERROR_IS_FATAL ANY)
+set(shown white-fabric pink-felt cardboard red-plastic vch_golden_yellow
+          satin_gold blue-metallic-paint gold-paint brass specular-violet-phenolic)
+while(shown)
+  foreach(column RANGE 1 5)
+    list(POP_FRONT shown material)
+    foreach(line IN ITEMS
+            "expand --name ${material} -o truth.binary"
+            "sample truth.binary --directions ${source}/examples/data/nielsen-20.csv --noise 0.02 -o samples.csv"
+            "report samples.csv --noise 0.02 --truth truth.binary --title ${material} -o ${material}.html"
+            "render truth.binary --size 128 -o ${material}.png")
+      separate_arguments(arguments UNIX_COMMAND "${line}")
+      execute_process(COMMAND "${TOOL}" ${arguments} WORKING_DIRECTORY "${pages}/viewer" OUTPUT_QUIET ERROR_QUIET
+                      COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()
+    string(APPEND viewer "| [![${material}](viewer/${material}.png)](viewer/${material}.html)<br>${material} ")
   endforeach()
-  string(APPEND viewer "| [![${material}](viewer/${material}.png)](viewer/${material}.html)<br>${material} ")
-  if(material MATCHES "^(vch_golden_yellow|specular-violet-phenolic)$")
-    string(APPEND viewer "|\n")
-  endif()
-endforeach()
+  string(APPEND viewer "|\n")
+endwhile()
 file(REMOVE "${pages}/viewer/truth.binary" "${pages}/viewer/samples.csv")
 file(WRITE "${pages}/viewer.md" "${viewer}")
+
+# Lessons have a viewer where a page of the repository says how to get one.
+file(GLOB lessons "${pages}/docs/learn/*.md")
+foreach(lesson IN LISTS lessons)
+  file(READ "${lesson}" text)
+  string(REGEX REPLACE "<!-- viewer ([a-z_-]+) -->.*<!-- end of viewer -->"
+         "<iframe src=\"../../viewer/\\1.html\" title=\"\\1 under a light\" width=\"100%\" height=\"900\"></iframe>" shown "${text}")
+  if(NOT shown STREQUAL text)
+    file(WRITE "${lesson}" "${shown}")
+  endif()
+endforeach()
 
 # title_of(RESULT PAGE): its first heading.
 function(title_of result page)

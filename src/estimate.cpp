@@ -10,6 +10,7 @@
 #include <gonio/estimate/impl/located_samples.ipp>
 #include <gonio/estimate/impl/mapped_noise.ipp>
 #include <gonio/estimate/impl/nearest_material.ipp>
+#include <gonio/estimate/impl/out_of_gamut.ipp>
 #include <gonio/estimate/impl/outlier_mixture.ipp>
 #include <gonio/estimate/impl/outlier_weights.ipp>
 #include <gonio/estimate/impl/outlying_samples.ipp>

@@ -26,7 +26,8 @@ namespace cli {
 namespace {
 
 struct check_options {
-  std::filesystem::path part, reference, prior, report;
+  std::filesystem::path part, reference, prior;
+  page_option report;
   measurement_options reading;
   std::optional<double> noise, reference_noise;
   double dark_noise = 0.0, tolerance = 0.0, false_alarms = 0.01, same_within = 0.01;
@@ -158,15 +159,18 @@ void print(const check_options& given, const check_result& result, const measure
 
 json directions_as_json(const gonio::conformity& found, const measured_surface& part) {
   json all = json::array();
-  for (const gonio::compared_direction& each : found.directions)
-    all.push_back({{"sample", part.numbers[each.number]},
-                   {"reference_samples", each.measured},
-                   {"measured", per_channel(each.value)},
-                   {"reference", per_channel(each.expected)},
-                   {"mapped_difference", per_channel(each.difference)},
-                   {"mapped_deviation", per_channel(each.deviation)},
-                   {"p_value", each.p_value},
-                   {"adjusted_p_value", each.adjusted_p_value}});
+  for (const gonio::compared_direction& each : found.directions) {
+    json told{{"sample", part.numbers[each.number]}};
+    told.update(angles_as_json(part.counting[each.number].directions));
+    told.update({{"reference_samples", each.measured},
+                 {"measured", per_channel(each.value)},
+                 {"reference", per_channel(each.expected)},
+                 {"mapped_difference", per_channel(each.difference)},
+                 {"mapped_deviation", per_channel(each.deviation)},
+                 {"p_value", each.p_value},
+                 {"adjusted_p_value", each.adjusted_p_value}});
+    all.push_back(std::move(told));
+  }
   return all;
 }
 
@@ -199,51 +203,45 @@ json as_json(const check_options& given, const check_result& result, const measu
   return all;
 }
 
-/// The page for people: the same, the angles of all directions, and what was done.
-void write_report(const check_options& given, json check, const measured_surface& part,
-                  const std::vector<std::string>& words) {
-  for (std::size_t i = 0; i < check["directions"].size(); ++i) {
-    json& each = check["directions"][i];
-    const auto number = std::ranges::find(part.numbers, std::lround(each["sample"].number())) - part.numbers.begin();
-    each.update(angles_as_json(part.counting[number].directions));
-  }
-  json record = record_of_command(words);
-  const auto describe = [&](const char* name, const std::filesystem::path& path, const json& facts) {
+/// The page for people: the same, and what was done.
+void write_report(const check_options& given, const json& check) {
+  const auto described = [](const std::filesystem::path& path, const json& facts) {
     std::string text = path.string();
     for (const char* fact : {"quantity", "instrument", "date", "conditions"})
       if (facts.contains(fact)) text.append("; ").append(fact).append(": ").append(facts[fact].text());
-    add_to_record(record, name, text);
+    return text;
   };
-  describe("Part", given.part, check["part"]);
-  describe("Reference", given.reference, check["reference"]);
-  add_to_record(record, "Prior", given.prior.string());
-  add_to_record(record, "Noise",
-                fixed(100.0 * check["noise"].number(), 2) + " %" +
-                    (given.noise ? " (stated)" : " (of directions that were measured repeatedly)"));
+  const json record =
+      record_of({{"Part", described(given.part, check["part"])},
+                 {"Reference", described(given.reference, check["reference"])},
+                 {"Prior", given.prior.string()},
+                 {"Noise", fixed(100.0 * check["noise"].number(), 2) + " %" +
+                               (given.noise ? " (stated)" : " (of directions that were measured repeatedly)")}});
   write_report_page(given.report, {{"kind", "check"},
                                    {"name", given.part.stem().string() + " beside " + given.reference.stem().string()},
-                                   {"check", std::move(check)},
+                                   {"check", check},
                                    {"record", record}});
 }
 
 /// Says whether the part conforms.
-bool check_files(const check_options& given, const std::vector<std::string>& words) {
+bool check_files(const check_options& given) {
   const gonio::log_relative_pca prior = gonio::io::read_prior(given.prior);
   const measured_surface part(given.part, given.reading, prior, given.threads),
       reference(given.reference, given.reading, prior, given.threads);
   const check_result result = check_part(given, part, reference, prior);
-  if (!given.report.empty()) write_report(given, as_json(given, result, part, reference), part, words);
+  const json told = as_json(given, result, part, reference);
+  if (given.report.is_given()) write_report(given, told);
   if (given.print_json)
-    std::cout << as_json(given, result, part, reference).dump(2) << '\n';
+    std::cout << told.dump(2) << '\n';
   else
     print(given, result, part, reference);
   return result.conforms;
 }
 
 /// The same; what fails is bad input, so that exit code 1 means that the part differs.
-bool check_or_refuse(const check_options& given, const std::vector<std::string>& words) {
+bool check_or_refuse(const check_options& given) {
   try {
-    return check_files(given, words);
+    return check_files(given);
   } catch (const gonio::error&) {
     throw;
   } catch (const std::exception& failure) {
@@ -293,11 +291,11 @@ void add_check(command& app, const std::vector<std::string>& words) {
       .check(check::range(0.0, 5.0))
       .capture_default_str();
   add_prior_option(command, options->prior);
-  add_report_option(command, options->report);
+  add_report_option(command, options->report, words);
   command.add_flag("--json", options->print_json, "Print the answer and all directions as JSON");
   add_threads_option(command, options->threads);
-  command.callback([options, words] {
-    if (!check_or_refuse(*options, words)) throw negative_answer{};
+  command.callback([options] {
+    if (!check_or_refuse(*options)) throw negative_answer{};
   });
 }
 

@@ -26,7 +26,8 @@ namespace cli {
 namespace {
 
 struct design_command {
-  std::filesystem::path prior, constraint, start, given, output, report;
+  std::filesystem::path prior, constraint, start, given, output;
+  page_option report;
   measurement_options reading;  ///< of --given
   design_options design;
   double field_of_view = 25.0, step = 5.0, angular_error = 0.0;
@@ -50,8 +51,7 @@ void require_given_alone(const design_command& command) {
 
 /// The page for people. `samples` are those that were measured already.
 void write_report(const design_command& command, const std::vector<gonio::direction_pair>& poses,
-                  const std::string& sentence, const gonio::sample_set& samples,
-                  const std::vector<std::string>& words) {
+                  const std::string& sentence, const gonio::sample_set& samples) {
   json directions = json::array(), given = json::array();
   for (const gonio::direction_pair& pose : poses) {
     json told = angles_as_json(pose);
@@ -59,14 +59,11 @@ void write_report(const design_command& command, const std::vector<gonio::direct
     directions.push_back(std::move(told));
   }
   for (const Eigen::Index i : counting_samples(samples)) given.push_back(angles_as_json(samples[i].directions));
-  json record = record_of_command(words);
-  add_to_record(record, "Prior", command.prior.string());
-  add_to_record(record, "Measured", command.given.string());
   json data{{"kind", "design"},
             {"name", command.output.stem().string()},
             {"design", {{"sentence", sentence}, {"directions", directions}}},
             {"samples", given},
-            {"record", record}};
+            {"record", record_of({{"Prior", command.prior.string()}, {"Measured", command.given.string()}})}};
   if (!samples.empty()) {
     reconstruct_options fit;
     fit.noise = command.design.noise;
@@ -79,7 +76,7 @@ void write_report(const design_command& command, const std::vector<gonio::direct
 }
 
 /// The next measurements beside samples that were made, by what these read.
-void run_given(const design_command& command, const std::vector<std::string>& words) {
+void run_given(const design_command& command) {
   require_given_alone(command);
   const gonio::io::sample_file measured = read_measurement_file(command.given, command.reading);
   const gonio::sample_set& samples = measured.samples;
@@ -96,7 +93,7 @@ void run_given(const design_command& command, const std::vector<std::string>& wo
                                fixed(100.0 * deviation, 1) + " %; " + std::to_string(poses.size()) +
                                (poses.size() == 1 ? " more leaves" : " more leave") + " an expected Delta E of " +
                                fixed(chosen.back().expected_delta_e, 2);
-  if (!command.report.empty()) write_report(command, poses, sentence, samples, words);
+  if (command.report.is_given()) write_report(command, poses, sentence, samples);
   if (command.print_json) {
     json all{{"measurements", poses.size()}, {"given", samples.size()}};
     all.update(facts_of(measured));
@@ -135,13 +132,13 @@ designed set_of_the_literature(const gonio::log_relative_pca& prior, const desig
   return found;
 }
 
-void run(design_command command, const std::vector<std::string>& words) {
+void run(design_command command) {
   progress_bar bar;
   const bool is_published = command.published > 0 || command.industry;
   if (is_published) require_no_search(command);
   if (!command.constraint.empty())
     command.design.near_field.constraint = gonio::io::read_capture_constraint(command.constraint);
-  if (!command.given.empty()) return run_given(command, words);
+  if (!command.given.empty()) return run_given(command);
   if (!command.reading.empty()) gonio::refuse("--quantity and --columns need --given");
   const auto prior = gonio::io::read_prior(command.prior);
   command.design.near_field.field_of_view = gonio::radians(command.field_of_view);
@@ -159,7 +156,7 @@ void run(design_command command, const std::vector<std::string>& words) {
                                fixed(100.0 * figures.unknown_share, 1) +
                                " % of how the prior's materials differ from their mean: an expected error of " +
                                fixed(figures.expected_error, 3) + " in a cell's logarithm";
-  if (!command.report.empty()) write_report(command, found.poses, sentence, {}, words);
+  if (command.report.is_given()) write_report(command, found.poses, sentence, {});
   if (command.print_json) {
     std::cout << json{{"measurements", found.poses.size()},
                       {"criterion", is_published ? "published" : command.design.criterion},
@@ -245,14 +242,14 @@ void add_design(command& app, const std::vector<std::string>& words) {
                    "No search: the five points of industry's goniospectrophotometers (Westlund and Meyer 2001)");
   // Declare the run and its output.
   command.add_option("--seed", design.seed, "Seed of what is random").capture_default_str();
-  add_report_option(command, options->report);
+  add_report_option(command, options->report, words);
   command.add_flag("--json", options->print_json, "Print the result as JSON");
   add_threads_option(command, design.threads);
   command
       .add_output("-o,--output", options->output, {".csv"},
                   "Directions to write; of images, those of the centre (.csv)")
       .required();
-  command.callback([options, words] { run(*options, words); });
+  command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

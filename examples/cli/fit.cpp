@@ -39,7 +39,8 @@ constexpr std::array renderer_formats{
 
 struct fit_command_options {
   measurement_options reading;
-  std::filesystem::path measurements, output, image, report;
+  std::filesystem::path measurements, output, image;
+  page_option report;
   std::array<std::filesystem::path, renderer_formats.size()> for_renderers;
   gonio::model::cell_weighting cell_weights = gonio::model::cell_weighting::equal;
   bool print_json = false, no_cosine_weight = false;
@@ -66,21 +67,16 @@ void print(const gonio::model::model_fit& fit, std::size_t measurements) {
 
 /// The page for people. `samples` are those that were fitted, or some values of the table.
 void write_report(const fit_command_options& options, const gonio::model::analytic_brdf& model,
-                  const gonio::sample_set& samples, const json& details, const std::vector<std::string>& words) {
-  const image_options how{.size = 320, .exposure = {}};
-  std::array spheres{sphere_image(gonio::tabulate(model, gonio::valid_cells(), options.choice.fit.threads), how,
-                                  options.choice.fit.threads)};
-  expose_spheres(spheres, how);
-  json data = model_report_data({options.measurements.stem().string(), model, samples, spheres.front(), details});
-  json record = record_of_command(words);
-  add_to_record(record, "Measurements", options.measurements.string());
-  add_to_record(record, "Model", options.choice.model + ", metric " + options.choice.metric);
-  data["record"] = record;
+                  const gonio::sample_set& samples, const json& details) {
+  json data =
+      model_report_data({options.measurements.stem().string(), model, samples, details, options.choice.fit.threads});
+  data["record"] = record_of({{"Measurements", options.measurements.string()},
+                              {"Model", options.choice.model + ", metric " + options.choice.metric}});
   data["of_table"] = is_table(options.measurements);
   write_report_page(options.report, data);
 }
 
-void fit(const fit_command_options& options, const std::vector<std::string>& words) {
+void fit(const fit_command_options& options) {
   if (options.cell_weights != gonio::model::cell_weighting::equal && !is_table(options.measurements))
     gonio::refuse("--cell-weights needs a table: samples carry their own weights");
   // Read the measurements, and fit the model under the metric.
@@ -118,8 +114,8 @@ void fit(const fit_command_options& options, const std::vector<std::string>& wor
            {"evaluations", found.evaluations},     {"converged", found.converged},
            {"promised_gain", found.promised_gain}, {"lobes", to_json(found.model)}};
   all.update(facts_of(measured));
-  if (!options.report.empty())
-    write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all, words);
+  if (options.report.is_given())
+    write_report(options, found.model, table ? in_plane_values(*table) : measured.samples, all);
   if (!options.print_json) return print(found, observations.size());
   std::cout << all.dump(2) << '\n';
 }
@@ -164,14 +160,14 @@ void add_fit(command& app, const std::vector<std::string>& words) {
     const auto& [option, extension, description, text] = renderer_formats[i];
     command.add_output(option, options->for_renderers[i], {extension}, description);
   }
-  add_report_option(command, options->report);
+  add_report_option(command, options->report, words);
   command.add_flag("--json", options->print_json, "Print the fit as JSON");
   add_threads_option(command, options->choice.fit.threads);
-  command.callback([command, options, words] {
+  command.callback([command, options] {
     if (command.count("--cosine-weighted") > 0 && options->no_cosine_weight)
       gonio::refuse("--cosine-weighted and --no-cosine-weight contradict each other: give one of them");
     options->choice.fit.cosine_weighted = !options->no_cosine_weight;
-    fit(*options, words);
+    fit(*options);
   });
 }
 

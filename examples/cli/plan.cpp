@@ -4,14 +4,22 @@
 #include "command_line/json.hpp"
 #include "command_line/measurement_files.hpp"
 #include "commands.hpp"
+#include "image_text.hpp"
 #include <gonio/io/image.hpp>
 #include <gonio/io/samples.hpp>
 #include <gonio/render/image.hpp>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <numbers>
+#include <string>
+#include <vector>
 
 namespace cli {
 
@@ -100,7 +108,73 @@ Eigen::Vector2d place_of(const gonio::direction& w) {
           hemisphere_radius + hemisphere_margin - radius * std::sin(azimuth)};
 }
 
-/// Each pose a line from its light (a disc) to its viewer (a ring); circles every 30 degrees.
+/// Numbers beside what they belong to, none over another.
+class number_labels {
+ public:
+  explicit number_labels(gonio::image& image)
+      : image_(image),
+        inside_(Eigen::Vector2d::Ones(),
+                Eigen::Vector2d(static_cast<double>(image.shape(1)) - 1.0, static_cast<double>(image.shape(0)) - 1.0)) {
+  }
+
+  /// Near a place, on the side that looks away from another place or else on the next one with room; where there is
+  /// none, nowhere.
+  void add(const Eigen::Vector2d& at, const Eigen::Vector2d& other, std::size_t number, const gonio::rgb& colour) {
+    const std::string text = std::to_string(number);
+    const text_extent size = extent_of(text, scale_);
+    const Eigen::Vector2d half(0.5 * static_cast<double>(size.columns), 0.5 * static_cast<double>(size.rows));
+    for (int side = 0; side < 8; ++side) {
+      const double turn = (side % 2 == 0 ? 1 : -1) * ((side + 1) / 2) * std::numbers::pi / 4.0;
+      const double angle = std::atan2(at.y() - other.y(), at.x() - other.x()) + turn;
+      const Eigen::Vector2d middle =
+          at + Eigen::Vector2d((half.x() + 7.0) * std::cos(angle), (half.y() + 7.0) * std::sin(angle));
+      const Eigen::AlignedBox2d box(middle - half, middle + half);
+      if (!inside_.contains(box)) continue;
+      if (std::ranges::any_of(taken_, [&](const Eigen::AlignedBox2d& taken) { return taken.intersects(box); }))
+        continue;
+      taken_.push_back(box);
+      const auto row = static_cast<std::size_t>(box.min().y()), column = static_cast<std::size_t>(box.min().x());
+      // White below, so that no line runs through the number.
+      const gonio::image paper = gonio::uniform_image(static_cast<Eigen::Index>(size.rows),
+                                                      static_cast<Eigen::Index>(size.columns), gonio::rgb::Ones());
+      gonio::render::paste(image_, paper, row, column);
+      draw_text(image_, row, column, text, scale_, colour);
+      return;
+    }
+  }
+
+  /// Keeps numbers away from a place.
+  void keep_free(const Eigen::Vector2d& at, double radius) {
+    taken_.emplace_back(at - Eigen::Vector2d::Constant(radius), at + Eigen::Vector2d::Constant(radius));
+  }
+
+ private:
+  static constexpr std::size_t scale_ = 1;
+  gonio::image& image_;
+  Eigen::AlignedBox2d inside_;
+  std::vector<Eigen::AlignedBox2d> taken_;
+};
+
+/// The numbers of the poses at their viewers, in the order of the file, and the degrees of the circles. Of more than 40
+/// poses every second is numbered, or every third, and so on.
+void draw_numbers(gonio::image& image, const std::vector<pose>& poses) {
+  const Eigen::Vector2d middle(hemisphere_radius + hemisphere_margin, hemisphere_radius + hemisphere_margin);
+  for (const int theta : {30, 60, 90}) {
+    const std::string text = std::to_string(theta);
+    draw_text(image, static_cast<std::size_t>(middle.y() + hemisphere_radius * theta / 90.0 + 2.0),
+              static_cast<std::size_t>(middle.x()) + 3, text, 1, gonio::rgb::Constant(0.2));
+  }
+  number_labels labels(image);
+  for (const pose& at : poses) {
+    labels.keep_free(place_of(at.wi), 5.0);
+    labels.keep_free(place_of(at.wo), 5.0);
+  }
+  const std::size_t step = 1 + (poses.size() - 1) / 40;
+  for (std::size_t i = 0; i < poses.size(); i += step)
+    labels.add(place_of(poses[i].wo), place_of(poses[i].wi), i + 1, colour_of(i));
+}
+
+/// Each pose a line from its light (a disc) to its viewer (a ring) with its number; circles every 30 degrees.
 gonio::image drawing_of(const std::vector<pose>& poses) {
   const auto size = static_cast<Eigen::Index>(2 * (hemisphere_radius + hemisphere_margin));
   gonio::image image = gonio::uniform_image(size, size, gonio::rgb::Ones());
@@ -117,6 +191,7 @@ gonio::image drawing_of(const std::vector<pose>& poses) {
     paint_ring(image, viewer, 0.0, 4.0, gonio::rgb::Ones());
     paint_ring(image, viewer, 3.5, 5.5, colour_of(i));
   }
+  if (!poses.empty()) draw_numbers(image, poses);
   return image;
 }
 

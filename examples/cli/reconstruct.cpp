@@ -71,8 +71,7 @@ void write_result(const reconstruct_options& options, const reconstruction& resu
   write_file(options.output, gonio::io::tabulate_adaptively(*result.spectra, name, options.threads));
 }
 
-void reconstruct_and_write(reconstruct_options options, const image_options& how,
-                           const std::vector<std::string>& words) {
+void reconstruct_and_write(reconstruct_options options, const image_options& how) {
   gonio::io::sample_file measured;
   std::optional<reconstruction> found;
   if (options.fits_spectra) {
@@ -100,8 +99,7 @@ void reconstruct_and_write(reconstruct_options options, const image_options& how
     gonio::io::write_png(options.iteration_figure / "iterations.png", *result.iteration_figure);
     write_history(options.iteration_figure / "history.csv", result.history);
   }
-  if (!options.report.empty())
-    write_report_page(options.report, report_data({options, measured, result, nullptr}, words));
+  if (options.report.is_given()) write_report_page(options.report, report_data({options, measured, result, nullptr}));
   print(result, measured, options.print_json);
 }
 
@@ -185,7 +183,7 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   command.add_output("--uncertainty-image", options->uncertainty_image, {".png"},
                      "Image of a sphere to write (.png), coloured by how well its brightness is known: blue to 1 %, "
                      "cyan to 5 %, yellow to 22 %, red to 100 % and worse");
-  add_report_option(command, options->report);
+  add_report_option(command, options->report, words);
   // Declare the corrections.
   add_correction_options(command, *options);
   command
@@ -206,11 +204,11 @@ void add_reconstruct(command& app, const std::vector<std::string>& words) {
   command.add_flag("--json", options->print_json, "Print the result of the fit as JSON");
   add_threads_option(command, options->threads);
   // Refuse options that the method does not take, then run it.
-  command.callback([command, options, how, words] {
+  command.callback([command, options, how] {
     take_given(*options, [&](const std::string& option) { return command.count(option) > 0; });
     if (command.count("--truth") > 0 && command.count("--iteration-figure") == 0)
       gonio::refuse("--truth requires --iteration-figure");
-    reconstruct_and_write(*options, *how, words);
+    reconstruct_and_write(*options, *how);
   });
 }
 

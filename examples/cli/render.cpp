@@ -1,19 +1,24 @@
 /// gonio render: images of tables, side by side.
 
 #include "command_line/file_start.hpp"
+#include "command_line/fixed.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "exr_files.hpp"
+#include "image_text.hpp"
 #include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
 #include <gonio/io/text.hpp>
+#include <gonio/render/false_colour.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/sampled_sphere.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -33,8 +38,8 @@ struct render_options {
   std::vector<std::filesystem::path> tables;
   std::vector<std::string> lights;
   std::filesystem::path output, environment;
-  bool slices = false;
-  int quality = 64, columns = 0;
+  bool slices = false, compares = false;
+  int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
   image_options image{.size = 512, .exposure = {}};
   std::uint64_t seed = 1;
   gonio::thread_count threads;
@@ -69,10 +74,9 @@ gonio::render::directional_lighting lighting_of(const render_options& options) {
   return gonio::render::directional_lighting(std::move(lights));
 }
 
-/// Images of one size, row by row; all in one row if there are 0 columns.
+/// Images of one size, row by row.
 gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t columns) {
   constexpr std::size_t margin = 8;
-  if (columns == 0 || columns >= images.size()) return gonio::render::side_by_side(images, margin);
   const std::size_t step = images[0].shape(0) + margin, rows = (images.size() + columns - 1) / columns;
   gonio::image sheet = gonio::uniform_image(rows * step + margin, columns * step + margin, gonio::rgb::Zero());
   for (std::size_t i = 0; i < images.size(); ++i)
@@ -80,7 +84,65 @@ gonio::image contact_sheet(std::span<const gonio::image> images, std::size_t col
   return sheet;
 }
 
+/// From so many columns on the numbers of a scale have room.
+constexpr int smallest_with_scale = 64;
+
+/// The colours of Delta E from 0 to 20 with numbers, over the lowest rows, where a sphere is narrow.
+void draw_scale(gonio::image& image) {
+  const std::size_t columns = image.shape(1), unit = std::max<std::size_t>(columns / 200, 1);
+  const std::size_t top = image.shape(0) - 16 * unit;
+  const gonio::render::false_colour_range range;
+  for (std::size_t row = top; row < image.shape(0); ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double value = range.red * static_cast<double>(column) / static_cast<double>(columns - 1);
+      const bool is_bar = row < top + 4 * unit;
+      gonio::set_pixel(image, row, column,
+                       is_bar ? gonio::render::false_colour(value, range) : gonio::rgb(gonio::rgb::Zero()));
+    }
+  for (const int value : {0, 5, 10, 15, 20}) {
+    const std::string text = value == 20 ? "20+" : std::to_string(value);
+    const std::size_t width = extent_of(text, unit).columns, middle = columns * static_cast<std::size_t>(value) / 20;
+    const std::size_t left = std::min(std::max(middle, width / 2) - width / 2, columns - width);
+    draw_text(image, top + 6 * unit, left, text, unit, gonio::rgb::Constant(0.6));
+  }
+}
+
+/// CIELAB's Delta E of each pixel of two images as a colour, as in Noell et al. 2014, Fig. 3, and its mean over the
+/// pixels that are not black in both: those are beside the sphere, or not lit.
+struct image_difference {
+  gonio::image image;
+  double mean = 0.0;
+};
+
+image_difference difference_of(const gonio::image& one, const gonio::image& other) {
+  image_difference found{gonio::uniform_image(one.shape(0), one.shape(1), gonio::rgb::Zero())};
+  double sum = 0.0, count = 0.0;
+  for (std::size_t row = 0; row < one.shape(0); ++row)
+    for (std::size_t column = 0; column < one.shape(1); ++column) {
+      const gonio::rgb a = gonio::pixel(one, row, column), b = gonio::pixel(other, row, column);
+      if ((a == 0.0).all() && (b == 0.0).all()) continue;
+      const double delta_e = (gonio::to_lab(a) - gonio::to_lab(b)).matrix().norm();
+      sum += delta_e;
+      count += 1.0;
+      gonio::set_pixel(found.image, row, column, gonio::render::false_colour(delta_e));
+    }
+  found.mean = count > 0.0 ? sum / count : 0.0;
+  draw_scale(found.image);
+  return found;
+}
+
+/// Refuses what --compare cannot draw, before anything is drawn.
+void require_comparable(const render_options& options) {
+  if (options.tables.size() != 2)
+    gonio::refuse("--compare needs two tables, not " + std::to_string(options.tables.size()));
+  if (is_exr(options.output)) gonio::refuse("--compare draws colours for people: its -o needs the extension .png");
+  if (options.image.size < smallest_with_scale)
+    gonio::refuse("--compare needs a --size of at least " + std::to_string(smallest_with_scale) +
+                  ", for the numbers of its scale");
+}
+
 void render(const render_options& options) {
+  if (options.compares) require_comparable(options);
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
   if (!options.environment.empty())
@@ -99,7 +161,13 @@ void render(const render_options& options) {
   std::vector<gonio::image> images;
   for (const auto& path : options.tables) images.push_back(image_of(gonio::io::read_merl_any(path)));
   if (!options.slices && !light) expose_spheres(images, options.image);
-  const gonio::image beside = contact_sheet(images, static_cast<std::size_t>(options.columns));
+  if (options.compares) {
+    auto [image, mean] = difference_of(images[0], images[1]);
+    images.push_back(std::move(image));
+    std::cout << "Delta E of the images: " << fixed(mean, 2) << " in the mean; 0 is blue, 10 green, 20 and more red\n";
+  }
+  const gonio::image beside = contact_sheet(
+      images, options.columns == 0 ? images.size() : std::min<std::size_t>(options.columns, images.size()));
   if (is_exr(options.output))
     write_exr(options.output, beside);
   else
@@ -135,6 +203,9 @@ void add_render(command& app) {
       .check(check::range(1, 1'000'000))
       .needs(environment)
       .capture_default_str();
+  command.add_flag(
+      "--compare", options->compares,
+      "Two tables: beside them how far their colours are apart, CIELAB's Delta E of each pixel as a colour");
   command.add_option("--columns", options->columns, "Images in a row, of a contact sheet of many tables")
       .check(check::range(1, 1000))
       .default_str("all in one row");

@@ -20,17 +20,18 @@ namespace {
 
 struct report_options {
   reconstruct_options fit;
-  std::filesystem::path page, truth;
+  page_option page;
+  std::filesystem::path truth;
   std::string title;
 };
 
-void write_report(const report_options& options, const std::vector<std::string>& words) {
+void write_report(const report_options& options) {
   const gonio::io::sample_file measured = read_measurement_file(options.fit.samples, options.fit.reading);
   std::optional<gonio::brdf_table> truth;
   if (!options.truth.empty()) truth = gonio::io::read_merl_any(options.truth);
   const reconstruction found = reconstruct(options.fit, measured.samples);
   const reported_fit fit{options.fit, measured, found, truth ? &*truth : nullptr};
-  json data = report_data(fit, words);
+  json data = report_data(fit);
   if (!options.title.empty()) data["name"] = options.title;
   write_report_page(options.page, data);
   for (const std::string& sentence : found.warnings) warn(sentence);
@@ -47,7 +48,7 @@ void add_report(command& app, const std::vector<std::string>& words) {
   command.add_input("samples", options->fit.samples, "Measurements (.csv, or a format that gonio reconstruct reads)")
       .required();
   command
-      .add_output("-o,--output", options->page, {".html"},
+      .add_output("-o,--output", options->page.path, {".html"},
                   "Page to write (.html): one file, which a browser shows without a network")
       .required();
   command.add_option("--title", options->title, "Heading of the page (default: the name of the file)");
@@ -59,9 +60,10 @@ void add_report(command& app, const std::vector<std::string>& words) {
   command.add_option("--noise", options->fit.noise, "Relative deviation of the measured values (0.02 is 2 %)")
       .check(check::range(0.0, 1.0));
   add_threads_option(command, options->fit.threads);
-  command.callback([options, words] {
+  options->page.command_line = words;
+  command.callback([options] {
     options->fit.keeps_uncertainty = options->fit.keeps_residuals = true;
-    write_report(*options, words);
+    write_report(*options);
   });
 }
 

@@ -69,9 +69,9 @@ json viewer_of(const reported_fit& fit) {
   return shown;
 }
 
-std::string sphere_url(const reconstruction& found, gonio::thread_count threads) {
+std::string sphere_url(const gonio::brdf_table& table, gonio::thread_count threads) {
   const image_options how{.size = 320, .exposure = {}};
-  std::array spheres{sphere_image(found.table, how, threads)};
+  std::array spheres{sphere_image(table, how, threads)};
   expose_spheres(spheres, how);
   return data_url("image/png", gonio::io::encode_png(spheres.front(), "the sphere"));
 }
@@ -253,26 +253,24 @@ json warnings_of(const reported_fit& fit) {
   return all;
 }
 
-/// What was done, as pairs of a name and a text.
-json record_of(const reported_fit& fit, const std::vector<std::string>& words) {
+/// What was done, beside the command.
+json record_of_fit(const reported_fit& fit) {
   const auto& [options, measured, found, truth] = fit;
-  json record = record_of_command(words);
-  const auto add = [&](const char* name, const std::string& text) { add_to_record(record, name, text); };
-  add("Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
-                     std::to_string(counting_samples(measured.samples).size()) + " count");
-  add("Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
-                      (measured.wavelength ? ", at " + fixed(*measured.wavelength, 1) + " nm" : ""));
-  add("Instrument", measured.provenance.instrument);
-  add("Date", measured.provenance.date);
-  add("Conditions", measured.provenance.conditions);
   const gonio::log_relative_pca prior = gonio::io::read_prior(options.materials.prior);
-  add("Prior", options.materials.prior.string() + ": " + std::to_string(prior.size()) + " components of " +
-                   std::to_string(prior.names().size()) + " materials");
-  add("Method", "principal components and a discrepancy of variance " + fixed(options.discrepancy, 3) +
-                    ", which takes the place of a penalty eta");
-  add("Noise", options.noise ? fixed(100.0 * *options.noise, 2) + " % (stated)" : "not stated");
-  add("Residual", found.sentence);
-  return record;
+  return record_of(
+      {{"Samples", options.samples.string() + ": " + std::to_string(measured.samples.size()) + ", of which " +
+                       std::to_string(counting_samples(measured.samples).size()) + " count"},
+       {"Quantity", std::string(measured.quantity ? name_of(*measured.quantity) : "brdf") +
+                        (measured.wavelength ? ", at " + fixed(*measured.wavelength, 1) + " nm" : "")},
+       {"Instrument", measured.provenance.instrument},
+       {"Date", measured.provenance.date},
+       {"Conditions", measured.provenance.conditions},
+       {"Prior", options.materials.prior.string() + ": " + std::to_string(prior.size()) + " components of " +
+                     std::to_string(prior.names().size()) + " materials"},
+       {"Method", "principal components and a discrepancy of variance " + fixed(options.discrepancy, 3) +
+                      ", which takes the place of a penalty eta"},
+       {"Noise", options.noise ? fixed(100.0 * *options.noise, 2) + " % (stated)" : "not stated"},
+       {"Residual", found.sentence}});
 }
 
 }  // namespace
@@ -293,6 +291,9 @@ gonio::sample_set in_plane_values(const gonio::brdf_table& table) {
 
 json model_report_data(const reported_model& model) {
   const known_fit known(model.value);
+  const auto seen = [&](const gonio::direction& wi, const gonio::direction& wo) noexcept -> gonio::rgb {
+    return model.value(wi, wo);
+  };
   const std::vector<Eigen::Index> counting = counting_samples(model.samples);
   json samples = json::array();
   for (const Eigen::Index i : gonio::random_choice(std::ssize(counting), most_residuals, 0)) {
@@ -303,7 +304,7 @@ json model_report_data(const reported_model& model) {
   json data{{"kind", "fit"},
             {"name", model.name},
             {"count", counting.size()},
-            {"sphere", data_url("image/png", gonio::io::encode_png(model.sphere, "the sphere"))},
+            {"sphere", sphere_url(gonio::tabulate(seen, gonio::valid_cells(), model.threads), model.threads)},
             {"details", model.details}};
   data["scans"] = scans_of(samples, known);
   data["samples"] = std::move(samples);
@@ -311,12 +312,12 @@ json model_report_data(const reported_model& model) {
   return data;
 }
 
-json report_data(const reported_fit& fit, const std::vector<std::string>& words) {
+json report_data(const reported_fit& fit) {
   const known_fit known(fit.found);
   json data{{"kind", "reconstruct"},
             {"name", fit.options.samples.stem().string()},
             {"count", counting_samples(fit.measured.samples).size()},
-            {"sphere", sphere_url(fit.found, fit.options.threads)},
+            {"sphere", sphere_url(fit.found.table, fit.options.threads)},
             {"viewer", viewer_of(fit)},
             {"details", fit.found.details},
             {"worst", worst_of(fit.found)},
@@ -325,7 +326,7 @@ json report_data(const reported_fit& fit, const std::vector<std::string>& words)
   data["scans"] = scans_of(data["samples"], known);
   data["map"] = map_of(known);
   data["albedo"] = albedo_of(known);
-  data["record"] = record_of(fit, words);
+  data["record"] = record_of_fit(fit);
   return data;
 }
 

@@ -21,19 +21,18 @@ struct reported_fit {
 
 /// Directions in degrees, reflectances in sr^-1, numbers of samples from 1; "known to" is relative, with a probability
 /// of 68 %. Of more than `most_residuals` samples, so many at random are shown, and those that were left out.
-/// `words` is the command line, for the record of what was done.
-[[nodiscard]] json report_data(const reported_fit& fit, const std::vector<std::string>& words);
+[[nodiscard]] json report_data(const reported_fit& fit);
 
 /// A model, what it was fitted to, and what `gonio fit --json` prints.
 struct reported_model {
   std::string name;
   std::function<gonio::rgb(const gonio::direction& wi, const gonio::direction& wo)> value;
   const gonio::sample_set& samples;  ///< of a table: some of its values in three planes of incidence
-  const gonio::image& sphere;        ///< exposed
   json details;
+  gonio::thread_count threads;
 };
 
-/// The page of it, but for the record.
+/// What the page of it shows, but for its record.
 [[nodiscard]] json model_report_data(const reported_model& model);
 
 /// The values of a table in the planes of lights at 15, 45 and 70 degrees, every five degrees of the viewer.

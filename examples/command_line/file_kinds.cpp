@@ -40,7 +40,7 @@ gonio::brdf_table as_table(const fs::path& path, const file_content& content, go
 io::rgl_material as_rgl(const fs::path& path, const file_content& content, gonio::thread_count threads) {
   if (const auto* material = std::get_if<io::rgl_material>(&content)) return *material;
   return with_brdf(path, content, [&](const auto& f) -> io::rgl_material {
-    return {gonio::model::tabulate_keeping_albedo(f, 0.004, threads), path.stem().string(), {}};
+    return {gonio::model::tabulate_keeping_albedo(f, threads), path.stem().string(), {}};
   });
 }
 

@@ -4,6 +4,7 @@
 #include "json.hpp"
 #include "materials.hpp"
 #include "measurement_files.hpp"
+#include "report_page.hpp"
 #include "solver_choice.hpp"
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
@@ -33,7 +34,8 @@ struct reconstruct_options {
   std::optional<double> noise;
   double discrepancy = 0.02;
   bool keeps_all = false;
-  std::filesystem::path residuals, uncertainty, uncertainty_image, report;
+  std::filesystem::path residuals, uncertainty, uncertainty_image;
+  page_option report;
   bool keeps_uncertainty = false;  ///< beside those that are written: in the result
   bool keeps_residuals = false;    ///< the same of at most `most_residuals` samples
   bool fits_spectra = false;       ///< each wavelength instead of colours
@@ -47,9 +49,9 @@ struct reconstruct_options {
   bool print_json = false;
   gonio::thread_count threads;
 
-  [[nodiscard]] bool tells_residuals() const { return keeps_residuals || !report.empty(); }
+  [[nodiscard]] bool tells_residuals() const { return keeps_residuals || report.is_given(); }
   [[nodiscard]] bool wants_uncertainty() const {
-    return keeps_uncertainty || !uncertainty.empty() || !uncertainty_image.empty() || !report.empty();
+    return keeps_uncertainty || !uncertainty.empty() || !uncertainty_image.empty() || report.is_given();
   }
 };
 

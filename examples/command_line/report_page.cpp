@@ -25,6 +25,23 @@ std::string replaced(std::string_view text, std::string_view from, std::string_v
   }
 }
 
+/// A command line as a shell takes it.
+std::string as_typed(const std::vector<std::string>& words) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
+  std::string line = "gonio";
+  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
+    line += ' ';
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += '\'';
+  }
+  return line;
+}
+
 std::string joined(std::span<const std::string_view> pieces) {
   std::string all;
   for (const std::string_view piece : pieces) all.append(piece);
@@ -100,38 +117,25 @@ std::string report_page(const std::string& title, const json& data) {
   return page.append(form, position);
 }
 
-void write_report_page(const std::filesystem::path& path, const json& data) {
-  const std::string page = report_page(data["name"].text(), data);
-  gonio::io::write_atomically(path, std::as_bytes(std::span(page)));
-}
-
-std::string as_typed(const std::vector<std::string>& words) {
-  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./=,:+@%";
-  std::string line = "gonio";
-  for (const std::string& word : std::span(words).subspan(std::min<std::size_t>(1, words.size()))) {
-    line += ' ';
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
-}
-
-json record_of_command(const std::vector<std::string>& words) {
-  return json::array({json::array({"Command", as_typed(words)}), json::array({"Version", "gonio " GONIO_VERSION})});
-}
-
-void add_to_record(json& record, const std::string& name, const std::string& text) {
-  if (!text.empty()) record.push_back(json::array({name, text}));
-}
-
-void add_report_option(command& to, std::filesystem::path& page) {
-  to.add_output("--report", page, {".html"},
+void add_report_option(command& to, page_option& page, const std::vector<std::string>& command_line) {
+  to.add_output("--report", page.path, {".html"},
                 "Page for people to write (.html): one file, which a browser shows without a network");
+  page.command_line = command_line;
+}
+
+json record_of(std::initializer_list<std::pair<const char*, std::string>> pairs) {
+  json record = json::array();
+  for (const auto& [name, text] : pairs)
+    if (!text.empty()) record.push_back(json::array({name, text}));
+  return record;
+}
+
+void write_report_page(const page_option& page, json data) {
+  json record = record_of({{"Command", as_typed(page.command_line)}, {"Version", "gonio " GONIO_VERSION}});
+  for (const json& pair : data["record"].elements()) record.push_back(pair);
+  data["record"] = std::move(record);
+  const std::string text = report_page(data["name"].text(), data);
+  gonio::io::write_atomically(page.path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace cli

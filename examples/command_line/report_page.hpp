@@ -7,9 +7,11 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cli {
@@ -30,18 +32,22 @@ namespace cli {
 /// The whole page. `data` is what examples/report/report.js draws; its `kind` says of which command.
 [[nodiscard]] std::string report_page(const std::string& title, const json& data);
 
-/// Writes the page that is called by `name` of the data beside its target and renames it.
-void write_report_page(const std::filesystem::path& path, const json& data);
+/// Where a command writes its page, and the command line, which the page repeats.
+struct page_option {
+  std::filesystem::path path;
+  std::vector<std::string> command_line;  ///< its first word is the program
 
-/// The command line as a shell takes it; its first word is the program.
-[[nodiscard]] std::string as_typed(const std::vector<std::string>& words);
+  [[nodiscard]] bool is_given() const noexcept { return !path.empty(); }
+};
 
-/// What was done, as the pairs of a name and a text that a page ends with: first the command and the version.
-[[nodiscard]] json record_of_command(const std::vector<std::string>& words);
-/// Adds a pair, unless its text is empty.
-void add_to_record(json& record, const std::string& name, const std::string& text);
+/// Adds `--report` to a command that writes a page beside its other results.
+void add_report_option(command& to, page_option& page, const std::vector<std::string>& command_line);
 
-/// The option of commands that write a page beside their other results.
-void add_report_option(command& to, std::filesystem::path& page);
+/// What was done, as pairs of a name and a text; a pair whose text is empty is left out.
+[[nodiscard]] json record_of(std::initializer_list<std::pair<const char*, std::string>> pairs);
+
+/// Writes a page beside its target and renames it. Its title is the `name` of the data, and its `record` begins with
+/// the command and the version.
+void write_report_page(const page_option& page, json data);
 
 }  // namespace cli

@@ -163,13 +163,19 @@ function polar_plot(scan) {
   });
 }
 
+// What the dots of polar plots are.
+function told_of_dots(measured, has_band) {
+  if (data.of_table) return "Dots: the table. ";
+  if (!measured) return "No three samples lie in the plane of one light: this is the fit alone. ";
+  return has_band ? "Dots: samples; crosses: those that disagree. " : "Dots: samples. ";
+}
+
 function scans() {
   const has_band = data.scans.some((scan) => scan.curve.some((each) => each.known_to !== undefined));
   const known = (each) => (has_band ? [percent(each.known_to)] : []);
   const measured = data.scans.some((scan) => scan.samples.length);
   add(element("h2", {}, measured ? "In-plane scans" : "In the plane of incidence"),
-    paragraph((data.of_table ? "Dots: the table. " : measured && !has_band ? "Dots: samples. " : measured ? "Dots: samples; crosses: those that disagree. " : "No three samples lie in the plane of one light: this is the fit alone. ") +
-      "Line: the fit." + (has_band ? " Band: in 68 of 100 cases the truth is within." : "") + " The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
+    paragraph(told_of_dots(measured, has_band) + "Line: the fit." + (has_band ? " Band: in 68 of 100 cases the truth is within." : "") + " The luminance of the BRDF, sr\u207b\u00b9; dashes: the light; dots: its mirror direction."));
   const charts = element("div", { className: "charts" });
   for (const scan of data.scans) {
     const chart = polar_plot(scan), every_tenth = scan.curve.filter((each) => each.angle % 5 === 0);

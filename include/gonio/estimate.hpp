@@ -21,6 +21,7 @@
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/estimate/mapped_noise.hpp>
 #include <gonio/estimate/nearest_material.hpp>
+#include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/outlier_weights.hpp>
 #include <gonio/estimate/outlying_samples.hpp>

@@ -247,6 +247,18 @@ TEST_CASE("a plan says where light and viewer go, and draws them") {
   CHECK(printed.output.find("| 1 | 40.00 | 30.00 | 180.00 | 0.6428 0.0000 0.7660 | -0.5000 0.0000 0.8660 |") !=
         std::string::npos);
   CHECK(std::filesystem::file_size(board.at("d.png")) > 1000);
+  // The number of the first pose stands at its viewer, 30 degrees to the left of the middle, on the far side from the
+  // light; that of the second one above its viewer, 50 degrees upwards.
+  const gonio::image drawn = gonio::io::read_png(board.at("d.png"));
+  const auto is_drawn = [&](std::size_t from_row, std::size_t from_column) {
+    for (std::size_t row = from_row; row < from_row + 9; ++row)
+      for (std::size_t column = from_column; column < from_column + 9; ++column)
+        if (gonio::pixel(drawn, row, column).minCoeff() < 0.5f) return true;
+    return false;
+  };
+  CHECK(is_drawn(256, 260 - 80 - 16));
+  CHECK_FALSE(is_drawn(240, 260 - 80 - 16));
+  CHECK(is_drawn(260 - 133 - 16, 256));
 
   const auto json = gonio_tool("plan " + board.at("d.csv") + " --json");
   const auto poses = parse_json(json.output);

@@ -117,6 +117,36 @@ TEST_CASE("gonio render --columns: a contact sheet, row by row; 512 pixels a sid
   CHECK(draw(gold).shape(0) == 528u);
 }
 
+TEST_CASE("gonio render --compare: the difference of two tables as a third image, with its scale") {
+  const rendered_folder given;
+  run("expand --formula red-paint -o " + given.at("red.binary"));
+  const auto draw = [&](const std::string& arguments) {
+    const std::string told = run("render --size 128 --compare " + arguments + " -o " + given.at("three.png"));
+    return std::pair(told, gonio::io::read_png(given.folder / "three.png"));
+  };
+  const auto [none, same] = draw(given.table + " " + given.table);
+  CHECK(none.find("Delta E of the images: 0.00") == 0);
+  REQUIRE(same.shape(1) == 3u * 128 + 4 * 8);
+  // Where the sphere is lit, blue; the scale at the bottom ends with red, and has numbers.
+  CHECK((gonio::pixel(same, 8 + 40, 280 + 80) == gonio::rgb(0.0, 0.0, 1.0)).all());
+  CHECK(gonio::pixel(same, 8 + 128 - 16, 280 + 127).x() == 1.0f);
+  double brightest = 0.0;
+  for (std::size_t row = 8 + 128 - 10; row < 8 + 128; ++row)
+    for (std::size_t column = 280; column < 280 + 40; ++column)
+      brightest = std::max(brightest, double{gonio::pixel(same, row, column).y()});
+  CHECK(brightest > 0.5);
+  const auto [some, two] = draw(given.table + " " + given.at("red.binary"));
+  CHECK(some.find("Delta E of the images: 0.00") == std::string::npos);
+  CHECK(gonio::pixel(two, 8 + 40, 280 + 80).z() < 1.0f);
+  const auto [slices, drawn] = draw("--slices " + given.table + " " + given.at("red.binary"));
+  CHECK(drawn.shape(1) == 3u * 128 + 4 * 8);
+  refuses("render --compare " + given.table + " -o " + given.at("x.png"), {"--compare", "two tables"});
+  refuses("render --compare " + given.table + " " + given.table + " -o " + given.at("x.exr"), {"--compare", ".png"});
+  refuses("render --compare --size 63 " + given.table + " " + given.table + " -o " + given.at("x.png"),
+          {"--compare", "--size", "64"});
+  CHECK_FALSE(std::filesystem::exists(given.folder / "x.png"));
+}
+
 #if defined(GONIO_HAS_EXR)
 TEST_CASE("gonio render: an .exr image has the values themselves, and may be the environment") {
   const rendered_folder given;

@@ -84,12 +84,6 @@ extern template located_samples locate_samples(const valid_cells& cells, const s
 [[nodiscard]] located_samples locate_samples(const valid_cells& cells, const brdf_table& table,
                                              thread_count threads = {});
 
-/// Samples as outliers are judged. The colours of a saturated material lie outside of Rec. 709: a channel is negative
-/// in all samples, and a logarithm cannot tell one of them from another. Where more than one sample in ten has a
-/// negative channel, colours become CIE XYZ relative to white, which no reflectance makes negative; others stay as they
-/// are, and those whose channels count apart. O(samples).
-[[nodiscard]] located_samples out_of_gamut_as_xyz(located_samples samples);
-
 /// Reflectances at given locations under a metric: 3 x n.
 template <error_metric Metric>
 [[nodiscard]] channel_values map_values(const Metric& metric, const channel_values& values,

@@ -5,6 +5,7 @@
 
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/located_samples.hpp>
+#include <gonio/estimate/out_of_gamut.hpp>
 
 #include <Eigen/Core>
 

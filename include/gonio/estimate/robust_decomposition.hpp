@@ -7,6 +7,7 @@
 #include <gonio/core/random.hpp>
 #include <gonio/estimate/discrepancy_decomposition.hpp>
 #include <gonio/estimate/nearest_material.hpp>
+#include <gonio/estimate/out_of_gamut.hpp>
 #include <gonio/estimate/outlier_mixture.hpp>
 #include <gonio/estimate/values_at.hpp>
 #include <gonio/solve/product.hpp>

@@ -78,8 +78,8 @@ template <brdf Brdf>
 /// columns more, and nearly twice the angles: where a narrow highlight grows towards grazing angles, what is linear
 /// between nodes is too bright. A file of them has 15 MB instead of 3.5. Throws as `tabulate_adaptively`.
 template <brdf Brdf>
-[[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, double tolerance = 0.004,
-                                                    thread_count threads = {}) {
+[[nodiscard]] adaptive_brdf tabulate_keeping_albedo(const Brdf& f, thread_count threads = {},
+                                                    double tolerance = 0.004) {
   adaptive_brdf usual = tabulate_adaptively(f, {}, threads);
   if (albedo_error(f, usual, threads) <= tolerance) return usual;
   return tabulate_adaptively(f, {.theta_i = 60, .values = 144}, threads);

@@ -3,7 +3,6 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
-#include <gonio/core/rgb.hpp>
 #include <gonio/estimate/located_samples.hpp>
 #include <gonio/table/brdf_table.hpp>
 #include <gonio/table/sample_set.hpp>
@@ -75,17 +74,6 @@ GONIO_INLINE located_samples located_samples::subset(const std::vector<Eigen::In
     for (Eigen::Index column = 0; column < weights.cols(); ++column) some.weights(to, column) = weights(from, column);
   }
   return some;
-}
-
-GONIO_INLINE located_samples out_of_gamut_as_xyz(located_samples samples) {
-  constexpr double usual_share = 0.1;  // of samples that noise alone makes negative
-  if (samples.values.cols() != 3 || samples.weighs_channels_apart()) return samples;
-  const Eigen::Index negative = (samples.values.rowwise().minCoeff().array() < 0.0).count();
-  if (static_cast<double>(negative) <= usual_share * static_cast<double>(samples.size())) return samples;
-  const rgb white = to_xyz(rgb::Ones());
-  for (Eigen::Index i = 0; i < samples.size(); ++i)
-    samples.values.row(i) = to_xyz(samples.values.row(i).head<3>().transpose().array()) / white;
-  return samples;
 }
 
 GONIO_INLINE located_samples locate_samples(const valid_cells& cells, const brdf_table& table, thread_count threads) {
