@@ -1,131 +1,6 @@
-// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2. A table is
-// a texture over theta_h, theta_d and phi_d, read as gonio render reads one (include/gonio/render/horizon_lookup.hpp).
 
-// ---- shaders ---------------------------------------------------------------------------------------------------
-const look_up = `
-const float pi = 3.14159265358979;
-
-// Shares of the way along phi_d, theta_d and theta_h's axes, of directions above a surface with normal n: the same as
-// include/gonio/render/grid_coordinates.hpp has, in any frame.
-vec3 grid_coordinates(vec3 n, vec3 wi, vec3 wo) {
-  vec3 sum = wi + wo, difference = wi - wo;
-  float size = length(sum), x = -dot(n, difference) * size, y = dot(n, cross(sum, difference));
-  float phi_d = x == 0.0 && y == 0.0 ? 0.0 : fract(atan(y, x) / pi);
-  float theta_d = atan(length(difference), size), theta_h = atan(length(cross(n, sum)), dot(n, sum));
-  return vec3(phi_d, theta_d * 2.0 / pi, sqrt(theta_h * 2.0 / pi));
-}
-
-// sr^-1, of the fit or the truth, of directions above the horizon.
-vec3 reflectance(bool is_truth, vec3 n, vec3 wi, vec3 wo) {
-  vec3 at = grid_coordinates(n, wi, wo);
-  vec4 read = is_truth ? texture(truth, at + truth_shift) * truth_scale : texture(values, at + values_shift) * values_scale;
-  return read.rgb / read.a;
-}`;
-
-const vertex_shader = `#version 300 es
-in vec2 corner;
-void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
-
-// What is seen of a lit point.
-const shading = `#version 300 es
-precision highp float;
-precision highp sampler3D;
-uniform sampler3D values, truth, known;
-uniform vec3 values_shift, truth_shift, light;
-uniform vec4 values_scale, truth_scale;
-uniform float exposure, size, border;  // right of the border the truth is shown
-uniform bool shows_known, surrounded;
-uniform sampler2D towards_light, weights, added;  // of light from all around, and the frames so far
-uniform int frame;
-uniform float around;
-out vec4 colour;
-${look_up}
-
-struct lit_point { bool hit; vec3 n, wi, wo; float irradiance; };
-
-// As the map of the page: light is 2 %, dark 100 %.
-vec3 colour_of_known(float share) {
-  float t = clamp(log(max(share, 1e-6) / 0.02) / log(50.0), 0.0, 1.0);
-  return mix(vec3(243.0, 236.0, 210.0), vec3(18.0, 58.0, 99.0), t) / 255.0;
-}
-vec3 linear_light(vec3 v) { return mix(v / 12.92, pow((v + 0.055) / 1.055, vec3(2.4)), step(0.04045, v)); }
-vec3 display_value(vec3 v) {
-  v = clamp(v, 0.0, 1.0);
-  return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
-}
-
-float random(uvec3 v) {  // M. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020
-  v = v * 1664525u + 1013904223u;
-  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-  return float(v.x >> 8) / 16777216.0;
-}
-
-// Sixteen directions of the environment, one from each share of its light, added to the frames before.
-vec3 seen_all_around(lit_point point, bool is_truth) {
-  vec3 sum = texelFetch(added, ivec2(gl_FragCoord.xy), 0).rgb * (frame > 0 ? 1.0 : 0.0);
-  if (!point.hit || dot(point.n, point.wo) <= 0.0) return sum;
-  for (int i = 0; i < 16; ++i) {
-    float share = (float(i) + random(uvec3(gl_FragCoord.xy, 16 * frame + i))) / 16.0;
-    int at = min(int(share * 65536.0), 65535);
-    vec3 d = texelFetch(towards_light, ivec2(at % 256, at / 256), 0).xyz;
-    vec3 wi = vec3(cos(around) * d.x + sin(around) * d.z, d.y, cos(around) * d.z - sin(around) * d.x);
-    float cosine = dot(point.n, wi);
-    if (cosine <= 0.0) continue;
-    vec3 weight = texelFetch(weights, ivec2(at % 256, at / 256), 0).rgb * 4096.0;
-    sum += reflectance(is_truth, point.n, wi, point.wo) * weight * (cosine * exposure);
-  }
-  return sum;
-}
-
-// A white Lambertian surface that faces the light is 1, times the exposure.
-vec3 seen(lit_point point, bool is_truth) {
-  if (surrounded) return seen_all_around(point, is_truth);
-  float cosine = dot(point.n, point.wi);
-  if (!point.hit || cosine <= 0.0 || dot(point.n, point.wo) <= 0.0) return vec3(0.0);
-  if (shows_known && !is_truth) {
-    float level = texture(known, grid_coordinates(point.n, point.wi, point.wo)).r;
-    return linear_light(colour_of_known(0.001 * pow(10.0, 4.0 * level)));
-  }
-  return reflectance(is_truth, point.n, point.wi, point.wo) * (pi * cosine * point.irradiance * exposure);
-}`;
-
-// The sphere fills the square and is seen by a camera at infinity, as gonio render draws it. The flat sample is seen
-// from 50 degrees off its normal, under a lamp at three times half its width.
-const image_main = `
-uniform int samples, shape;  // 0: a sphere, 1: a flat sample
-
-lit_point sphere(vec2 p) {
-  float squared = dot(p, p);
-  return lit_point(squared < 1.0, vec3(p, sqrt(max(1.0 - squared, 0.0))), light, vec3(0.0, 0.0, 1.0), 1.0);
-}
-
-lit_point flat_sample(vec2 p) {
-  vec3 n = vec3(0.0, 0.76604444, 0.64278761), right = vec3(1.0, 0.0, 0.0), up = cross(n, right);
-  vec3 eye = vec3(0.0, 0.0, 5.0), ray = normalize(vec3(1.3 * p, -5.0));
-  vec3 at = eye - ray * (dot(eye, n) / dot(ray, n));
-  vec3 lamp = 3.0 * light - at;
-  bool hit = max(abs(dot(at, right)), abs(dot(at, up))) < 1.0;
-  return lit_point(hit, n, normalize(lamp), -ray, 9.0 / dot(lamp, lamp));
-}
-
-void main() {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < samples * samples; ++i) {
-    vec2 within = (vec2(i % samples, i / samples) + 0.5) / float(samples);
-    if (surrounded) within = fract(vec2(0.5) + float(frame) * vec2(0.75487767, 0.56984029));
-    vec2 p = (floor(gl_FragCoord.xy) + within) / size * 2.0 - 1.0;
-    if (shape == 0) sum += seen(sphere(p), p.x > border);
-    else sum += seen(flat_sample(p), p.x > border);
-  }
-  if (surrounded) {
-    colour = vec4(sum, 1.0);
-    return;
-  }
-  colour = vec4(display_value(sum / float(samples * samples)), 1.0);
-  if (abs(gl_FragCoord.x / size * 2.0 - 1.0 - border) < 1.5 / size) colour.rgb = vec3(0.6);
-}`;
+// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2, and
+// what a pointer over it reads. shading.js and environment.js have the shaders, controls.js what stands beside the image.
 
 // ---- WebGL -----------------------------------------------------------------------------------------------------
 function program_of(gl, vertex, fragment) {
@@ -166,7 +41,7 @@ class material_view {
   constructor(canvas, { table, truth, uncertainty }) {
     const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
-    this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], new Float32Array([-1, -1, 3, -1, -1, 3]));
+    this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], whole_image);
     this.mesh = null;
     this.textures = [["values", table], ["truth", truth ?? table]].map(([name, { grid, shift, scale, texels }], unit) => {
       if (unit === 0 || truth) texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
@@ -195,13 +70,17 @@ class material_view {
   // `vertices` as read_obj returns them.
   take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
 
-  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent.
-  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0, turn = 0, frame = 0, surrounded = false }, drawn) {
-    const { gl, canvas } = this, { program, corners, count } = drawn ?? (shape === "mesh" && this.mesh ? this.mesh : this.image);
+  drawn_as(shape) { return shape === "mesh" && this.mesh ? this.mesh : this.image; }
+
+  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent, or if it
+  // `blends` its share in all of the image. With `total`, the light of an environment, a frame is added to others; with
+  // `keeps` what is drawn already stays behind.
+  draw(state, { program, corners, count } = this.drawn_as(state.shape), keeps = false) {
+    const { gl, canvas } = this, { truth = 0, blends = false, frame = 0, total = 0 } = state;
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.enable(gl.DEPTH_TEST);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.DEPTH_BUFFER_BIT | (keeps ? 0 : gl.COLOR_BUFFER_BIT));
     gl.useProgram(program);
     gl.bindVertexArray(corners);
     for (const { name, unit, scale, shift } of this.textures) {
@@ -209,67 +88,65 @@ class material_view {
       gl.uniform3f(at(`${name}_shift`), ...shift);
       gl.uniform4f(at(`${name}_scale`), scale, scale, scale, 1);
     }
-    ["known", "towards_light", "weights", "added"].forEach((name, i) => gl.uniform1i(at(name), 2 + i));
-    gl.uniform1i(at("surrounded"), surrounded);
+    ["known", "surroundings", "rows", "added", "lobes"].forEach((name, i) => gl.uniform1i(at(name), 2 + i));
+    gl.uniform1i(at("surrounded"), total > 0);
     gl.uniform1i(at("frame"), frame);
-    gl.uniform1f(at("around"), radians(longitude));
-    gl.uniform3f(at("light"), ...light_direction({ longitude, latitude }));
-    gl.uniform1f(at("exposure"), exposure);
+    gl.uniform1f(at("total_light"), total);
+    gl.uniform2f(at("within_pixel"), ...[0.75487767, 0.56984029].map((step) => (total > 0 ? (0.5 + frame * step) % 1 : 0.5)));
+    gl.uniform1f(at("around"), radians(state.around ?? 0));
+    gl.uniform3f(at("light"), ...light_direction(state));
+    gl.uniform1f(at("exposure"), state.exposure);
     gl.uniform1f(at("size"), canvas.width);
-    gl.uniform1f(at("border"), truth > 0 ? 1 - 0.02 * truth : 9);
-    gl.uniform1i(at("shows_known"), known);
-    gl.uniform1f(at("turn"), radians(turn));
-    gl.uniform1i(at("samples"), samples);
-    gl.uniform1i(at("shape"), shape === "flat" ? 1 : 0);
+    gl.uniform1f(at("border"), truth > 0 && !blends ? 1 - 0.02 * truth : 9);
+    gl.uniform1f(at("blend"), blends ? truth / 100 : 0);
+    gl.uniform1i(at("shows_known"), state.known);
+    gl.uniform1f(at("turn"), radians(state.turn ?? 0));
+    gl.uniform1i(at("samples"), state.samples);
+    gl.uniform1i(at("shape"), Math.max(0, ["sphere", "flat", "none"].indexOf(state.shape)));
     gl.drawArrays(gl.TRIANGLES, 0, count);
   }
 }
-
 // ---- the section of the page -----------------------------------------------------------------------------------
 // What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
 const viewer = {
-  state: { light: "lamp", longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer?.truth ? 50 : 0 },
+  state: { light: "lamp", longitude: 45, latitude: 35.26, around: 0, stops: 0, shape: "sphere", known: false, turn: 0,
+    truth: data.viewer?.truth ? 50 : 0, blends: false },
   view: null,
   surrounded: null,
   draw: null,
 };
+const is_surrounded = () => viewer.state.light === "environment";
+const exposure_in_environment = 0.4;  // as gonio render has it
 
-function slider(label, key, [min, max, step], told, changed) {
-  const output = element("output");
-  const input = element("input", { type: "range", min, max, step, value: viewer.state[key] });
-  const show = () => { input.value = viewer.state[key]; output.textContent = told(viewer.state[key]); };
-  input.addEventListener("input", () => { viewer.state[key] = Number(input.value); changed(); });
-  return { show, row: element("label", {}, element("span", {}, label), input, output) };
-}
-
-// Draws now with one sample a pixel, and with nine when nothing has moved for a while.
+// Under the lamp draws now with one sample a pixel, and with nine when nothing has moved for a while; in an environment
+// adds frames.
 function redraw_with(view, base) {
-  let waiting = 0;
-  const drawn = (samples) => view.draw({ ...viewer.state, exposure: base * 2 ** viewer.state.stops, samples });
-  viewer.draw = drawn;
-  let change = 0;
-  const converge = (mine) => {
+  let waiting = 0, change = 0;
+  const exposed = (base) => ({ ...viewer.state, exposure: base * 2 ** viewer.state.stops });
+  viewer.draw = (samples) => view.draw({ ...exposed(base), samples });
+  const add_frames = (mine) => {
     if (mine !== change || viewer.surrounded.frame >= last_frame) return;
-    viewer.surrounded.draw({ ...viewer.state, exposure: 0.4 * 2 ** viewer.state.stops });
-    requestAnimationFrame(() => converge(mine));
+    viewer.surrounded.draw(exposed(exposure_in_environment));
+    requestAnimationFrame(() => add_frames(mine));
   };
   return () => {
     clearTimeout(waiting);
     const mine = ++change;
-    if (viewer.state.light === "environment" && viewer.surrounded && !viewer.state.known) {
+    if (is_surrounded()) {
       viewer.surrounded.frame = 0;
-      requestAnimationFrame(() => converge(mine));
+      requestAnimationFrame(() => add_frames(mine));
       return;
     }
-    requestAnimationFrame(() => { if (mine === change) drawn(1); });
-    waiting = setTimeout(() => requestAnimationFrame(() => drawn(3)), 150);
+    requestAnimationFrame(() => { if (mine === change) viewer.draw(1); });
+    waiting = setTimeout(() => requestAnimationFrame(() => { if (mine === change) viewer.draw(3); }), 150);
   };
 }
 
 const turned = (degrees) => ((degrees + 540) % 360) - 180;
 function move_light(by_longitude, by_latitude) {
-  viewer.state.longitude = turned(viewer.state.longitude + by_longitude);
-  viewer.state.latitude = Math.max(-90, Math.min(90, viewer.state.latitude + by_latitude));
+  const key = is_surrounded() ? "around" : "longitude";
+  viewer.state[key] = turned(viewer.state[key] + by_longitude);
+  if (!is_surrounded()) viewer.state.latitude = Math.max(-90, Math.min(90, viewer.state.latitude + by_latitude));
 }
 
 // Calls move(degrees to the right, degrees up) when arrow keys are pressed or the pointer drags.
@@ -293,80 +170,21 @@ function normal_at(event, canvas) {
   return viewer.state.shape === "sphere" && x * x + y * y < 1 ? [x, y, Math.sqrt(1 - x * x - y * y)] : null;
 }
 
-// What the material reflects there.
-function told_at(n, table, uncertainty, is_truth) {
+// How much of the truth is seen there, from 0 to 1.
+function truth_share_at([x]) {
+  const { truth, blends } = viewer.state;
+  if (blends) return truth / 100;
+  return truth > 0 && x > 1 - 0.02 * truth ? 1 : 0;
+}
+
+// What the material reflects there, and how sure that is.
+function told_at(n, reflects, uncertainty) {
   const wi = light_direction(viewer.state), wo = [0, 0, 1], degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
+  if (is_surrounded()) return `theta_o ${degrees(wo)}: light from all around, by the lobe`;
   if (dot(n, wi) <= 0) return `theta_i ${degrees(wi)}: no light`;
-  return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflectance_at(table, n, wi, wo))} sr\u207b\u00b9, ` +
-    (is_truth ? "the truth" : `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`);
-}
-
-function choice(label, key, options, changed) {
-  const select = element("select", {}, ...options.map(([value, name]) => element("option", { value }, name)));
-  select.addEventListener("input", () => { viewer.state[key] = select.value; changed(); });
-  return element("label", {}, element("span", {}, label), select);
-}
-
-// A file of the reader's own, and a slider that turns it; both are shown while a model is.
-function model_rows(changed) {
-  const input = element("input", { type: "file", accept: ".obj" }), problem = element("output");
-  input.addEventListener("change", async () => {
-    problem.textContent = "";
-    try {
-      if (input.files.length) viewer.view.take_mesh(read_obj(await input.files[0].text()));
-    } catch (error) {
-      problem.textContent = `not a model: ${error.message}`;
-    }
-    changed();
-  });
-  const turn = slider("Turned by", "turn", [-180, 180, 1], (value) => `${value}\u00b0`, changed);
-  return { rows: [element("label", {}, element("span", {}, "File (.obj)"), input, problem), turn.row], show: turn.show };
-}
-
-// A lamp, or an environment: a sky, or a light probe of the reader's own.
-function light_rows(changed) {
-  const input = element("input", { type: "file", accept: ".hdr" }), problem = element("output");
-  const attempt = async (what) => {
-    problem.textContent = "";
-    try {
-      await what();
-    } catch (error) {
-      problem.textContent = `no such light: ${error.message}`;
-    }
-    changed();
-  };
-  input.addEventListener("change", () => attempt(async () => {
-    if (input.files.length) viewer.surrounded.take(read_hdr(new Uint8Array(await input.files[0].arrayBuffer())));
-  }));
-  const lights = choice("Light", "light", [["lamp", "a lamp"], ["environment", "from all around"]], () => attempt(() => {
-    if (viewer.state.light === "environment") viewer.surrounded ??= new surrounded_view(viewer.view);
-  }));
-  const file = element("label", {}, element("span", {}, "Light probe (.hdr)"), input);
-  return { rows: [lights, file, problem], show: () => { file.hidden = viewer.state.light !== "environment"; } };
-}
-
-function controls(changed) {
-  const degrees = (value) => `${Math.round(value)}\u00b0`;
-  const sliders = [
-    slider("Light, to the right", "longitude", [-180, 180, 1], degrees, changed),
-    slider("Light, upwards", "latitude", [-90, 90, 1], degrees, changed),
-    slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${value > 0 ? "+" : ""}${value} stops`, changed)];
-  if (data.viewer.truth) sliders.push(slider("Truth, from the right", "truth", [0, 100, 1], (value) => `${value} %`, changed));
-  const model = model_rows(changed), light = light_rows(changed);
-  const known = element("input", { type: "checkbox" });
-  known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });
-  const legend = element("p", { className: "legend soft" }, "2 %", element("span", { className: "ramp" }), "100 %");
-  return {
-    box: element("div", { className: "controls" },
-      choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"], ["mesh", "a model"]], changed), ...model.rows,
-      ...light.rows, ...sliders.map((each) => each.row),
-      element("label", {}, element("span", {}, "Uncertainty"), known), legend),
-    show: () => {
-      [...sliders, model, light].forEach((each) => each.show());
-      model.rows.forEach((each) => { each.hidden = viewer.state.shape !== "mesh"; });
-      legend.hidden = !viewer.state.known;
-    },
-  };
+  const share = truth_share_at(n), known = `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`;
+  return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflects(share, n, wi, wo))} sr\u207b\u00b9, ` +
+    (share === 0 ? known : share === 1 ? "the truth" : `${percent(share)} the truth`);
 }
 
 async function fill_viewer(section) {
@@ -378,21 +196,24 @@ async function fill_viewer(section) {
   const table = await read_table(data.viewer.table);
   const uncertainty = { grid: data.viewer.uncertainty.grid, levels: await inflated(data.viewer.uncertainty.codes) };
   const truth = data.viewer.truth ? await read_table(data.viewer.truth) : null;
+  const reflects = (share, ...directions) => blended(share, (which) => reflectance_at(which ? truth : table, ...directions));
   viewer.view = new material_view(canvas, { table, truth, uncertainty });
   const start = angle_between(light_direction(viewer.state), [0, 0, 1]);
   const redraw = redraw_with(viewer.view, data.viewer.exposure / white_mean(start));
-  const panel = controls(() => changed()), lobe = lobe_figure(table, uncertainty);
+  const surround = () => { viewer.surrounded ??= new surrounded_view(viewer.view, { table, truth }); };
+  const panel = controls(() => changed(), surround);
+  const lobe = lobe_figure((...directions) => reflects(viewer.state.blends ? viewer.state.truth / 100 : 0, ...directions), uncertainty);
+  const readout = element("p", { className: "soft readout" });
   const changed = () => {
     panel.show();
     redraw();
-    lobe.draw({ known: viewer.state.known });
+    readout.textContent = "";
+    lobe.draw({ known: viewer.state.known && !is_surrounded(), is_view: is_surrounded() });
   };
-  const readout = element("p", { className: "soft readout" });
   canvas.addEventListener("pointermove", (event) => {
     const n = normal_at(event, canvas);
-    const is_truth = n !== null && n[0] > 1 - 0.02 * viewer.state.truth;
-    readout.textContent = n ? told_at(n, is_truth ? truth : table, uncertainty, is_truth) : "";
-    const theta_i = n ? angle_between(n, light_direction(viewer.state)) : Math.PI;
+    readout.textContent = n ? told_at(n, reflects, uncertainty) : "";
+    const theta_i = n ? angle_between(n, is_surrounded() ? [0, 0, 1] : light_direction(viewer.state)) : Math.PI;
     if (theta_i < radians(89)) lobe.draw({ theta_i });
   });
   moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
@@ -411,4 +232,3 @@ async function show_viewer() {
     section.append(paragraph(`No light can be moved here: ${error.message}. The image above shows the material.`, "no-viewer"));
   }
 }
-
