@@ -55,7 +55,7 @@ function light_rows(changed, surround) {
     }
     changed();
   });
-  const file = element("label", {}, element("span", {}, "Instead of a room: file (.hdr)"), input);
+  const file = element("label", { title: "Without a file: a room with windows" }, element("span", {}, "File (.hdr)"), input);
   const around = slider("Turned, to the right", "around", [-180, 180, 1], in_degrees, changed);
   const lamp = [slider("Light, to the right", "longitude", [-180, 180, 1], in_degrees, changed),
     slider("Light, upwards", "latitude", [-90, 90, 1], in_degrees, changed)];

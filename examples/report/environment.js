@@ -80,11 +80,12 @@ uvec3 random(uvec3 v) {  // M. Jarzynski and M. Olano, "Hash Functions for GPU R
   return v;
 }
 
-// Even steps in four dimensions from a place drawn at random for each pixel, as even_numbers of gonio render.
+// Steps by the powers of the root of t^5 = t + 1, which fill four dimensions evenly (M. Roberts, "The Unreasonable
+// Effectiveness of Quasirandom Sequences", 2018), from a place drawn at random for each pixel.
 vec4 even_numbers(int number) {
   uvec3 one = random(uvec3(gl_FragCoord.xy, 1)), other = random(uvec3(gl_FragCoord.xy, 2));
   vec4 first = vec4(one.xy >> 8, other.xy >> 8) / 16777216.0;
-  return fract(first + float(number) * vec4(0.81917251, 0.67104361, 0.54970048, 0.45029952));
+  return fract(first + float(number) * vec4(0.85667488, 0.73389186, 0.62870672, 0.53859726));
 }
 
 vec3 reflected(float truth_share, vec3 n, vec3 wi, vec3 wo) {
