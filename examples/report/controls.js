@@ -72,7 +72,7 @@ function light_rows(changed, surround) {
 // How much of the truth is shown: on the right of a border, or mixed with the fit.
 function truth_rows(changed) {
   const share = slider("Truth", "truth", [0, 100, 1], (value) => `${value} %`, changed);
-  const shown = element("select", {}, ...[["border", "beside the fit"], ["blend", "blended with it"]].map(([value, name]) => element("option", { value }, name)));
+  const shown = element("select", {}, ...[["border", "beside the fit"], ["blend", "blended with the fit"]].map(([value, name]) => element("option", { value }, name)));
   shown.addEventListener("input", () => { viewer.state.blends = shown.value === "blend"; changed(); });
   return { rows: [element("label", {}, element("span", {}, "Truth is shown"), shown), share.row], show: share.show };
 }
