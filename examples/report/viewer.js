@@ -210,13 +210,13 @@ async function fill_viewer(section) {
     readout.textContent = "";
     lobe.draw({ known: viewer.state.known && !is_surrounded(), is_view: is_surrounded() });
   };
+  moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
   canvas.addEventListener("pointermove", (event) => {
     const n = normal_at(event, canvas);
     readout.textContent = n ? told_at(n, reflects, uncertainty) : "";
     const theta_i = n ? angle_between(n, is_surrounded() ? [0, 0, 1] : light_direction(viewer.state)) : Math.PI;
     if (theta_i < radians(89)) lobe.draw({ theta_i });
   });
-  moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
   panel.box.append(lobe.box);
   section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF there, and shows its lobe."),
     element("div", { className: "viewer" }, element("div", {}, canvas, readout), panel.box));

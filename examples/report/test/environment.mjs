@@ -88,7 +88,8 @@ async function judge(page, name, light, hdr, table) {
   };
   await surround(page, hdr);
   const theirs = [await render("1"), await render("2")], [half, ours] = await drawn(page);
-  const { mean, bias } = difference(ours, theirs[0]), { worst } = difference(smoothed(ours), smoothed(theirs[0]));
+  const { mean, bias } = difference(ours, theirs[0]);
+  const [worst, worst_of_theirs] = [ours, theirs[1]].map((each) => difference(smoothed(each), smoothed(theirs[0])).worst);
   const noise = [Math.SQRT2 * difference(ours, half).mean, difference(...theirs).mean]; // of two runs each
   row(name, light, mean.toFixed(3), bias.toFixed(3), worst.toFixed(2), worst_of_theirs.toFixed(2), ...noise.map((each) => each.toFixed(3)));
   return { mean, bias: Math.abs(bias), worst: worst - worst_of_theirs, noise };
