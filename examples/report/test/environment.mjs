@@ -126,7 +126,7 @@ await browser.close();
 console.log("");
 const largest = (key) => Math.max(...found.map((each) => each[key]));
 check(largest("bias") < 0.1, "the viewer's mean difference to gonio render with its sign is below 0.1/255");
-check(found.every((each) => each.mean < 0.1 + Math.hypot(...each.noise)), "the mean difference is that of the noise of both");
+check(found.every((each) => each.mean < 0.05 + Math.hypot(...each.noise) / Math.SQRT2), "the mean difference is that of the noise of both");
 check(largest("worst") < 2, "means of 4 x 4 pixels are nowhere 2/255 further apart than with two seeds of gonio render");
 check(Math.max(...found.map((each) => each.noise[0])) < 2, "the noise of the viewer is below 2/255");
 finish();
