@@ -193,6 +193,7 @@ class surrounded_view {
     if (!gl.getExtension("EXT_color_buffer_float")) throw new Error("this browser cannot draw into floats");
     Object.assign(this, { view, gl, frame: 0, side: 0, made: [] });
     this.shown = view.made_of(vertex_shader, shown_main, [["corner", 2]], whole_image);
+    [this.shown, view.image].forEach((each) => each.program(true));
     const lines = new Float32Array(8 * lobe_bins);
     [table, truth ?? table].forEach((each, i) => lines.set(lobe_of_halves(each), 4 * lobe_bins * i));
     float_texture(gl, 6, lobe_bins, 2, lines);

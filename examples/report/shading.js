@@ -33,8 +33,8 @@ in vec2 corner;
 void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
 const whole_image = new Float32Array([-1, -1, 3, -1, -1, 3]);
 
-// What is seen of a lit point.
-const shading = `#version 300 es
+// What is seen of a lit point, in an environment or under the lamp: two programs, since one that asks is slower for both.
+const shading = (surrounded) => `#version 300 es
 precision highp float;
 precision highp sampler3D;
 uniform sampler3D values, truth, known;
@@ -42,7 +42,8 @@ uniform vec3 values_shift, truth_shift, light;
 uniform vec4 values_scale, truth_scale;
 uniform float exposure, size;
 uniform float border, blend;  // right of the border the truth is shown; everywhere a share of it
-uniform bool shows_known, surrounded;
+uniform bool shows_known;
+const bool surrounded = ${surrounded};
 uniform sampler2D added;  // in an environment: the frames so far
 out vec4 colour;
 ${look_up}

@@ -3,8 +3,9 @@
 // what a pointer over it reads. shading.js and environment.js have the shaders, controls.js what stands beside the image.
 
 // ---- WebGL -----------------------------------------------------------------------------------------------------
-function program_of(gl, vertex, fragment) {
+function program_of(gl, vertex, fragment, attributes) {
   const program = gl.createProgram();
+  attributes.forEach(([name], at) => gl.bindAttribLocation(program, at, name));
   for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, source);
@@ -42,6 +43,7 @@ class material_view {
     const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
     this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], whole_image);
+    this.image.program(false); // throws Error where the browser cannot
     this.mesh = null;
     this.textures = [["values", table], ["truth", truth ?? table]].map(([name, { grid, shift, scale, texels }], unit) => {
       if (unit === 0 || truth) texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
@@ -51,15 +53,15 @@ class material_view {
     texture_of(gl, 2, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
   }
 
-  // A program, and corners of triangles with attributes of so many numbers.
+  // Corners of triangles with attributes of so many numbers, and the programs that draw them, made when first used.
   made_of(vertex, main, attributes, numbers) {
-    const { gl } = this, program = program_of(gl, vertex, shading + main), corners = gl.createVertexArray();
+    const { gl } = this, programs = {}, corners = gl.createVertexArray();
+    const program = (surrounded) => programs[surrounded] ??= program_of(gl, vertex, shading(surrounded) + main, attributes);
     const size = attributes.reduce((sum, [, count]) => sum + count, 0);
     gl.bindVertexArray(corners);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
-    attributes.reduce((offset, [name, count]) => {
-      const at = gl.getAttribLocation(program, name);
+    attributes.reduce((offset, [, count], at) => {
       gl.enableVertexAttribArray(at);
       gl.vertexAttribPointer(at, count, gl.FLOAT, false, 4 * size, offset);
       return offset + 4 * count;
@@ -75,21 +77,21 @@ class material_view {
   // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent, or if it
   // `blends` its share in all of the image. With `total`, the light of an environment, a frame is added to others; with
   // `keeps` what is drawn already stays behind.
-  draw(state, { program, corners, count } = this.drawn_as(state.shape), keeps = false) {
+  draw(state, drawn = this.drawn_as(state.shape), keeps = false) {
     const { gl, canvas } = this, { truth = 0, blends = false, frame = 0, total = 0 } = state;
+    const program = drawn.program(total > 0);
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.enable(gl.DEPTH_TEST);
     gl.clear(gl.DEPTH_BUFFER_BIT | (keeps ? 0 : gl.COLOR_BUFFER_BIT));
     gl.useProgram(program);
-    gl.bindVertexArray(corners);
+    gl.bindVertexArray(drawn.corners);
     for (const { name, unit, scale, shift } of this.textures) {
       gl.uniform1i(at(name), unit);
       gl.uniform3f(at(`${name}_shift`), ...shift);
       gl.uniform4f(at(`${name}_scale`), scale, scale, scale, 1);
     }
     ["known", "surroundings", "rows", "added", "lobes"].forEach((name, i) => gl.uniform1i(at(name), 2 + i));
-    gl.uniform1i(at("surrounded"), total > 0);
     gl.uniform1i(at("frame"), frame);
     gl.uniform1f(at("total_light"), total);
     gl.uniform2f(at("within_pixel"), ...[0.75487767, 0.56984029].map((step) => (total > 0 ? (0.5 + frame * step) % 1 : 0.5)));
@@ -103,7 +105,7 @@ class material_view {
     gl.uniform1f(at("turn"), radians(state.turn ?? 0));
     gl.uniform1i(at("samples"), state.samples);
     gl.uniform1i(at("shape"), Math.max(0, ["sphere", "flat", "none"].indexOf(state.shape)));
-    gl.drawArrays(gl.TRIANGLES, 0, count);
+    gl.drawArrays(gl.TRIANGLES, 0, drawn.count);
   }
 }
 // ---- the section of the page -----------------------------------------------------------------------------------
