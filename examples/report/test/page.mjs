@@ -230,7 +230,7 @@ async function check_environment(page, name) {
   const white = await page.evaluate(() => viewer.surrounded.white);
   check(white !== room && white > 0.4 && white < 1 && told === 1, `${name}: a light probe is taken, a truncated one refused`);
   await file.setInputFiles([]);
-  await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room);
+  await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room, { timeout: 120000 });
   check(await frames() === await page.evaluate(() => last_frame), `${name}: drawing ends after ${await frames()} frames`);
   await page.locator(".viewer").screenshot({ path: at(`${name}-environment.png`) });
   await check_access(page, `${name}, in an environment`, ".viewer");
