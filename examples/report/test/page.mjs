@@ -203,7 +203,7 @@ const small_probe = Buffer.concat([Buffer.from("#?RADIANCE\nFORMAT=32-bit_rle_rg
 async function check_environment(page, name) {
   const lights = page.locator("select:has(option[value=environment])"), frames = () => page.evaluate(() => viewer.surrounded.frame);
   const file = page.locator("input[accept='.hdr']"), visible = (text) => page.locator("label", { hasText: text }).isVisible();
-  await page.evaluate(() => { viewer.view.canvas.width = viewer.view.canvas.height = 128; });
+  await page.evaluate(() => { viewer.view.canvas.width = viewer.view.canvas.height = 64; }); // all frames in seconds
   await lights.focus();
   await page.keyboard.press("ArrowDown");
   await page.waitForFunction(() => viewer.surrounded?.frame > 8);
@@ -230,7 +230,7 @@ async function check_environment(page, name) {
   const white = await page.evaluate(() => viewer.surrounded.white);
   check(white !== room && white > 0.4 && white < 1 && told === 1, `${name}: a light probe is taken, a truncated one refused`);
   await file.setInputFiles([]);
-  await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room, { timeout: 120000 });
+  await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room, { timeout: 300000 });
   check(await frames() === await page.evaluate(() => last_frame), `${name}: drawing ends after ${await frames()} frames`);
   await page.locator(".viewer").screenshot({ path: at(`${name}-environment.png`) });
   await check_access(page, `${name}, in an environment`, ".viewer");
