@@ -9,4 +9,4 @@ step("configure" ${cmake} -S . -B build/test -G Ninja
      -D CMAKE_CXX_COMPILER=g++ -D CMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
      -D GONIO_BUILD_BENCH=OFF -D GONIO_BUILD_PAPERS=OFF -D GONIO_TEST_CONSUMERS=OFF)
 step("build" ${cmake} --build build/test --parallel ${cores})
-step("test" ${ctest} --test-dir build/test --label-exclude "kills|browser")
+step("test" ${ctest} --test-dir build/test --label-exclude "kills|browser|webgl")

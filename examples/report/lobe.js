@@ -8,12 +8,13 @@ function projected([x, y, z], turn) {
 
 const spherical = (theta, phi) => [Math.sin(theta) * Math.cos(phi), Math.sin(theta) * Math.sin(phi), Math.cos(theta)];
 
-// Rows of directions from the normal to 88 degrees, with what is reflected there of light at theta_i.
-function lobe_of(table, uncertainty, theta_i) {
+// Rows of directions from the normal to 88 degrees, with what is reflected there of light at theta_i, or from there to
+// a view at theta_i.
+function lobe_of(reflects, uncertainty, theta_i) {
   const n = [0, 0, 1], wi = spherical(theta_i, 0), rows = 44, columns = 72;
   return Array.from({ length: rows + 1 }, (_, row) => Array.from({ length: columns + 1 }, (_, column) => {
     const wo = spherical(radians(88 * row / rows), 2 * Math.PI * column / columns);
-    return { wo, value: luminance(reflectance_at(table, n, wi, wo)), known: uncertainty_at(uncertainty, n, wi, wo) };
+    return { wo, value: luminance(reflects(n, wi, wo)), known: uncertainty_at(uncertainty, n, wi, wo) };
   }));
 }
 
@@ -38,9 +39,9 @@ function colour_of_known(share) {
   return [243, 236, 210].map((each, i) => each + t * ([18, 58, 99][i] - each));
 }
 
-function draw_lobe(canvas, table, uncertainty, { theta_i, turn, known }) {
+function draw_lobe(canvas, reflects, uncertainty, { theta_i, turn, known }) {
   const context = canvas.getContext("2d"), style = getComputedStyle(canvas), colour = (name) => style.getPropertyValue(name);
-  const lobe = lobe_of(table, uncertainty, theta_i), values = lobe.flatMap((row) => row.map((each) => each.value));
+  const lobe = lobe_of(reflects, uncertainty, theta_i), values = lobe.flatMap((row) => row.map((each) => each.value));
   const { radius, kind } = radius_of(values), largest = Math.max(...values.map(radius)) || 1;
   const size = 0.44 * canvas.width, place = ([x, y]) => [0.5 * canvas.width + size * x, 0.74 * canvas.height - size * y];
   const path = (points) => {
@@ -74,15 +75,16 @@ function draw_lobe(canvas, table, uncertainty, { theta_i, turn, known }) {
 }
 
 // A figure of the lobe, which is turned by dragging or arrow keys, and what draws it again for another theta_i.
-function lobe_figure(table, uncertainty) {
+function lobe_figure(reflects, uncertainty) {
   const canvas = element("canvas", { width: 600, height: 460, tabIndex: 0, className: "lobe" }), caption = element("figcaption");
-  const state = { theta_i: radians(45), turn: radians(-62), known: false };
+  const state = { theta_i: radians(45), turn: radians(-62), known: false, is_view: false };
   canvas.setAttribute("role", "img");
   const draw = (changes = {}) => {
     Object.assign(state, changes);
-    const kind = draw_lobe(canvas, table, uncertainty, state), at = angle(state.theta_i * 180 / Math.PI);
-    caption.textContent = `Lobe for light at ${at} (dashes; dots: mirror); radius ${kind}`;
-    canvas.setAttribute("aria-label", `The lobe for light at ${at}, which arrow keys turn`);
+    const kind = draw_lobe(canvas, reflects, uncertainty, state);
+    const at = `${state.is_view ? "a view" : "light"} at ${angle(state.theta_i * 180 / Math.PI)}`;
+    caption.textContent = `Lobe for ${at} (dashes; dots: mirror); radius ${kind}`;
+    canvas.setAttribute("aria-label", `The lobe for ${at}, which arrow keys turn`);
   };
   moved_by_hand(canvas, (right) => draw({ turn: state.turn + radians(right) }));
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => draw());

@@ -63,13 +63,14 @@ function read_obj(text) {
 
 const mesh_vertex_shader = `#version 300 es
 in vec3 place, towards;
-uniform float turn;
+uniform float turn, size;
+uniform vec2 within_pixel;
 out vec3 normal;
 vec3 turned(vec3 v) { return vec3(cos(turn) * v.x + sin(turn) * v.z, v.y, cos(turn) * v.z - sin(turn) * v.x); }
 void main() {
   vec3 at = turned(place);
   normal = turned(towards);
-  gl_Position = vec4(at.xy, -0.99 * at.z, 1.0);
+  gl_Position = vec4(at.xy + (1.0 - 2.0 * within_pixel) / size, -0.99 * at.z, 1.0);
 }`;
 
 // Both sides of a triangle are drawn, as the one that the camera sees.
@@ -79,6 +80,5 @@ void main() {
   vec3 n = normalize(normal);
   if (n.z < 0.0 && !gl_FrontFacing) n = -n;
   lit_point point = lit_point(true, n, light, vec3(0.0, 0.0, 1.0), 1.0);
-  colour = vec4(display_value(seen(point, gl_FragCoord.x / size * 2.0 - 1.0 > border)), 1.0);
+  colour = added_or_shown(seen(point, right_of_middle()));
 }`;
-

@@ -90,6 +90,13 @@ function reflectance_at({ grid, shift, scale, texels }, n, wi, wo) {
   return sum.slice(0, 3).map((each) => each / sum[3] * scale);
 }
 
+// What values(false) and values(true) are mixed to by their logarithms, as the shader does.
+function blended(share, values) {
+  if (share <= 0 || share >= 1) return values(share >= 1);
+  const [a, b] = [values(false), values(true)].map((each) => each.map((value) => Math.log(Math.max(value, 1e-6))));
+  return a.map((each, i) => Math.exp(each + share * (b[i] - each)));
+}
+
 // Of a share from 0.001 to 10, as the tool wrote it.
 const uncertainty_of = (level) => 0.001 * 10 ** (4 * level);
 function uncertainty_at({ grid, levels }, n, wi, wo) {

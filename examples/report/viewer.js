@@ -1,101 +1,11 @@
-// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2. A table is
-// a texture over theta_h, theta_d and phi_d, read as gonio render reads one (include/gonio/render/horizon_lookup.hpp).
 
-// ---- shaders ---------------------------------------------------------------------------------------------------
-const look_up = `
-const float pi = 3.14159265358979;
-
-// Shares of the way along phi_d, theta_d and theta_h's axes, of directions above a surface with normal n: the same as
-// include/gonio/render/grid_coordinates.hpp has, in any frame.
-vec3 grid_coordinates(vec3 n, vec3 wi, vec3 wo) {
-  vec3 sum = wi + wo, difference = wi - wo;
-  float size = length(sum), x = -dot(n, difference) * size, y = dot(n, cross(sum, difference));
-  float phi_d = x == 0.0 && y == 0.0 ? 0.0 : fract(atan(y, x) / pi);
-  float theta_d = atan(length(difference), size), theta_h = atan(length(cross(n, sum)), dot(n, sum));
-  return vec3(phi_d, theta_d * 2.0 / pi, sqrt(theta_h * 2.0 / pi));
-}
-
-// sr^-1, of the fit or the truth, of directions above the horizon.
-vec3 reflectance(bool is_truth, vec3 n, vec3 wi, vec3 wo) {
-  vec3 at = grid_coordinates(n, wi, wo);
-  vec4 read = is_truth ? texture(truth, at + truth_shift) * truth_scale : texture(values, at + values_shift) * values_scale;
-  return read.rgb / read.a;
-}`;
-
-const vertex_shader = `#version 300 es
-in vec2 corner;
-void main() { gl_Position = vec4(corner, 0.0, 1.0); }`;
-
-// What is seen of a lit point.
-const shading = `#version 300 es
-precision highp float;
-precision highp sampler3D;
-uniform sampler3D values, truth, known;
-uniform vec3 values_shift, truth_shift, light;
-uniform vec4 values_scale, truth_scale;
-uniform float exposure, size, border;  // right of the border the truth is shown
-uniform bool shows_known;
-out vec4 colour;
-${look_up}
-
-struct lit_point { bool hit; vec3 n, wi, wo; float irradiance; };
-
-// As the map of the page: light is 2 %, dark 100 %.
-vec3 colour_of_known(float share) {
-  float t = clamp(log(max(share, 1e-6) / 0.02) / log(50.0), 0.0, 1.0);
-  return mix(vec3(243.0, 236.0, 210.0), vec3(18.0, 58.0, 99.0), t) / 255.0;
-}
-vec3 linear_light(vec3 v) { return mix(v / 12.92, pow((v + 0.055) / 1.055, vec3(2.4)), step(0.04045, v)); }
-vec3 display_value(vec3 v) {
-  v = clamp(v, 0.0, 1.0);
-  return mix(12.92 * v, 1.055 * pow(v, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, v));
-}
-
-// A white Lambertian surface that faces the light is 1, times the exposure.
-vec3 seen(lit_point point, bool is_truth) {
-  float cosine = dot(point.n, point.wi);
-  if (!point.hit || cosine <= 0.0 || dot(point.n, point.wo) <= 0.0) return vec3(0.0);
-  if (shows_known && !is_truth) {
-    float level = texture(known, grid_coordinates(point.n, point.wi, point.wo)).r;
-    return linear_light(colour_of_known(0.001 * pow(10.0, 4.0 * level)));
-  }
-  return reflectance(is_truth, point.n, point.wi, point.wo) * (pi * cosine * point.irradiance * exposure);
-}`;
-
-// The sphere fills the square and is seen by a camera at infinity, as gonio render draws it. The flat sample is seen
-// from 50 degrees off its normal, under a lamp at three times half its width.
-const image_main = `
-uniform int samples, shape;  // 0: a sphere, 1: a flat sample
-
-lit_point sphere(vec2 p) {
-  float squared = dot(p, p);
-  return lit_point(squared < 1.0, vec3(p, sqrt(max(1.0 - squared, 0.0))), light, vec3(0.0, 0.0, 1.0), 1.0);
-}
-
-lit_point flat_sample(vec2 p) {
-  vec3 n = vec3(0.0, 0.76604444, 0.64278761), right = vec3(1.0, 0.0, 0.0), up = cross(n, right);
-  vec3 eye = vec3(0.0, 0.0, 5.0), ray = normalize(vec3(1.3 * p, -5.0));
-  vec3 at = eye - ray * (dot(eye, n) / dot(ray, n));
-  vec3 lamp = 3.0 * light - at;
-  bool hit = max(abs(dot(at, right)), abs(dot(at, up))) < 1.0;
-  return lit_point(hit, n, normalize(lamp), -ray, 9.0 / dot(lamp, lamp));
-}
-
-void main() {
-  vec3 sum = vec3(0.0);
-  for (int i = 0; i < samples * samples; ++i) {
-    vec2 within = (vec2(i % samples, i / samples) + 0.5) / float(samples);
-    vec2 p = (floor(gl_FragCoord.xy) + within) / size * 2.0 - 1.0;
-    if (shape == 0) sum += seen(sphere(p), p.x > border);
-    else sum += seen(flat_sample(p), p.x > border);
-  }
-  colour = vec4(display_value(sum / float(samples * samples)), 1.0);
-  if (abs(gl_FragCoord.x / size * 2.0 - 1.0 - border) < 1.5 / size) colour.rgb = vec3(0.6);
-}`;
+// The viewer of the page: the material on a sphere, a flat sample or a model under a light that is moved, in WebGL 2, and
+// what a pointer over it reads. shading.js and environment.js have the shaders, controls.js what stands beside the image.
 
 // ---- WebGL -----------------------------------------------------------------------------------------------------
-function program_of(gl, vertex, fragment) {
+function program_of(gl, vertex, fragment, attributes) {
   const program = gl.createProgram();
+  attributes.forEach(([name], at) => gl.bindAttribLocation(program, at, name));
   for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
     gl.shaderSource(shader, source);
@@ -132,7 +42,8 @@ class material_view {
   constructor(canvas, { table, truth, uncertainty }) {
     const gl = this.gl = canvas.getContext("webgl2");
     this.canvas = canvas;
-    this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], new Float32Array([-1, -1, 3, -1, -1, 3]));
+    this.image = this.made_of(vertex_shader, image_main, [["corner", 2]], whole_image);
+    this.image.program(false); // throws Error where the browser cannot
     this.mesh = null;
     this.textures = [["values", table], ["truth", truth ?? table]].map(([name, { grid, shift, scale, texels }], unit) => {
       if (unit === 0 || truth) texture_of(gl, unit, grid, gl.RGBA16F, gl.RGBA, gl.FLOAT, texels);
@@ -142,15 +53,15 @@ class material_view {
     texture_of(gl, 2, uncertainty.grid, gl.R8, gl.RED, gl.UNSIGNED_BYTE, uncertainty.levels);
   }
 
-  // A program, and corners of triangles with attributes of so many numbers.
+  // Corners of triangles with attributes of so many numbers, and the programs that draw them, made when first used.
   made_of(vertex, main, attributes, numbers) {
-    const { gl } = this, program = program_of(gl, vertex, shading + main), corners = gl.createVertexArray();
+    const { gl } = this, programs = {}, corners = gl.createVertexArray();
+    const program = (surrounded) => programs[surrounded] ??= program_of(gl, vertex, shading(surrounded) + main, attributes);
     const size = attributes.reduce((sum, [, count]) => sum + count, 0);
     gl.bindVertexArray(corners);
     gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ARRAY_BUFFER, numbers, gl.STATIC_DRAW);
-    attributes.reduce((offset, [name, count]) => {
-      const at = gl.getAttribLocation(program, name);
+    attributes.reduce((offset, [, count], at) => {
       gl.enableVertexAttribArray(at);
       gl.vertexAttribPointer(at, count, gl.FLOAT, false, 4 * size, offset);
       return offset + 4 * count;
@@ -161,65 +72,83 @@ class material_view {
   // `vertices` as read_obj returns them.
   take_mesh(vertices) { this.mesh = this.made_of(mesh_vertex_shader, mesh_main, [["place", 3], ["towards", 3]], vertices); }
 
-  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent.
-  draw({ longitude, latitude, exposure, shape, known, samples, truth = 0, turn = 0 }) {
-    const { gl, canvas } = this, { program, corners, count } = shape === "mesh" && this.mesh ? this.mesh : this.image;
+  drawn_as(shape) { return shape === "mesh" && this.mesh ? this.mesh : this.image; }
+
+  // `samples` of a pixel along each axis; `truth` is the share of the image that shows it, in percent, or if it
+  // `blends` its share in all of the image. With `total`, the light of an environment, a frame is added to others; with
+  // `keeps` what is drawn already stays behind.
+  draw(state, drawn = this.drawn_as(state.shape), keeps = false) {
+    const { gl, canvas } = this, { truth = 0, blends = false, frame = 0, total = 0 } = state;
+    const program = drawn.program(total > 0);
     const at = (name) => gl.getUniformLocation(program, name);
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.enable(gl.DEPTH_TEST);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    gl.clear(gl.DEPTH_BUFFER_BIT | (keeps ? 0 : gl.COLOR_BUFFER_BIT));
     gl.useProgram(program);
-    gl.bindVertexArray(corners);
+    gl.bindVertexArray(drawn.corners);
     for (const { name, unit, scale, shift } of this.textures) {
       gl.uniform1i(at(name), unit);
       gl.uniform3f(at(`${name}_shift`), ...shift);
       gl.uniform4f(at(`${name}_scale`), scale, scale, scale, 1);
     }
-    gl.uniform1i(at("known"), 2);
-    gl.uniform3f(at("light"), ...light_direction({ longitude, latitude }));
-    gl.uniform1f(at("exposure"), exposure);
+    ["known", "surroundings", "rows", "added", "lobes"].forEach((name, i) => gl.uniform1i(at(name), 2 + i));
+    gl.uniform1i(at("frame"), frame);
+    gl.uniform1f(at("total_light"), total);
+    gl.uniform2f(at("within_pixel"), ...[0.75487767, 0.56984029].map((step) => (total > 0 ? (0.5 + frame * step) % 1 : 0.5)));
+    gl.uniform1f(at("around"), radians(state.around ?? 0));
+    gl.uniform3f(at("light"), ...light_direction(state));
+    gl.uniform1f(at("exposure"), state.exposure);
     gl.uniform1f(at("size"), canvas.width);
-    gl.uniform1f(at("border"), truth > 0 ? 1 - 0.02 * truth : 9);
-    gl.uniform1i(at("shows_known"), known);
-    gl.uniform1f(at("turn"), radians(turn));
-    gl.uniform1i(at("samples"), samples);
-    gl.uniform1i(at("shape"), shape === "flat" ? 1 : 0);
-    gl.drawArrays(gl.TRIANGLES, 0, count);
+    gl.uniform1f(at("border"), truth > 0 && !blends ? 1 - 0.02 * truth : 9);
+    gl.uniform1f(at("blend"), blends ? truth / 100 : 0);
+    gl.uniform1i(at("shows_known"), state.known);
+    gl.uniform1f(at("turn"), radians(state.turn ?? 0));
+    gl.uniform1i(at("samples"), state.samples);
+    gl.uniform1i(at("shape"), Math.max(0, ["sphere", "flat", "none"].indexOf(state.shape)));
+    gl.drawArrays(gl.TRIANGLES, 0, drawn.count);
   }
 }
-
 // ---- the section of the page -----------------------------------------------------------------------------------
 // What the controls say, what is drawn by it, and the drawing of one image with so many samples a pixel.
 const viewer = {
-  state: { longitude: 45, latitude: 35.26, stops: 0, shape: "sphere", known: false, turn: 0, truth: data.viewer?.truth ? 50 : 0 },
+  state: { light: "lamp", longitude: 45, latitude: 35.26, around: 0, stops: 0, shape: "sphere", known: false, turn: 0,
+    truth: data.viewer?.truth ? 50 : 0, blends: false },
   view: null,
+  surrounded: null,
   draw: null,
 };
+const is_surrounded = () => viewer.state.light === "environment";
+const exposure_in_environment = 0.4;  // as gonio render has it
 
-function slider(label, key, [min, max, step], told, changed) {
-  const output = element("output");
-  const input = element("input", { type: "range", min, max, step, value: viewer.state[key] });
-  const show = () => { input.value = viewer.state[key]; output.textContent = told(viewer.state[key]); };
-  input.addEventListener("input", () => { viewer.state[key] = Number(input.value); changed(); });
-  return { show, row: element("label", {}, element("span", {}, label), input, output) };
-}
-
-// Draws now with one sample a pixel, and with nine when nothing has moved for a while.
+// Under the lamp draws now with one sample a pixel, and with nine when nothing has moved for a while; in an environment
+// adds frames.
 function redraw_with(view, base) {
-  let waiting = 0;
-  const drawn = (samples) => view.draw({ ...viewer.state, exposure: base * 2 ** viewer.state.stops, samples });
-  viewer.draw = drawn;
+  let waiting = 0, change = 0;
+  const exposed = (base) => ({ ...viewer.state, exposure: base * 2 ** viewer.state.stops });
+  viewer.draw = (samples) => view.draw({ ...exposed(base), samples });
+  const add_frames = (mine) => {
+    if (mine !== change || viewer.surrounded.frame >= last_frame) return;
+    viewer.surrounded.draw(exposed(exposure_in_environment));
+    requestAnimationFrame(() => add_frames(mine));
+  };
   return () => {
-    requestAnimationFrame(() => drawn(1));
     clearTimeout(waiting);
-    waiting = setTimeout(() => requestAnimationFrame(() => drawn(3)), 150);
+    const mine = ++change;
+    if (is_surrounded()) {
+      viewer.surrounded.frame = 0;
+      requestAnimationFrame(() => add_frames(mine));
+      return;
+    }
+    requestAnimationFrame(() => { if (mine === change) viewer.draw(1); });
+    waiting = setTimeout(() => requestAnimationFrame(() => { if (mine === change) viewer.draw(3); }), 150);
   };
 }
 
 const turned = (degrees) => ((degrees + 540) % 360) - 180;
 function move_light(by_longitude, by_latitude) {
-  viewer.state.longitude = turned(viewer.state.longitude + by_longitude);
-  viewer.state.latitude = Math.max(-90, Math.min(90, viewer.state.latitude + by_latitude));
+  const key = is_surrounded() ? "around" : "longitude";
+  viewer.state[key] = turned(viewer.state[key] + by_longitude);
+  if (!is_surrounded()) viewer.state.latitude = Math.max(-90, Math.min(90, viewer.state.latitude + by_latitude));
 }
 
 // Calls move(degrees to the right, degrees up) when arrow keys are pressed or the pointer drags.
@@ -243,58 +172,21 @@ function normal_at(event, canvas) {
   return viewer.state.shape === "sphere" && x * x + y * y < 1 ? [x, y, Math.sqrt(1 - x * x - y * y)] : null;
 }
 
-// What the material reflects there.
-function told_at(n, table, uncertainty, is_truth) {
+// How much of the truth is seen there, from 0 to 1.
+function truth_share_at([x]) {
+  const { truth, blends } = viewer.state;
+  if (blends) return truth / 100;
+  return truth > 0 && x > 1 - 0.02 * truth ? 1 : 0;
+}
+
+// What the material reflects there, and how sure that is.
+function told_at(n, reflects, uncertainty) {
   const wi = light_direction(viewer.state), wo = [0, 0, 1], degrees = (a) => angle(angle_between(n, a) * 180 / Math.PI);
+  if (is_surrounded()) return `theta_o ${degrees(wo)}: light from all around, by the lobe`;
   if (dot(n, wi) <= 0) return `theta_i ${degrees(wi)}: no light`;
-  return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflectance_at(table, n, wi, wo))} sr\u207b\u00b9, ` +
-    (is_truth ? "the truth" : `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`);
-}
-
-function choice(label, key, options, changed) {
-  const select = element("select", {}, ...options.map(([value, name]) => element("option", { value }, name)));
-  select.addEventListener("input", () => { viewer.state[key] = select.value; changed(); });
-  return element("label", {}, element("span", {}, label), select);
-}
-
-// A file of the reader's own, and a slider that turns it; both are shown while a model is.
-function model_rows(changed) {
-  const input = element("input", { type: "file", accept: ".obj" }), problem = element("output");
-  input.addEventListener("change", async () => {
-    problem.textContent = "";
-    try {
-      if (input.files.length) viewer.view.take_mesh(read_obj(await input.files[0].text()));
-    } catch (error) {
-      problem.textContent = `not a model: ${error.message}`;
-    }
-    changed();
-  });
-  const turn = slider("Turned by", "turn", [-180, 180, 1], (value) => `${value}\u00b0`, changed);
-  return { rows: [element("label", {}, element("span", {}, "File (.obj)"), input, problem), turn.row], show: turn.show };
-}
-
-function controls(changed) {
-  const degrees = (value) => `${Math.round(value)}\u00b0`;
-  const sliders = [
-    slider("Light, to the right", "longitude", [-180, 180, 1], degrees, changed),
-    slider("Light, upwards", "latitude", [-90, 90, 1], degrees, changed),
-    slider("Exposure", "stops", [-6, 6, 0.25], (value) => `${value > 0 ? "+" : ""}${value} stops`, changed)];
-  if (data.viewer.truth) sliders.push(slider("Truth, from the right", "truth", [0, 100, 1], (value) => `${value} %`, changed));
-  const model = model_rows(changed);
-  const known = element("input", { type: "checkbox" });
-  known.addEventListener("input", () => { viewer.state.known = known.checked; changed(); });
-  const legend = element("p", { className: "legend soft" }, "2 %", element("span", { className: "ramp" }), "100 %");
-  return {
-    box: element("div", { className: "controls" },
-      choice("Shape", "shape", [["sphere", "sphere"], ["flat", "flat sample"], ["mesh", "a model"]], changed), ...model.rows,
-      ...sliders.map((each) => each.row),
-      element("label", {}, element("span", {}, "Uncertainty"), known), legend),
-    show: () => {
-      [...sliders, model].forEach((each) => each.show());
-      model.rows.forEach((each) => { each.hidden = viewer.state.shape !== "mesh"; });
-      legend.hidden = !viewer.state.known;
-    },
-  };
+  const share = truth_share_at(n), known = `known to ${percent(uncertainty_at(uncertainty, n, wi, wo))}`;
+  return `theta_i ${degrees(wi)}, theta_o ${degrees(wo)}: ${channels(reflects(share, n, wi, wo))} sr\u207b\u00b9, ` +
+    (share === 0 ? known : share === 1 ? "the truth" : `${percent(share)} the truth`);
 }
 
 async function fill_viewer(section) {
@@ -306,24 +198,27 @@ async function fill_viewer(section) {
   const table = await read_table(data.viewer.table);
   const uncertainty = { grid: data.viewer.uncertainty.grid, levels: await inflated(data.viewer.uncertainty.codes) };
   const truth = data.viewer.truth ? await read_table(data.viewer.truth) : null;
+  const reflects = (share, ...directions) => blended(share, (which) => reflectance_at(which ? truth : table, ...directions));
   viewer.view = new material_view(canvas, { table, truth, uncertainty });
   const start = angle_between(light_direction(viewer.state), [0, 0, 1]);
   const redraw = redraw_with(viewer.view, data.viewer.exposure / white_mean(start));
-  const panel = controls(() => changed()), lobe = lobe_figure(table, uncertainty);
+  const surround = () => { viewer.surrounded ??= new surrounded_view(viewer.view, { table, truth }); };
+  const panel = controls(() => changed(), surround);
+  const lobe = lobe_figure((...directions) => reflects(viewer.state.blends ? viewer.state.truth / 100 : 0, ...directions), uncertainty);
+  const readout = element("p", { className: "soft readout" });
   const changed = () => {
     panel.show();
     redraw();
-    lobe.draw({ known: viewer.state.known });
+    readout.textContent = "";
+    lobe.draw({ known: viewer.state.known && !is_surrounded(), is_view: is_surrounded() });
   };
-  const readout = element("p", { className: "soft readout" });
+  moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
   canvas.addEventListener("pointermove", (event) => {
     const n = normal_at(event, canvas);
-    const is_truth = n !== null && n[0] > 1 - 0.02 * viewer.state.truth;
-    readout.textContent = n ? told_at(n, is_truth ? truth : table, uncertainty, is_truth) : "";
-    const theta_i = n ? angle_between(n, light_direction(viewer.state)) : Math.PI;
+    readout.textContent = n ? told_at(n, reflects, uncertainty) : "";
+    const theta_i = n ? angle_between(n, is_surrounded() ? [0, 0, 1] : light_direction(viewer.state)) : Math.PI;
     if (theta_i < radians(89)) lobe.draw({ theta_i });
   });
-  moved_by_hand(canvas, (right, up) => { move_light(right, up); changed(); });
   panel.box.append(lobe.box);
   section.append(paragraph("Drag, or use the arrow keys, to move the light. A pointer over the sphere reads the BRDF there, and shows its lobe."),
     element("div", { className: "viewer" }, element("div", {}, canvas, readout), panel.box));
@@ -339,4 +234,3 @@ async function show_viewer() {
     section.append(paragraph(`No light can be moved here: ${error.message}. The image above shows the material.`, "no-viewer"));
   }
 }
-

@@ -152,20 +152,110 @@ const difference_of_shapes = (page, one, other) => page.evaluate(([one, other]) 
 async function check_model(page, name) {
   await page.locator("label", { hasText: "Shape" }).locator("select").selectOption("mesh");
   write_ball(at("ball.obj"));
-  await page.locator("input[type=file]").setInputFiles(at("ball.obj"));
+  await page.locator("input[accept='.obj']").setInputFiles(at("ball.obj"));
   await page.waitForFunction(() => viewer.view.mesh !== null);
   const { mean, brightest } = await difference_of_shapes(page, "sphere", "mesh");
   check(mean < 1 && brightest > 50, `${name}: a ball as a file looks like the sphere, mean difference ${mean.toFixed(2)}/255`);
   writeFileSync(at("broken.obj"), "v 0 0 0\nf 1 2 3\n");
-  await page.locator("input[type=file]").setInputFiles(at("broken.obj"));
+  await page.locator("input[accept='.obj']").setInputFiles(at("broken.obj"));
   await page.locator("output", { hasText: "not a model: there is no vertex 2" }).waitFor({ timeout: 2000 }).catch(() => {});
   check(await page.locator("output", { hasText: "no vertex 2" }).count() === 1, `${name}: a broken file is refused`);
   await page.locator("label", { hasText: "Shape" }).locator("select").selectOption("sphere");
 }
 
-async function check_access(page, name) {
+// What stands in the middle of the image, of the fit and of what is mixed with it.
+const colours_of_middle = (page, states) => page.evaluate((states) => states.map((state) => {
+  const { gl } = viewer.view, side = gl.drawingBufferWidth, pixels = new Uint8Array(4 * side * side);
+  viewer.view.draw({ ...viewer.state, exposure: 0.5, samples: 1, ...state });
+  gl.readPixels(0, 0, side, side, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+  return [...pixels];
+}), states);
+
+// By keyboard: the slider mixes the fit with the truth, which are both ends.
+async function check_blend(page, name) {
+  await page.locator("label", { hasText: "Truth is shown" }).locator("select").focus();
+  await page.keyboard.press("ArrowDown");
+  await page.locator("label", { hasText: /^Truth\d/ }).locator("input").focus();
+  await page.keyboard.press("End");
+  const end = await page.evaluate(() => ({ ...viewer.state }));
+  await page.keyboard.press("Home");
+  const start = await page.evaluate(() => ({ ...viewer.state }));
+  check(end.blends && end.truth === 100 && start.truth === 0, `${name}: the keyboard blends from ${start.truth} to ${end.truth} %`);
+  const [fit, none, half, all, truth] = await colours_of_middle(page, [{ truth: 0, blends: false }, { truth: 0, blends: true },
+    { truth: 50, blends: true }, { truth: 100, blends: true }, { truth: 101, blends: false }]);
+  const apart = (a, b) => a.reduce((most, each, i) => Math.max(most, Math.abs(each - b[i])), 0);
+  check(apart(fit, none) === 0 && apart(all, truth) === 0, `${name}: both ends of the blend are fit and truth`);
+  const outside = half.filter((each, i) => each < Math.min(fit[i], truth[i]) - 1 || each > Math.max(fit[i], truth[i]) + 1);
+  check(outside.length === 0 && apart(half, fit) > 1 && apart(half, truth) > 1, `${name}: half of the blend lies between, ${apart(half, fit)}/255 and ${apart(half, truth)}/255 off`);
+  const mixed = await page.evaluate(() => blended(0.5, (which) => (which ? [4, 1, 0.09] : [1, 1, 0.01])));
+  check(Math.max(...mixed.map((each, i) => Math.abs(each - [2, 1, 0.03][i]))) < 1e-9, `${name}: tables are mixed by their logarithms`);
+  await page.keyboard.press("End");
+  for (let i = 0; i < 50; ++i) await page.keyboard.press("ArrowLeft");
+  await page.waitForTimeout(1000);
+  await page.locator(".viewer").screenshot({ path: at(`${name}-blend.png`) });
+  await page.locator("label", { hasText: "Truth is shown" }).locator("select").selectOption("border");
+}
+
+// A light probe of 8 x 4 pixels, white above and dark below.
+const small_probe = Buffer.concat([Buffer.from("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n"),
+  Buffer.from(Array.from({ length: 32 }, (_, i) => (i < 16 ? [128, 128, 128, 129] : [128, 64, 32, 126])).flat())]);
+
+async function check_environment(page, name) {
+  const lights = page.locator("select:has(option[value=environment])"), frames = () => page.evaluate(() => viewer.surrounded.frame);
+  const file = page.locator("input[accept='.hdr']"), visible = (text) => page.locator("label", { hasText: text }).isVisible();
+  await page.evaluate(() => { viewer.view.canvas.width = viewer.view.canvas.height = 64; }); // all frames in seconds
+  await lights.focus();
+  await page.keyboard.press("ArrowDown");
+  await page.waitForFunction(() => viewer.surrounded?.frame > 8);
+  check(!(await visible("Light, upwards")) && await visible("Turned, to the right") && await file.isVisible(), `${name}: an environment has its own controls`);
+  const known = page.locator("label", { hasText: "Uncertainty" });
+  check(await known.locator("input").isDisabled() && /choose the lamp/.test(await known.getAttribute("title")), `${name}: uncertainty needs the lamp, and says so`);
+  const box = await page.locator("canvas").first().boundingBox();
+  await page.mouse.move(box.x + box.width * 0.4, box.y + box.height * 0.4);
+  const readout = await page.locator(".readout").textContent(), caption = await page.locator("figcaption", { hasText: "Lobe" }).textContent();
+  check(/^theta_o [\d.]+/.test(readout) && /^Lobe for a view at/.test(caption), `${name}: in an environment a pointer reads "${readout}"`);
+  await page.waitForFunction(() => viewer.surrounded.frame > 16);
+  const before = await frames();
+  await page.locator("canvas").first().focus();
+  await page.keyboard.press("ArrowRight");
+  const after = await page.evaluate(() => [viewer.surrounded.frame, viewer.state.around, viewer.state.longitude]);
+  check(after[0] < before && after[1] === 5, `${name}: an arrow key turns the environment to ${after[1]} degrees and starts again`);
+  const room = await page.evaluate(() => viewer.surrounded.white);
+  for (const [written, bytes] of [["small.hdr", small_probe], ["short.hdr", small_probe.subarray(0, 100)]]) {
+    writeFileSync(at(written), bytes);
+    await file.setInputFiles(at(written));
+    await page.waitForTimeout(300);
+  }
+  const told = await page.locator("output", { hasText: "not a light probe: the file ends before its last pixel" }).count();
+  const white = await page.evaluate(() => viewer.surrounded.white);
+  check(white !== room && white > 0.4 && white < 1 && told === 1, `${name}: a light probe is taken, a truncated one refused`);
+  await file.setInputFiles([]);
+  await page.waitForFunction((room) => viewer.surrounded.white === room && viewer.surrounded.frame === last_frame, room, { timeout: 300000 });
+  check(await frames() === await page.evaluate(() => last_frame), `${name}: drawing ends after ${await frames()} frames`);
+  await page.locator(".viewer").screenshot({ path: at(`${name}-environment.png`) });
+  await check_access(page, `${name}, in an environment`, ".viewer");
+  await lights.selectOption("lamp");
+  check(!(await known.locator("input").isDisabled()), `${name}: the lamp has its controls again`);
+}
+
+// Where a browser cannot draw into floats, the lamp stays.
+async function check_without_floats(browser, name) {
+  const page = await browser.newPage();
+  await page.addInitScript(() => {
+    const found = WebGL2RenderingContext.prototype.getExtension;
+    WebGL2RenderingContext.prototype.getExtension = function (key) { return key === "EXT_color_buffer_float" ? null : found.call(this, key); };
+  });
+  await page.goto(`file://${at(`${name}.html`)}`);
+  await ready(page);
+  await page.locator("select:has(option[value=environment])").selectOption("environment");
+  const told = await page.locator("output", { hasText: "no environment: this browser cannot draw into floats" }).count();
+  check(told === 1 && await page.evaluate(() => viewer.state.light === "lamp"), `${name}: without float framebuffers the lamp stays, and the page says why`);
+  await page.close();
+}
+
+async function check_access(page, name, part = "html") {
   await page.addScriptTag({ content: axe });
-  const found = await page.evaluate(() => axe.run());
+  const found = await page.evaluate((part) => axe.run(part), part);
   check(found.violations.length === 0, `${name}: axe finds ${found.violations.length} violations of ${found.passes.length + found.violations.length} rules`);
   for (const each of found.violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
 }
@@ -184,6 +274,8 @@ async function check_page(browser, name) {
       await check_keyboard(page, name);
       await check_pointer(page, name);
       await check_model(page, name);
+      if (await page.evaluate(() => data.viewer.truth !== undefined)) await check_blend(page, name);
+      if (name === "scattered") await check_environment(page, name);
       const pdf = await page.pdf({ path: at(`${name}.pdf`), format: "A4" });
       const pages = pdf.toString("latin1").match(/\/Type\s*\/Page\b/g).length;
       check(pages <= 2, `${name}: prints on ${pages} pages`);
@@ -235,6 +327,7 @@ await check_plain_page(browser, "fit-table", 6);
 await check_plain_page(browser, "design", 1);
 await check_plain_page(browser, "given", 1);
 for (const name of ["scan", "scattered", "many"]) await check_page(browser, name);
+await check_without_floats(browser, "scan");
 await browser.close();
 
 const without = await launch("--disable-3d-apis");
