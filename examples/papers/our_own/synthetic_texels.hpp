@@ -16,8 +16,8 @@
 #include <numbers>
 #include <random>
 #include <span>
-#include <utility>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace papers {
