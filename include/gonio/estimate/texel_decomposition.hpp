@@ -33,8 +33,8 @@ struct texel_estimates {
   Eigen::ArrayXf disagreement;
 };
 
-/// `decomposition{prior, penalty}` of samples of weight 1 for many texels at once, in single precision: weights agree to
-/// about 1e-6 of the largest, and as half floats to 6e-4 (tests/estimate/texel_decomposition.cpp asks for 1e-5).
+/// `decomposition{prior, penalty}` of samples of weight 1 for many texels at once, in single precision: weights agree
+/// to about 1e-6 of the largest, and as half floats to 6e-4 (tests/estimate/texel_decomposition.cpp asks for 1e-5).
 ///
 /// ```cpp
 /// const gonio::texel_decomposition texels(prior, locations_of_images, gonio::tikhonov{eta});
