@@ -19,6 +19,7 @@
 #include <gonio/estimate/impl/sample_regions.ipp>
 #include <gonio/estimate/impl/scattered_options.ipp>
 #include <gonio/estimate/impl/soft_specular_decomposition.ipp>
+#include <gonio/estimate/impl/texel_decomposition.ipp>
 
 namespace gonio {
 

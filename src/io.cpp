@@ -42,6 +42,7 @@
 #include <gonio/io/impl/spectral_samples.ipp>
 #include <gonio/io/impl/sphere_setup.ipp>
 #include <gonio/io/impl/ssdd.ipp>
+#include <gonio/io/impl/svbrdf_map.ipp>
 #include <gonio/io/impl/table_npy.ipp>
 #include <gonio/io/impl/text.ipp>
 #include <gonio/io/impl/words.ipp>

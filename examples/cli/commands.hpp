@@ -20,6 +20,7 @@ void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);
 void add_fit(command& app, const std::vector<std::string>& words);
 void add_design(command& app, const std::vector<std::string>& words);
+void add_svbrdf(command& app);
 void add_compare(command& app);
 void add_convert(command& app);
 void add_render(command& app);

@@ -23,6 +23,7 @@
 #include <gonio/io/samples.hpp>
 #include <gonio/io/scan_journal.hpp>
 #include <gonio/io/soft_specular_prior.hpp>
+#include <gonio/io/svbrdf_map.hpp>
 #include <gonio/model/measured_properties.hpp>
 
 #include <algorithm>
@@ -107,6 +108,34 @@ json describe_soft_specular_prior(const path_type& path) {
   facts["soft"] = half(prior.soft());
   facts["specular"] = half(prior.specular());
   return facts;
+}
+
+/// Reads all bands, and so checks them.
+json describe_svbrdf(const path_type& path) {
+  const gonio::io::svbrdf_map map(path);
+  const gonio::io::svbrdf_header& header = map.header();
+  double uncertainty = 0.0, disagreement = 0.0, contradicted = 0.0;
+  for (Eigen::Index number = 0; number < header.bands(); ++number) {
+    const gonio::io::svbrdf_band band = map.read_band(number);
+    for (const std::uint16_t half : band.uncertainty) uncertainty += gonio::io::detail::from_half(half);
+    for (const std::uint16_t half : band.disagreement) {
+      const float value = gonio::io::detail::from_half(half);
+      disagreement += value;
+      contradicted += value > 3.0f ? 1.0 : 0.0;
+    }
+  }
+  const double texels = static_cast<double>(header.rows) * static_cast<double>(header.columns);
+  return {{"kind", "map of a spatially varying BRDF"},
+          {"columns", header.columns},
+          {"rows", header.rows},
+          {"images", header.directions.size()},
+          {"components", header.functions.rows()},
+          {"functions", header.functions.cols()},
+          {"prior", header.prior_source},
+          {"eta", header.eta},
+          {"mean_uncertainty", uncertainty / texels},
+          {"mean_disagreement", disagreement / texels},
+          {"share_of_disagreement_above_3", contradicted / texels}};
 }
 
 json describe_samples(const path_type& path, const measurement_options& reading) {
@@ -271,6 +300,7 @@ constexpr std::array kinds{
                    [](const path_type& path) { return describe(gonio::io::read_prior(path)); }},
     described_kind{[](const file_look& file) { return gonio::io::is_soft_specular_prior(file.path); },
                    describe_soft_specular_prior},
+    described_kind{[](const file_look& file) { return gonio::io::is_svbrdf_map(file.path); }, describe_svbrdf},
     described_kind{[](const file_look& file) { return file.start.starts_with("gonio-shapes"); },
                    [](const path_type&) {
                      return json{{"kind", "shape model"}};

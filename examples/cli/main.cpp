@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   cli::add_sphere(app);
   cli::add_reconstruct(app, words);
   cli::add_report(app, words);
+  cli::add_svbrdf(app);
   cli::add_fit(app, words);
   cli::add_compare(app);
   cli::add_convert(app);

@@ -2,14 +2,17 @@
 
 #include "command_line/file_start.hpp"
 #include "command_line/fixed.hpp"
+#include "command_line/prior_option.hpp"
 #include "command_line/progress_bar.hpp"
 #include "command_line/threads_option.hpp"
 #include "commands.hpp"
 #include "contact_sheet.hpp"
 #include "exr_files.hpp"
+#include "flat_sample.hpp"
 #include "image_text.hpp"
 #include "images.hpp"
 #include <gonio/io/merl_gzip.hpp>
+#include <gonio/io/svbrdf_map.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/render/false_colour.hpp>
 #include <gonio/render/half_vector_sampler.hpp>
@@ -38,7 +41,7 @@ constexpr double exposure_in_environment = 0.4;
 struct render_options {
   std::vector<std::filesystem::path> tables;
   std::vector<std::string> lights;
-  std::filesystem::path output, environment;
+  std::filesystem::path output, environment, prior;
   bool slices = false, compares = false, labels = false;
   std::string caption;
   int quality = 64, columns = 0;  ///< of a contact sheet; 0: all images in one row
@@ -152,8 +155,22 @@ void require_no_text(const render_options& options) {
     gonio::refuse("--labels and --caption draw text for people: their -o needs the extension .png");
 }
 
+/// The flat sample of a map, alone in its image.
+void render_flat_sample(const render_options& options) {
+  if (options.tables.size() != 1 || options.slices || options.compares || !options.environment.empty() ||
+      options.labels || !options.caption.empty())
+    gonio::refuse({options.tables.front().native(),
+                   ": a map is drawn alone, under lights, without --slices, --compare, --environment, --labels and ",
+                   "--caption"});
+  const gonio::image sample = flat_sample_image(options.tables.front(), options.prior, lighting_of(options).lights(),
+                                                options.image.exposure, options.threads);
+  if (is_exr(options.output)) return write_exr(options.output, sample);
+  gonio::io::write_png(options.output, sample);
+}
+
 void render(const render_options& options) {
   require_no_text(options);
+  if (gonio::io::is_svbrdf_map(options.tables.front())) return render_flat_sample(options);
   if (options.compares) require_comparable(options);
   const gonio::render::directional_lighting lamps = lighting_of(options);
   std::optional<gonio::render::environment_sampler> light;
@@ -193,7 +210,12 @@ void add_render(command& app) {
   auto command = app.add_subcommand(
       "render", "Draw tables as spheres under two lights or in an environment, or as slices, side by side");
   const auto options = std::make_shared<render_options>();
-  command.add_input("tables", options->tables, "Tables (.binary or .binary.gz), left to right").required();
+  command
+      .add_input(
+          "tables", options->tables,
+          "Tables (.binary or .binary.gz), left to right; or a map of gonio svbrdf (.gsv), a pixel for each texel")
+      .required();
+  add_prior_option(command, options->prior);
   command
       .add_output("-o,--output", options->output, {".png", ".exr"},
                   "Image to write: .png, or .exr for the values themselves, of slices pi times the BRDF")

@@ -41,6 +41,7 @@ void add_near_field_photographs(command& app);
 void add_sphere_photograph(command& app);
 void add_shape_poses(command& app);
 void add_shape_fields(command& app);
+void add_svbrdf(command& app);
 void add_run(command& app);
 
 }  // namespace papers

@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   papers::add_sphere_photograph(app);
   papers::add_shape_poses(app);
   papers::add_shape_fields(app);
+  papers::add_svbrdf(app);
   papers::add_run(app);
   return app.run(argc, argv);
 }

@@ -46,6 +46,7 @@
 #include <gonio/io/spectral_samples.hpp>
 #include <gonio/io/sphere_setup.hpp>
 #include <gonio/io/ssdd.hpp>
+#include <gonio/io/svbrdf_map.hpp>
 #include <gonio/io/table_npy.hpp>
 #include <gonio/io/text.hpp>
 #include <gonio/io/words.hpp>

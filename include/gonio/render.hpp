@@ -17,3 +17,4 @@
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/merl_view.hpp>
+#include <gonio/render/texel_brdf.hpp>

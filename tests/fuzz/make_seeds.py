@@ -36,6 +36,20 @@ def checked(magic, payload):
     return magic + struct.pack("<IQI", 1, len(payload), zlib.crc32(payload)) + zlib.compress(payload, 9)
 
 
+def svbrdf_map(rows, columns, band_rows, n, k, r):
+    own = struct.pack("<6IId", rows, columns, band_rows, n, k, r, 7, 2.5) + text("made up")
+    own += struct.pack("<6d", 0.0, 0.0, 1.0, 0.6, 0.0, 0.8) * n
+    own += struct.pack(f"<{k * r}f", *(0.1 * i for i in range(k * r)))
+    own += bytes(-(20 + len(own) + 4) % 64)
+    out = b"gonio-svbrdf" + struct.pack("<II", 1, len(own) + 4) + own
+    out += struct.pack("<I", zlib.crc32(out))
+    for first in range(0, rows, band_rows):
+        texels = min(band_rows, rows - first) * columns
+        band = bytes(i % 60 for i in range(2 * texels * (3 * r + 2)))
+        out += band + struct.pack("<I", zlib.crc32(band))
+    return out
+
+
 def prior(h, d, p, k, m):
     cells = valid_cells(h, d, p)
     out = struct.pack("<4IdIId", h, d, p, 0, 0.0, k, m, 0.99) + text("made up")
@@ -236,6 +250,8 @@ put("tiff", "rgb16.tif", tiff(3, 2, 16, 3, 2))
 put("tiff", "grey8.tif", tiff(4, 1, 8, 1, 1))
 put("exif", "time.jpg", jpeg((1, 250)))
 put("exif", "long.jpg", jpeg((30, 1)))
+put("svbrdf_map", "small.gsv", svbrdf_map(2, 2, 1, 1, 2, 1))
+put("svbrdf_map", "three-bands.gsv", svbrdf_map(5, 3, 2, 4, 6, 4))
 put("scan_journal", "small.scan", "# gonio scan\nlargest_count 255\npose 0 0 1 0.6 0 0.8\npose 0 0 1 0 0.6 0.8\nreading 0 2 0.1 1 1 9 8 7 99 88 77 ?\nreading 1 1 0.5 2 1 2 3 4 5 6 ?\n")
 put("scan_journal", "whole.scan", "# gonio scan\nsample 7 red paint\nsetup ? gantry, ideal\nseed 1\nlargest_count 255\nplan 1 ?\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 ?\n")
 put("scan_journal", "cut.scan", "largest_count 65535\npose 0 0 1 0.6 0 0.8\nreading 0 1 0.1 1 9 8 7 99")
@@ -287,6 +303,7 @@ words = {
     "exr": ['channels', 'chlist', 'compression', 'dataWindow', 'displayWindow', 'box2i', 'lineOrder', 'tiles', 'tiledesc', 'type', 'scanlineimage', 'tiledimage', 'deepscanline', '\\x76\\x2F\\x31\\x01', '\\xFF\\xFF\\xFF\\x7F', '\\x00\\x40\\x00\\x00'],
     "tiff": ['II*\\x00', 'MM\\x00*', 'II+\\x00', '\\x00\\x01', '\\x01\\x01', '\\x02\\x01', '\\x03\\x01', '\\x06\\x01', '\\x11\\x01', '\\x15\\x01', '\\x16\\x01', '\\x17\\x01', '\\x42\\x01', '\\x69\\x87', '\\x9A\\x82', '\\x05\\x00', '\\x08\\x00', '\\xFF\\xFF\\xFF\\xFF'],
     "exif": ['\\xFF\\xD8', '\\xFF\\xE1', '\\xFF\\xE0', '\\xFF\\xDA', 'Exif\\x00\\x00', 'II*\\x00', 'MM\\x00*', '\\x69\\x87', '\\x9A\\x82', '\\x05\\x00', '\\xFF\\xFF\\xFF\\xFF'],
+    "svbrdf_map": ['gonio-svbrdf', '\\x01\\x00\\x00\\x00', '\\x00\\x00\\x02\\x00', '\\xFF\\xFF\\xFF\\xFF', '\\x00\\x3C', '\\x00\\x7C'],
     "scan_journal": ['sample ', 'setup ? ', 'seed ', 'plan 1 ?', 'largest_count', 'pose', 'reading', '?', '#', '\\x0A', '65535', '0 0 1', '0.6 0 0.8', '1000', '1000000', '1e9', 'nan'],
     "png": ['\\x89PNG\\x0D\\x0A\\x1A\\x0A', 'IHDR', 'IDAT', 'IEND', 'PLTE', 'tRNS', 'gAMA', 'CgBI', '\\x00\\x00\\x40\\x00', '\\x00\\x00\\x00\\x0D', '\\x78\\x9C'],
     "hdr": ['#?RADIANCE', '#?RGBE', 'FORMAT=32-bit_rle_rgbe', 'EXPOSURE=', '-Y ', '+X ', '+Y ', '\\x0A\\x0A', '16384', '\\x02\\x02\\x00\\x08', '\\x88', '\\xFF'],

@@ -47,21 +47,27 @@ class shared_components {
         epsilon_(static_cast<float>(basis.metric().epsilon)) {
     if (size_ < 1 || size_ > basis.size())
       refuse("cannot take " + std::to_string(size_) + " of " + std::to_string(basis.size()) + " components");
-    values_.resize(index_.size() * stride());
-    const auto [heights, rows, columns] = grid().extents();
-    for (int h = 0; h < heights; ++h)
-      for (int d = 0; d < rows; ++d)
-        for (int p = 0; p < columns; ++p) {
-          const Eigen::Index number = index_(h, d, p);
-          const Eigen::Index cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
-          Stored* const row = values_.data() + number * stride();
-          // Zeros are far below epsilon and are floored, as in `log_relative`.
-          const double reference = static_cast<double>(basis.metric().reference()[cell]);
-          row[0] = static_cast<Stored>(static_cast<float>(std::log(std::max(reference, 1e-8))));
-          row[1] = static_cast<Stored>(static_cast<float>(basis.offset(cell)));
-          for (Eigen::Index k = 0; k < size_; ++k)
-            row[2 + k] = static_cast<Stored>(static_cast<float>(basis.row(cell)[k]));
-        }
+    read(basis, [&](Eigen::Index cell, Stored* out) {
+      for (Eigen::Index k = 0; k < size_; ++k) out[k] = static_cast<Stored>(static_cast<float>(basis.row(cell)[k]));
+    });
+  }
+
+  /// Combinations of a basis' components, a column of weights for each (k x r): the functions of a map of a spatially
+  /// varying BRDF (`io::svbrdf_header`). Throws gonio::error unless there are k rows. O(cells k r).
+  template <log_relative_components Basis>
+  shared_components(const Basis& basis, const Eigen::Ref<const Eigen::MatrixXf>& combinations)
+      : index_(basis.cells().grid()), size_(combinations.cols()), epsilon_(static_cast<float>(basis.metric().epsilon)) {
+    if (combinations.rows() != basis.size() || size_ < 1)
+      refuse("combinations of " + std::to_string(combinations.rows()) + " components, but there are " +
+             std::to_string(basis.size()));
+    read(basis, [&](Eigen::Index cell, Stored* out) {
+      for (Eigen::Index r = 0; r < size_; ++r) {
+        double sum = 0.0;
+        for (Eigen::Index k = 0; k < combinations.rows(); ++k)
+          sum += static_cast<double>(combinations(k, r)) * static_cast<double>(basis.row(cell)[k]);
+        out[r] = static_cast<Stored>(static_cast<float>(sum));
+      }
+    });
   }
 
   /// The number of components.
@@ -79,11 +85,72 @@ class shared_components {
  private:
   [[nodiscard]] Eigen::Index stride() const noexcept { return size_ + 2; }
 
+  /// Fills all cells; `read_row(cell, out)` writes the `size()` components of one.
+  template <class Basis, class ReadRow>
+  void read(const Basis& basis, const ReadRow& read_row) {
+    values_.resize(index_.size() * stride());
+    const auto [heights, rows, columns] = grid().extents();
+    for (int h = 0; h < heights; ++h)
+      for (int d = 0; d < rows; ++d)
+        for (int p = 0; p < columns; ++p) {
+          const Eigen::Index number = index_(h, d, p);
+          const Eigen::Index cell = basis.cells().representative(grid().linear(cell_index{h, d, p}));
+          Stored* const row = values_.data() + number * stride();
+          // Zeros are far below epsilon and are floored, as in `log_relative`.
+          const double reference = static_cast<double>(basis.metric().reference()[cell]);
+          row[0] = static_cast<Stored>(static_cast<float>(std::log(std::max(reference, 1e-8))));
+          row[1] = static_cast<Stored>(static_cast<float>(basis.offset(cell)));
+          read_row(cell, row + 2);
+        }
+  }
+
   horizon_index index_;
   Eigen::Index size_;
   float epsilon_;
   std::vector<Stored> values_;
 };
+
+namespace detail {
+
+/// Q c + mu of the three channels, and the logarithm of the reference. `weights` has the three weights of a component
+/// beside each other.
+template <std::floating_point Real, stored_number Stored>
+[[nodiscard]] Eigen::Array<Real, 4, 1> mapped_components(const shared_components<Stored>& components,
+                                                         const float* weights, Eigen::Index number) noexcept {
+  const Stored* const row = components.row(number);
+  const auto mean = static_cast<float>(row[1]);
+  std::array<float, 3> sum{mean, mean, mean};
+  for (Eigen::Index k = 0; k < components.size(); ++k) {
+    const auto value = static_cast<float>(row[2 + k]);
+    for (Eigen::Index c = 0; c < 3; ++c) sum[c] += weights[3 * k + c] * value;
+  }
+  return {sum[0], sum[1], sum[2], static_cast<Real>(static_cast<float>(row[0]))};
+}
+
+/// Reflectance of weights in a pair of unit vectors, at least zero.
+template <interpolation Interpolation, stored_number Stored, std::floating_point Real>
+[[nodiscard]] Eigen::Array<Real, 3, 1> evaluate_components(const shared_components<Stored>& components,
+                                                           const float* weights, const Eigen::Matrix<Real, 3, 1>& wi,
+                                                           const Eigen::Matrix<Real, 3, 1>& wo) noexcept {
+  const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
+  if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
+  const auto place = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
+  Eigen::Array<Real, 4, 1> mapped = Eigen::Array<Real, 4, 1>::Zero();
+  if constexpr (Interpolation == interpolation::nearest) {
+    mapped = mapped_components<Real>(components, weights, components.index().nearest(place));
+  } else {
+    const trilinear_corners<Real> corners = components.index().around(place);
+    for (Eigen::Index k = 0; k < 8; ++k)
+      mapped += corners.weight[k] * mapped_components<Real>(components, weights, corners.number[k]);
+  }
+  // The inverse of the mapping.
+  const auto small = static_cast<Real>(components.epsilon());
+  const Real weight = std::max(iz * oz, small);  // Eq. 2
+  const Eigen::Array<Real, 4, 1> powers = mapped.exp();
+  return ((powers.template head<3>() * (powers[3] * weight + small) - small) / weight).max(Real(0));
+}
+
+}  // namespace detail
 
 /// A BRDF of k weights for each channel. Evaluation costs a row of k + 2 numbers, or eight for trilinear look-up, and
 /// three exponentials; it does not allocate, lock or throw. A view of the components, which must outlive it.
@@ -111,18 +178,7 @@ class component_brdf {
   template <std::floating_point Real>
   [[nodiscard]] Eigen::Array<Real, 3, 1> operator()(const Eigen::Matrix<Real, 3, 1>& wi,
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
-    const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
-    if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-    const auto place = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
-    const Real weight = std::max(iz * oz, static_cast<Real>(components_->epsilon()));  // Eq. 2
-    if constexpr (Interpolation == interpolation::nearest) {
-      return reflectance(mapped<Real>(components_->index().nearest(place)), weight);
-    } else {
-      const trilinear_corners<Real> corners = components_->index().around(place);
-      Eigen::Array<Real, 4, 1> sum = Eigen::Array<Real, 4, 1>::Zero();
-      for (Eigen::Index k = 0; k < 8; ++k) sum += corners.weight[k] * mapped<Real>(corners.number[k]);
-      return reflectance(sum, weight);
-    }
+    return detail::evaluate_components<Interpolation>(*components_, weights_.data(), wi, wo);
   }
 
   [[nodiscard]] const shared_components<Stored>& components() const noexcept { return *components_; }
@@ -131,28 +187,6 @@ class component_brdf {
   [[nodiscard]] Eigen::Index memory() const noexcept { return sizeof(*this) + weights_.size() * sizeof(float); }
 
  private:
-  /// Q c + mu of the three channels, and the logarithm of the reference.
-  template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 4, 1> mapped(Eigen::Index number) const noexcept {
-    const Stored* const row = components_->row(number);
-    const auto mean = static_cast<float>(row[1]);
-    std::array<float, 3> sum{mean, mean, mean};
-    for (Eigen::Index k = 0; k < components_->size(); ++k) {
-      const auto value = static_cast<float>(row[2 + k]);
-      for (Eigen::Index c = 0; c < 3; ++c) sum[c] += weights_[3 * k + c] * value;
-    }
-    return {sum[0], sum[1], sum[2], static_cast<Real>(static_cast<float>(row[0]))};
-  }
-
-  /// The inverse of the mapping, at least zero.
-  template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> reflectance(const Eigen::Array<Real, 4, 1>& mapped,
-                                                     Real weight) const noexcept {
-    const auto small = static_cast<Real>(components_->epsilon());
-    const Eigen::Array<Real, 4, 1> powers = mapped.exp();
-    return ((powers.template head<3>() * (powers[3] * weight + small) - small) / weight).max(Real(0));
-  }
-
   const shared_components<Stored>* components_;
   std::vector<float> weights_;
 };

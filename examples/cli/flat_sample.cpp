@@ -1,0 +1,96 @@
+#include "cli/flat_sample.hpp"
+
+#include <gonio/core/statistics.hpp>
+#include <gonio/io/npy.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/render/exposure.hpp>
+#include <gonio/table/location.hpp>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+/// All texels are lit and seen in the same directions: of each, a product with the functions there.
+class lit_from_afar {
+ public:
+  lit_from_afar(const gonio::log_relative_pca& prior, const Eigen::MatrixXf& functions,
+                const gonio::directional_light& light)
+      : prior_(prior),
+        at_(gonio::locate(prior.cells(), gonio::to_half_difference(light.towards, gonio::direction(0.0, 0.0, 1.0)))),
+        row_((gonio::row_at(prior, at_) * functions.cast<double>()).transpose()),
+        offset_(gonio::offset_at(prior, at_)),
+        irradiance_(light.irradiance * light.towards.z()) {}
+
+  /// Radiance times pi, of weights as the map has them.
+  [[nodiscard]] gonio::rgb operator()(const std::uint16_t* weights) const {
+    gonio::rgb value;
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      double mapped = offset_;
+      for (Eigen::Index i = 0; i < row_.size(); ++i)
+        mapped += row_[i] * double{gonio::io::detail::from_half(*weights++)};
+      value[c] = std::max(prior_.metric().inverse(mapped, at_), 0.0);
+    }
+    return std::numbers::pi * value * irradiance_;
+  }
+
+ private:
+  const gonio::log_relative_pca& prior_;
+  gonio::location at_;
+  Eigen::VectorXd row_;
+  double offset_;
+  gonio::rgb irradiance_;
+};
+
+/// Makes the image white at the 99th percentile of its pixels' largest values, unless that is black.
+void expose_by_itself(gonio::image& picture) {
+  std::vector<float> brightest;
+  const std::size_t pixels = picture.size() / 3, step = std::max<std::size_t>(pixels / 100'000, 1);
+  for (std::size_t i = 0; i < pixels; i += step)
+    brightest.push_back(*std::max_element(picture.data() + 3 * i, picture.data() + 3 * i + 3));
+  const double white = gonio::quantile(std::move(brightest), 0.99);
+  if (white > 0.0) gonio::render::expose(picture, 1.0 / white);
+}
+
+}  // namespace
+
+gonio::image flat_sample_image(const std::filesystem::path& map, const std::filesystem::path& prior,
+                               std::span<const gonio::directional_light> lights, std::optional<double> exposure,
+                               gonio::thread_count threads) {
+  const gonio::io::svbrdf_map all(map);
+  const gonio::log_relative_pca components = gonio::io::read_prior(prior);
+  all.require_prior(components);
+  const gonio::io::svbrdf_header& header = all.header();
+  std::vector<lit_from_afar> lit;
+  for (const gonio::directional_light& light : lights)
+    if (light.towards.z() > 0.0) lit.emplace_back(components, header.functions, light);
+  gonio::image picture =
+      gonio::uniform_image(static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns));
+  for (Eigen::Index number = 0; number < header.bands(); ++number) {
+    const gonio::io::svbrdf_band band = all.read_band(number);
+    float* const first = picture.data() + 3 * number * header.band_rows * header.columns;
+    gonio::for_each_index(
+        header.texels_of_band(number), 4096,
+        [&](Eigen::Index texel) {
+          gonio::rgb sum = gonio::rgb::Zero();
+          for (const lit_from_afar& light : lit)
+            sum += light(band.weights.data() + 3 * texel * header.functions.cols());
+          for (Eigen::Index c = 0; c < 3; ++c) first[3 * texel + c] = static_cast<float>(sum[c]);
+        },
+        threads);
+  }
+  if (exposure)
+    gonio::render::expose(picture, *exposure);
+  else
+    expose_by_itself(picture);
+  return picture;
+}
+
+}  // namespace cli

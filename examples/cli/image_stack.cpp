@@ -1,0 +1,203 @@
+#include "cli/image_stack.hpp"
+
+#include "cli/photograph_files.hpp"
+#include "command_line/json.hpp"
+#include <gonio/core/error.hpp>
+#include <gonio/core/printable.hpp>
+#include <gonio/io/npy.hpp>
+#include <gonio/io/text.hpp>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <span>
+
+namespace cli {
+
+namespace {
+
+// ---- the list ----------------------------------------------------------------------------------
+
+std::string shown(const json& value) { return gonio::printable(value.dump().substr(0, 120)); }
+
+/// The degrees of some keys in radians, or nothing if the image has none of them.
+template <std::size_t Count>
+std::optional<std::array<double, Count>> radians_of(const json& image, const std::array<const char*, Count>& keys,
+                                                    const std::string& name) {
+  std::array<double, Count> found{};
+  if (std::ranges::none_of(keys, [&](const char* key) { return image.contains(key); })) return {};
+  for (std::size_t i = 0; i < Count; ++i) {
+    if (!image.contains(keys[i]) || !image[keys[i]].is_number() || !(std::abs(image[keys[i]].number()) <= 360.0))
+      gonio::refuse({name, ": '", keys[i], "' must be degrees in ", shown(image)});
+    found[i] = gonio::radians(image[keys[i]].number());
+  }
+  return found;
+}
+
+gonio::direction_pair directions_of(const json& image, const std::string& name) {
+  const auto apart = radians_of<4>(image, {"theta_i", "phi_i", "theta_o", "phi_o"}, name);
+  const auto half = radians_of<3>(image, {"theta_h", "theta_d", "phi_d"}, name);
+  if (apart.has_value() == half.has_value())
+    gonio::refuse(
+        {name, ": an image needs theta_i, phi_i, theta_o and phi_o, or theta_h, theta_d and phi_d, in ", shown(image)});
+  const gonio::direction_pair pair = half ? gonio::to_directions({(*half)[0], (*half)[1], (*half)[2]})
+                                          : gonio::direction_pair{gonio::spherical_direction((*apart)[0], (*apart)[1]),
+                                                                  gonio::spherical_direction((*apart)[2], (*apart)[3])};
+  if (!(pair.wi.z() > 1e-6 && pair.wo.z() > 1e-6))
+    gonio::refuse({name, ": a direction is not above the horizon in ", shown(image)});
+  return pair;
+}
+
+}  // namespace
+
+image_list read_image_list(const std::filesystem::path& path) {
+  const std::string name = path.string();
+  const auto bytes = gonio::io::read_bytes(path);
+  const json text = json::parse(std::string(gonio::io::detail::as_text(bytes)));
+  if (!text.is_object() || !text.contains("images") || !text["images"].is_array() || text["images"].empty())
+    gonio::refuse({name, ": must be a JSON object whose 'images' is a list with an image at least"});
+  image_list list;
+  if (!text.contains("quantity") || !text["quantity"].is_string())
+    gonio::refuse(
+        {name, ": 'quantity' must say what the numbers are: brdf, brdf-cosine, reflectance-factor or percent"});
+  const auto quantity = gonio::io::quantity_named(text["quantity"].text());
+  if (!quantity)
+    gonio::refuse({name, ": 'quantity' is '", gonio::printable(text["quantity"].text()),
+                   "', expected brdf, brdf-cosine, reflectance-factor or percent"});
+  list.quantity = *quantity;
+  for (const json& image : text["images"].elements()) {
+    if (!image.is_object() || !image.contains("image") || !image["image"].is_string())
+      gonio::refuse({name, ": 'image' is missing or no text in ", shown(image)});
+    list.images.push_back({path.parent_path() / image["image"].text(), directions_of(image, name)});
+  }
+  return list;
+}
+
+// ---- the images --------------------------------------------------------------------------------
+
+namespace {
+
+/// A file that vanishes with its process.
+gonio::io::detail::descriptor unnamed_file(const std::filesystem::path& folder) {
+  gonio::io::detail::descriptor file;
+#if defined(O_TMPFILE)
+  file = gonio::io::detail::descriptor(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+#endif
+  if (!file.is_open()) {
+    std::string name = (folder / ".gonio-images-XXXXXX").string();
+    file = gonio::io::detail::descriptor(::mkstemp(name.data()));
+    if (file.is_open()) ::unlink(name.c_str());
+  }
+  if (!file.is_open())
+    gonio::io::detail::refuse_file(folder, {"cannot be written: ", gonio::io::detail::system_reason(errno)});
+  return file;
+}
+
+/// All of the bytes, or a refusal.
+void read_exactly(int file, std::uint64_t offset, std::span<std::byte> bytes, const std::string& name) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) gonio::refuse({name, ": cannot be read: ", gonio::io::detail::system_reason(errno)});
+    if (count == 0) gonio::refuse({name, ": is truncated"});
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uint64_t>(count);
+  }
+}
+
+}  // namespace
+
+image_stack::image_stack(const image_list& list, const std::filesystem::path& folder) {
+  for (const listed_image& image : list.images) {
+    sources_.push_back(image.file.extension() == ".npy" ? open_npy(image.file) : decode(image.file, folder));
+    sources_.back().factor = static_cast<float>(gonio::io::brdf_factor(list.quantity, image.at.wo));
+  }
+}
+
+void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen::Index columns) {
+  if (rows < 1 || columns < 1) gonio::refuse({name, ": has no texel"});
+  if (sources_.empty()) {
+    rows_ = rows;
+    columns_ = columns;
+  }
+  if (rows != rows_ || columns != columns_)
+    gonio::refuse({name, ": has ", columns, " x ", rows, " pixels, but ", sources_.front().name, " has ", columns_,
+                   " x ", rows_});
+}
+
+image_stack::source image_stack::open_npy(const std::filesystem::path& path) {
+  source image{path.string(), gonio::io::detail::descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))};
+  if (!image.file.is_open()) gonio::refuse({image.name, ": cannot be read: ", gonio::io::detail::system_reason(errno)});
+  struct stat info {};
+  if (::fstat(image.file.get(), &info) != 0 || !S_ISREG(info.st_mode))
+    gonio::refuse({image.name, ": is not a regular file"});
+  const auto size = static_cast<std::uint64_t>(info.st_size);
+  std::vector<std::byte> start(std::min<std::uint64_t>(size, 1u << 16));
+  read_exactly(image.file.get(), 0, start, image.name);
+  std::span<const std::byte> rest(start);
+  const auto layout = gonio::io::detail::take_npy_header(rest, image.name);
+  if (layout.shape.size() != 3 || layout.shape[2] != 3)
+    gonio::refuse(
+        {image.name, ": has shape ", gonio::io::detail::npy_shape_text(layout.shape), ", expected (rows, columns, 3)"});
+  image.offset = start.size() - rest.size();
+  image.word_size = layout.word_size;
+  if (size - image.offset != std::uint64_t{layout.count} * layout.word_size)
+    gonio::refuse({image.name, ": has ", size - image.offset, " bytes of elements, expected ",
+                   layout.count * layout.word_size, " for its shape"});
+  require_size(image.name, static_cast<Eigen::Index>(layout.shape[0]), static_cast<Eigen::Index>(layout.shape[1]));
+  return image;
+}
+
+image_stack::source image_stack::decode(const std::filesystem::path& path, const std::filesystem::path& folder) {
+  const gonio::image pixels = read_radiance(path);
+  source image{path.string(), unnamed_file(folder)};
+  require_size(image.name, static_cast<Eigen::Index>(pixels.shape(0)), static_cast<Eigen::Index>(pixels.shape(1)));
+  std::span<const std::byte> bytes = std::as_bytes(std::span(pixels.data(), pixels.size()));
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(image.file.get(), bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0)
+      gonio::io::detail::refuse_file(folder, {"the decoded ", image.name, " cannot be written into this folder: ",
+                                              gonio::io::detail::system_reason(errno)});
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return image;
+}
+
+void image_stack::read_into(const source& image, gonio::block rows, Eigen::Ref<Eigen::VectorXf> out) const {
+  const std::uint64_t at = image.offset + static_cast<std::uint64_t>(3 * columns_ * rows.begin) * image.word_size;
+  const std::span<float> numbers(out.data(), static_cast<std::size_t>(out.size()));
+  if (image.word_size == sizeof(float)) {
+    read_exactly(image.file.get(), at, std::as_writable_bytes(numbers), image.name);
+  } else {
+    std::vector<std::byte> bytes(numbers.size() * image.word_size);
+    read_exactly(image.file.get(), at, bytes, image.name);
+    if (image.word_size == sizeof(double))
+      gonio::io::detail::copy_elements<double>(bytes, numbers, image.name);
+    else
+      gonio::io::detail::copy_halves(bytes, numbers);
+  }
+  if (image.factor != 1.0f) out *= image.factor;
+  if ((out.array() * 0.0f).sum() == 0.0f) return;
+  for (Eigen::Index i = 0; i < out.size(); ++i)
+    if (!std::isfinite(out[i]))
+      gonio::refuse({image.name, ": pixel (row ", rows.begin + i / 3 / columns_, ", column ", i / 3 % columns_,
+                     ") is not a finite number"});
+}
+
+Eigen::MatrixXf image_stack::read(gonio::block rows, gonio::thread_count threads) const {
+  Eigen::MatrixXf all(3 * columns_ * rows.size(), std::ssize(sources_));
+  gonio::for_each_index(
+      all.cols(), 1, [&](Eigen::Index i) { read_into(sources_[static_cast<std::size_t>(i)], rows, all.col(i)); },
+      threads);
+  return all;
+}
+
+}  // namespace cli

@@ -1,0 +1,181 @@
+/// gonio svbrdf: registered images of a flat sample in, a BRDF for each texel out.
+
+#include "cli/image_stack.hpp"
+#include "command_line/prior_option.hpp"
+#include "command_line/progress_bar.hpp"
+#include "command_line/threads_option.hpp"
+#include "commands.hpp"
+#include <gonio/estimate/eta_of_noise.hpp>
+#include <gonio/estimate/texel_decomposition.hpp>
+#include <gonio/io/npy.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/svbrdf_map.hpp>
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+namespace {
+
+struct svbrdf_command {
+  std::filesystem::path images, prior, output, weights, functions, uncertainty, disagreement;
+  double noise = 0.02;
+  std::optional<double> eta;
+  gonio::thread_count threads;
+};
+
+/// The directions of the images as samples, whose values do not matter.
+gonio::sample_set samples_of(const image_list& list) {
+  gonio::sample_set samples;
+  for (const listed_image& image : list.images) samples.push_back({image.at, gonio::rgb::Zero(), 1.0});
+  return samples;
+}
+
+/// The bands of a map, computed from the images.
+class svbrdf_job {
+ public:
+  explicit svbrdf_job(const svbrdf_command& options)
+      : options_(options),
+        list_(read_image_list(options.images)),
+        prior_(gonio::io::read_prior(options.prior)),
+        eta_(options.eta ? *options.eta
+                         : gonio::eta_of_noise(prior_, samples_of(list_), options.noise, options.threads)),
+        estimator_(prior_, gonio::locate_samples(prior_.cells(), samples_of(list_)).locations, gonio::tikhonov(eta_)),
+        images_(list_, folder_of(options.output)) {}
+
+  [[nodiscard]] gonio::io::svbrdf_header header() const {
+    gonio::io::svbrdf_header header{.rows = images_.rows(),
+                                    .columns = images_.columns(),
+                                    .band_rows = std::min(images_.rows(), gonio::io::rows_of_band(images_.columns())),
+                                    .eta = eta_,
+                                    .prior_checksum = gonio::io::checksum_of(prior_),
+                                    .prior_source = prior_.source(),
+                                    .directions = {},
+                                    .functions = estimator_.functions()};
+    for (const listed_image& image : list_.images) header.directions.push_back(image.at);
+    return header;
+  }
+
+  [[nodiscard]] gonio::io::svbrdf_band band(const gonio::io::svbrdf_header& header, Eigen::Index number) const {
+    const Eigen::Index first = number * header.band_rows;
+    const gonio::block rows{first, std::min(first + header.band_rows, header.rows)};
+    return gonio::io::as_halves(estimator_.solve(images_.read(rows, options_.threads), options_.threads),
+                                options_.threads);
+  }
+
+ private:
+  static std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : ".";
+  }
+
+  const svbrdf_command& options_;
+  image_list list_;
+  gonio::log_relative_pca prior_;
+  double eta_;
+  gonio::texel_decomposition estimator_;
+  image_stack images_;
+};
+
+/// A part of all bands as an array of half floats, with these extents behind rows and columns.
+void write_array(const std::filesystem::path& path, const gonio::io::svbrdf_map& map,
+                 std::vector<std::uint16_t> gonio::io::svbrdf_band::*part, const std::vector<std::size_t>& extents) {
+  if (path.empty()) return;
+  const gonio::io::svbrdf_header& header = map.header();
+  std::vector<std::size_t> shape{static_cast<std::size_t>(header.rows), static_cast<std::size_t>(header.columns)};
+  shape.insert(shape.end(), extents.begin(), extents.end());
+  const std::string start = gonio::io::detail::npy_header("<f2", gonio::io::detail::npy_shape_text(shape));
+  gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
+    file.write(std::as_bytes(std::span(start)));
+    for (Eigen::Index band = 0; band < header.bands(); ++band) {
+      const gonio::io::svbrdf_band values = map.read_band(band);
+      file.write(std::as_bytes(std::span(values.*part)));
+    }
+  });
+}
+
+/// What is asked for of a whole map.
+void write_arrays(const svbrdf_command& options) {
+  const gonio::io::svbrdf_map map(options.output);
+  const Eigen::MatrixXf& functions = map.header().functions;
+  using band = gonio::io::svbrdf_band;
+  write_array(options.weights, map, &band::weights, {3, static_cast<std::size_t>(functions.cols())});
+  write_array(options.uncertainty, map, &band::uncertainty, {});
+  write_array(options.disagreement, map, &band::disagreement, {});
+  if (options.functions.empty()) return;
+  xt::xtensor<float, 2> columns(std::array<std::size_t, 2>{static_cast<std::size_t>(functions.rows()),
+                                                           static_cast<std::size_t>(functions.cols())});
+  for (Eigen::Index k = 0; k < functions.rows(); ++k)
+    for (Eigen::Index r = 0; r < functions.cols(); ++r) columns(k, r) = functions(k, r);
+  gonio::io::write_npy(options.functions, columns);
+}
+
+void run(const svbrdf_command& options) {
+  const svbrdf_job job(options);
+  const auto header = job.header();
+  gonio::io::svbrdf_writer map(options.output, header);
+  const Eigen::Index before = map.finished();
+  if (before > 0 && !map.has_written(before - 1, job.band(header, before - 1)))
+    gonio::refuse(
+        {options.output.string(), ".part: was begun with other images: remove it, or name another file to ", "write"});
+  progress_bar bar;
+  while (map.finished() < header.bands()) {
+    bar.draw("texels", static_cast<double>(map.finished()) / static_cast<double>(header.bands()));
+    map.append(job.band(header, map.finished()));
+  }
+  map.commit();
+  bar.wipe();
+  write_arrays(options);
+  std::cout << header.columns << " x " << header.rows << " texels, " << header.directions.size() << " images, "
+            << header.functions.rows() << " components, eta " << header.eta;
+  if (before > 0) std::cout << ", went on behind band " << before << " of " << header.bands();
+  std::cout << '\n';
+}
+
+}  // namespace
+
+void add_svbrdf(command& app) {
+  auto command = app.add_subcommand("svbrdf", "Complete a BRDF at each texel of registered images");
+  const auto options = std::make_shared<svbrdf_command>();
+  command
+      .add_input("images", options->images,
+                 "List of images (.json): for each a file (.npy, .exr or .hdr) and its directions, and what their "
+                 "numbers are (docs/reference/formats.md)")
+      .required();
+  add_prior_option(command, options->prior);
+  auto noise = command
+                   .add_option("--noise", options->noise,
+                               "Relative deviation of the images' values (0.02 is 2 %), which chooses Tikhonov's "
+                               "penalty")
+                   .check(check::range(0.0, 1.0))
+                   .capture_default_str();
+  command.add_option("--eta", options->eta, "Tikhonov's penalty, instead of the one for --noise")
+      .check(check::positive_number())
+      .excludes(noise);
+  command
+      .add_output("-o,--output", options->output, {".gsv"},
+                  "Map to write (.gsv). An interrupted command goes on where it was when it is given again")
+      .required();
+  command.add_output("--weights", options->weights, {".npy"},
+                     "Array to write of the map's weights: rows x columns x 3 x functions, half floats");
+  command.add_output("--functions", options->functions, {".npy"},
+                     "Array to write of the weights that the prior's components have in each function: components x "
+                     "functions");
+  command.add_output("--uncertainty", options->uncertainty, {".npy"},
+                     "Array to write of how well each texel is known, over all directions: 0.06 is to 6 % in 68 of 100 "
+                     "cases; rows x columns");
+  command.add_output("--disagreement", options->disagreement, {".npy"},
+                     "Array to write of how far each texel's images contradict each other: 1 is as expected; rows x "
+                     "columns");
+  add_threads_option(command, options->threads);
+  command.callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,250 @@
+/// gonio svbrdf: registered images in, a map of BRDFs out.
+
+#include "../io/scratch.hpp"
+#include "../synthetic_materials.hpp"
+#include "tool.hpp"
+#include <gonio/estimate/decomposition.hpp>
+#include <gonio/estimate/fitted_brdf.hpp>
+#include <gonio/io/image.hpp>
+#include <gonio/io/npy.hpp>
+#include <gonio/io/prior.hpp>
+#include <gonio/io/svbrdf_map.hpp>
+#include <gonio/solve/tikhonov.hpp>
+#include <gonio/table/image.hpp>
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+/// Four images of 70 x 1500 texels, whose bands have 43 rows; a prior of few cells.
+struct images_folder {
+  scratch::folder folder;
+  gonio::log_relative_pca prior = learn(synthetic_materials(gonio::valid_cells(gonio::grid({18, 9, 12})), 12), 6);
+  std::vector<gonio::half_difference> angles{{0.1, 0.2, 0.4}, {0.4, 0.5, 1.5}, {0.02, 0.9, 1.0}, {0.9, 0.3, 0.7}};
+  std::vector<xt::xtensor<float, 3>> images;
+
+  images_folder() {
+    gonio::io::write_prior(folder / "small.prior", prior);
+    prior = gonio::io::read_prior(folder / "small.prior");
+    std::string list = "{\"quantity\": \"brdf\", \"images\": [";
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      std::mt19937 generator(static_cast<unsigned>(i));
+      std::uniform_real_distribution<float> value(0.01f, 0.4f);
+      xt::xtensor<float, 3> image(std::array<std::size_t, 3>{70, 1500, 3});
+      for (float& each : image) each = value(generator);
+      const std::string name = "image-" + std::to_string(i) + ".npy";
+      gonio::io::write_npy(folder / name, image);
+      images.push_back(image);
+      list += (i > 0 ? "," : "") + entry(name, i);
+    }
+    scratch::put(folder / "images.json", list + "]}");
+  }
+
+  [[nodiscard]] std::string entry(const std::string& name, std::size_t i) const {
+    return "{\"image\": \"" + name + "\", \"theta_h\": " + std::to_string(gonio::degrees(angles[i].theta_h)) +
+           ", \"theta_d\": " + std::to_string(gonio::degrees(angles[i].theta_d)) +
+           ", \"phi_d\": " + std::to_string(gonio::degrees(angles[i].phi_d)) + "}";
+  }
+  [[nodiscard]] std::string command(const std::string& output, const std::string& list = "images.json",
+                                    const std::string& eta = "2.5") const {
+    return "svbrdf " + (folder / list).string() + " --prior " + (folder / "small.prior").string() + " --eta " + eta +
+           " -o " + (folder / output).string();
+  }
+  void replace(std::size_t i, const xt::xtensor<float, 3>& image) const {
+    gonio::io::write_npy(folder / ("image-" + std::to_string(i) + ".npy"), image);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("svbrdf: each texel is what a decomposition of its samples finds") {
+  const images_folder given;
+  const std::string output = run(given.command("map.gsv") + " --threads 3");
+  CHECK(output.find("1500 x 70 texels, 4 images, 6 components, eta 2.5") != std::string::npos);
+  const gonio::io::svbrdf_map map(given.folder / "map.gsv");
+  map.require_prior(given.prior);
+  REQUIRE(map.header().bands() == 2);
+  REQUIRE(map.header().directions.size() == 4);
+  const gonio::decomposition one_by_one{given.prior, gonio::tikhonov{2.5}};
+  for (const Eigen::Index row : {0, 42, 43, 69}) {
+    const auto band = map.read_band(row / map.header().band_rows);
+    for (const Eigen::Index column : {0, 511, 1499}) {
+      gonio::sample_set samples;
+      for (std::size_t i = 0; i < given.angles.size(); ++i)
+        samples.push_back(
+            {map.header().directions[i],
+             {given.images[i](row, column, 0), given.images[i](row, column, 1), given.images[i](row, column, 2)},
+             1.0});
+      const Eigen::MatrixXd expected = one_by_one.fit(samples).weights();
+      const Eigen::MatrixXd found =
+          gonio::io::weights_of_texel(map.header(), band, row % map.header().band_rows * 1500 + column);
+      CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-3 * expected.cwiseAbs().maxCoeff());  // half floats
+    }
+  }
+  run(given.command("one.gsv") + " --threads 1");
+  CHECK(scratch::get(given.folder / "one.gsv") == scratch::get(given.folder / "map.gsv"));
+  const std::string facts = run("info " + (given.folder / "map.gsv").string());
+  CHECK(facts.find("disagreement") != std::string::npos);
+}
+
+TEST_CASE("svbrdf: an unfinished map is gone on with, unless it is of other images or another job") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  const std::string whole = scratch::get(given.folder / "map.gsv");
+  const auto part = given.folder / "next.gsv.part";
+  scratch::put(part, whole.substr(0, whole.size() - 1000));
+  CHECK(run(given.command("next.gsv")).find("went on behind band 1 of 2") != std::string::npos);
+  CHECK(scratch::get(given.folder / "next.gsv") == whole);
+  CHECK(!scratch::fs::exists(part));
+  // Other images of the same sizes.
+  scratch::put(part, whole.substr(0, whole.size() - 1000));
+  auto changed = given.images[1];
+  changed(20, 3, 1) = 9.0f;
+  given.replace(1, changed);
+  refuses(given.command("next.gsv"), {"next.gsv.part", "other images"});
+  given.replace(1, given.images[1]);
+  // Another penalty.
+  refuses(given.command("next.gsv", "images.json", "3"), {"next.gsv.part", "another job"});
+  // What was whole is still there.
+  CHECK(whole.starts_with(scratch::get(part)));
+  CHECK(scratch::fs::file_size(part) > whole.size() / 2);
+}
+
+TEST_CASE("svbrdf: killed at random moments, the command given again ends with the same bytes") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  std::mt19937 generator(8);
+  std::uniform_int_distribution<int> moment(1, 60);
+  const char* wanted = std::getenv("GONIO_KILLS");
+  for (int kill = wanted == nullptr ? 4 : std::stoi(wanted); kill > 0; --kill) {
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      const std::string line = "exec '" GONIO_TOOL "' " + given.command("again.gsv") + " > /dev/null 2>&1";
+      ::execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
+      ::_exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment(generator)));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+  }
+  run(given.command("again.gsv"));
+  CHECK(scratch::get(given.folder / "again.gsv") == scratch::get(given.folder / "map.gsv"));
+}
+
+TEST_CASE("svbrdf: images that do not fit, that are missing or hold no numbers, and bad lists are refused") {
+  const images_folder given;
+  auto image = given.images[2];
+  image(50, 7, 1) = std::nanf("");
+  given.replace(2, image);
+  refuses(given.command("map.gsv"), {"image-2.npy", "row 50, column 7", "not a finite number"});
+  given.replace(2, xt::xtensor<float, 3>(std::array<std::size_t, 3>{70, 1499, 3}, 0.1f));
+  refuses(given.command("other.gsv"), {"image-2.npy: has 1499 x 70 pixels", "1500 x 70"});
+  scratch::fs::remove(given.folder / "image-2.npy");
+  refuses(given.command("other.gsv"), {"image-2.npy", "No such file"});
+  const auto list = [&](const std::string& text) { scratch::put(given.folder / "list.json", text); };
+  const std::string command = given.command("other.gsv", "list.json");
+  list("{\"quantity\": \"brdf\", \"images\": []}");
+  refuses(command, {"list.json", "'images'"});
+  list("{\"images\": [" + given.entry("image-0.npy", 0) + "]}");
+  refuses(command, {"list.json", "'quantity'"});
+  list("{\"quantity\": \"light\", \"images\": [" + given.entry("image-0.npy", 0) + "]}");
+  refuses(command, {"list.json", "'light'"});
+  list(
+      "{\"quantity\": \"brdf\", \"images\": [{\"image\": \"image-0.npy\", \"theta_i\": 30, \"phi_i\": 0, "
+      "\"theta_o\": 95, \"phi_o\": 0}]}");
+  refuses(command, {"list.json", "above the horizon"});
+  list("{\"quantity\": \"brdf\", \"images\": [{\"image\": \"image-0.npy\", \"theta_i\": 30}]}");
+  refuses(command, {"list.json", "'phi_i'"});
+  CHECK(!scratch::fs::exists(given.folder / "other.gsv"));
+  CHECK(!scratch::fs::exists(given.folder / "other.gsv.part"));
+}
+
+TEST_CASE("svbrdf: two jobs on one output, the second is refused") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  scratch::put(given.folder / "busy.gsv.part", scratch::get(given.folder / "map.gsv").substr(0, 100));
+  const gonio::io::svbrdf_map map(given.folder / "map.gsv");
+  const gonio::io::svbrdf_writer first(given.folder / "busy.gsv", map.header());
+  refuses(given.command("busy.gsv"), {"busy.gsv", "another process is writing"});
+}
+
+TEST_CASE("svbrdf: quantities are made BRDFs") {
+  const images_folder given;
+  gonio::image flat = gonio::uniform_image(3, 4, gonio::rgb::Constant(0.5));
+  gonio::io::write_npy(given.folder / "flat.npy", flat);
+  scratch::put(given.folder / "flat.json",
+               "{\"quantity\": \"brdf\", \"images\": [" + given.entry("flat.npy", 0) + "]}");
+  for (float& each : flat) each *= 100.0f * 3.14159265f;
+  gonio::io::write_npy(given.folder / "percent.npy", flat);
+  scratch::put(given.folder / "percent.json",
+               "{\"quantity\": \"percent\", \"images\": [" + given.entry("percent.npy", 0) + "]}");
+  run(given.command("flat.gsv", "flat.json"));
+  run(given.command("percent.gsv", "percent.json"));
+  const auto weights = [&](const char* file) {
+    const gonio::io::svbrdf_map map(given.folder / file);
+    return gonio::io::weights_of_texel(map.header(), map.read_band(0), 5);
+  };
+  const Eigen::MatrixXd expected = weights("flat.gsv");
+  CHECK((weights("percent.gsv") - expected).cwiseAbs().maxCoeff() < 1e-3 * expected.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("svbrdf: weights, functions, uncertainty and disagreement as arrays") {
+  const images_folder given;
+  const auto file = [&](const char* name) { return (given.folder / name).string(); };
+  run(given.command("map.gsv") + " --weights " + file("w.npy") + " --functions " + file("f.npy") + " --uncertainty " +
+      file("u.npy") + " --disagreement " + file("d.npy"));
+  const auto weights = gonio::io::read_npy<float, 4>(file("w.npy"));
+  const auto functions = gonio::io::read_npy<float, 2>(file("f.npy"));
+  const auto disagreement = gonio::io::read_npy<float, 2>(file("d.npy"));
+  CHECK(gonio::io::read_npy<float, 2>(file("u.npy")).shape(1) == 1500);
+  REQUIRE(weights.shape(3) == 4);
+  REQUIRE(functions.shape(0) == 6);
+  const gonio::io::svbrdf_map map(given.folder / "map.gsv");
+  const auto band = map.read_band(1);
+  const Eigen::MatrixXd expected = gonio::io::weights_of_texel(map.header(), band, 2 * 1500 + 9);
+  for (Eigen::Index c = 0; c < 3; ++c)
+    for (Eigen::Index k = 0; k < 6; ++k) {
+      double sum = 0.0;
+      for (std::size_t r = 0; r < 4; ++r) sum += double{functions(k, r)} * double{weights(45, 9, c, r)};
+      CHECK(sum == doctest::Approx(expected(k, c)).epsilon(1e-4));
+    }
+  CHECK(disagreement(45, 9) == gonio::io::detail::from_half(band.disagreement[2 * 1500 + 9]));
+}
+
+TEST_CASE("svbrdf: a map is drawn as a flat sample, and with its own prior only") {
+  const images_folder given;
+  run(given.command("map.gsv"));
+  const std::string map = (given.folder / "map.gsv").string(), image = (given.folder / "map.png").string();
+  const std::string prior = " --prior " + (given.folder / "small.prior").string();
+  run("render " + map + prior + " --light 20,10 --exposure 0.5 -o " + image);
+  const gonio::image drawn = gonio::io::read_png(image);
+  REQUIRE(drawn.shape(0) == 70);
+  REQUIRE(drawn.shape(1) == 1500);
+  const gonio::io::svbrdf_map read(map);
+  const double right = gonio::radians(20.0), up = gonio::radians(10.0);
+  const gonio::direction light{std::sin(right) * std::cos(up), std::sin(up), std::cos(right) * std::cos(up)};
+  const auto band = read.read_band(1);
+  for (const Eigen::Index column : {0, 700, 1499}) {
+    const gonio::fitted_brdf fit(given.prior, gonio::io::weights_of_texel(read.header(), band, 2 * 1500 + column));
+    const gonio::rgb radiance = fit(light, gonio::direction(0, 0, 1)) * light.z() * 3.14159265 * 0.5;
+    for (Eigen::Index c = 0; c < 3; ++c)
+      CHECK(drawn(45, column, c) == doctest::Approx(std::clamp(radiance[c], 0.0, 1.0)).epsilon(0.03));
+  }
+  refuses("render " + map + " -o " + image, {"map.gsv", "another prior"});
+  refuses("render " + map + prior + " --slices -o " + image, {"map.gsv", "alone"});
+}
