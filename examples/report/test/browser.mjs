@@ -2,13 +2,14 @@
 // Exit code 77 means that something is not installed, and that nothing was tested.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
 export const repository = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const executablePath = process.env.GONIO_CHROMIUM ?? "/usr/bin/chromium";
-export const [tool, folder] = process.argv.slice(2);
-if (!tool || !folder) throw new Error("usage: node page.mjs TOOL FOLDER");
+const [given_tool, given_folder] = process.argv.slice(2);
+if (!given_tool || !given_folder) throw new Error("usage: node page.mjs TOOL FOLDER");
+export const tool = given_tool, folder = resolve(given_folder);
 mkdirSync(folder, { recursive: true });
 
 export function skip(reason) {
