@@ -27,14 +27,14 @@ struct textured_sample {
     }
     const auto set = synthetic_materials(small_cells(), 6, 11);
     std::mt19937 generator(5);
-    std::normal_distribution<double> error(0.0, noise);
+    std::normal_distribution<double> error;
     for (Eigen::Index i = 0; i < n; ++i) {
       const gonio::rgb one = set.table(1).at(locations[i]), other = set.table(4).at(locations[i]);
       for (Eigen::Index t = 0; t < texels; ++t) {
         const double share = 0.5 + 0.5 * std::sin(0.01 * static_cast<double>(t));
         for (Eigen::Index c = 0; c < 3; ++c)
           images(3 * t + c, i) =
-              static_cast<float>((share * one[c] + (1.0 - share) * other[c]) * (1.0 + error(generator)));
+              static_cast<float>((share * one[c] + (1.0 - share) * other[c]) * (1.0 + noise * error(generator)));
       }
     }
   }

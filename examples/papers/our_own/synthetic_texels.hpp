@@ -53,7 +53,7 @@ class synthetic_texels {
     gonio::io::write_atomically(path, [&](gonio::io::file_writer& file) {
       file.write(std::as_bytes(std::span(header)));
       std::mt19937_64 generator(seed_ * 1000 + static_cast<std::uint64_t>(direction));
-      std::normal_distribution<float> error(1.0f, static_cast<float>(noise_));
+      std::normal_distribution<float> error;
       std::vector<float> pixels(3 * extent);
       for (Eigen::Index row = 0; row < size_; ++row) {
         for (Eigen::Index column = 0; column < size_; ++column) {
@@ -62,7 +62,8 @@ class synthetic_texels {
           for (Eigen::Index m = 0; m < share.size(); ++m)
             value += share[m] * values_[static_cast<std::size_t>(m)].col(direction);
           for (Eigen::Index c = 0; c < 3; ++c)
-            pixels[static_cast<std::size_t>(3 * column + c)] = static_cast<float>(value[c]) * error(generator);
+            pixels[static_cast<std::size_t>(3 * column + c)] =
+                static_cast<float>(value[c]) * (1.0f + static_cast<float>(noise_) * error(generator));
         }
         file.write(std::as_bytes(std::span(pixels)));
       }
