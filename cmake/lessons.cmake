@@ -43,9 +43,9 @@ function(text_of result)
 endfunction()
 text_of(style "${report}/style.css" "${lessons}/style.css")
 text_of(bundle "${report}/bundle.js")
-text_of(components "${report}/tables.js" "${report}/mesh.js" "${report}/environment.js" "${report}/shading.js"
+text_of(components "${report}/tables.js" "${report}/elements.js" "${report}/mesh.js" "${report}/environment.js" "${report}/shading.js"
         "${report}/viewer.js" "${report}/controls.js" "${lessons}/estimator.js" "${lessons}/components.js")
-text_of(spoil "${report}/tables.js" "${lessons}/estimator.js" "${lessons}/spoil.js")
+text_of(spoil "${report}/tables.js" "${report}/elements.js" "${lessons}/estimator.js" "${lessons}/spoil.js")
 foreach(page IN ITEMS "components:Five components by slider" "spoil:Spoil a sample")
   string(REGEX MATCH "(.*):(.*)" matched "${page}")
   set(html "${form}")

@@ -117,9 +117,9 @@ json describe_svbrdf(const path_type& path) {
   double uncertainty = 0.0, disagreement = 0.0, contradicted = 0.0;
   for (Eigen::Index number = 0; number < header.bands(); ++number) {
     const gonio::io::svbrdf_band band = map.read_band(number);
-    for (const std::uint16_t half : band.uncertainty) uncertainty += gonio::io::detail::from_half(half);
+    for (const std::uint16_t half : band.uncertainty) uncertainty += gonio::from_half(half);
     for (const std::uint16_t half : band.disagreement) {
-      const float value = gonio::io::detail::from_half(half);
+      const float value = gonio::from_half(half);
       disagreement += value;
       contradicted += value > 3.0f ? 1.0 : 0.0;
     }

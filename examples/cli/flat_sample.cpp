@@ -1,7 +1,7 @@
 #include "cli/flat_sample.hpp"
 
+#include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
-#include <gonio/io/npy.hpp>
 #include <gonio/io/prior.hpp>
 #include <gonio/io/svbrdf_map.hpp>
 #include <gonio/render/exposure.hpp>
@@ -34,8 +34,7 @@ class lit_from_afar {
     gonio::rgb value;
     for (Eigen::Index c = 0; c < 3; ++c) {
       double mapped = offset_;
-      for (Eigen::Index i = 0; i < row_.size(); ++i)
-        mapped += row_[i] * double{gonio::io::detail::from_half(*weights++)};
+      for (Eigen::Index i = 0; i < row_.size(); ++i) mapped += row_[i] * double{gonio::from_half(*weights++)};
       value[c] = std::max(prior_.metric().inverse(mapped, at_), 0.0);
     }
     return std::numbers::pi * value * irradiance_;

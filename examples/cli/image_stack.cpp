@@ -3,12 +3,12 @@
 #include "cli/photograph_files.hpp"
 #include "command_line/json.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/core/finite.hpp>
 #include <gonio/core/printable.hpp>
 #include <gonio/io/npy.hpp>
 #include <gonio/io/text.hpp>
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -101,15 +101,9 @@ gonio::io::detail::descriptor unnamed_file(const std::filesystem::path& folder) 
 }
 
 /// All of the bytes, or a refusal.
-void read_exactly(int file, std::uint64_t offset, std::span<std::byte> bytes, const std::string& name) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::pread(file, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) gonio::refuse({name, ": cannot be read: ", gonio::io::detail::system_reason(errno)});
-    if (count == 0) gonio::refuse({name, ": is truncated"});
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    offset += static_cast<std::uint64_t>(count);
-  }
+void read_exactly(const gonio::io::detail::descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
+                  const std::string& name) {
+  if (gonio::io::detail::read_at(file, offset, bytes, name) != bytes.size()) gonio::refuse({name, ": is truncated"});
 }
 
 }  // namespace
@@ -133,14 +127,10 @@ void image_stack::require_size(const std::string& name, Eigen::Index rows, Eigen
 }
 
 image_stack::source image_stack::open_npy(const std::filesystem::path& path) {
-  source image{path.string(), gonio::io::detail::descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK))};
-  if (!image.file.is_open()) gonio::refuse({image.name, ": cannot be read: ", gonio::io::detail::system_reason(errno)});
-  struct stat info {};
-  if (::fstat(image.file.get(), &info) != 0 || !S_ISREG(info.st_mode))
-    gonio::refuse({image.name, ": is not a regular file"});
-  const auto size = static_cast<std::uint64_t>(info.st_size);
+  source image{path.string(), gonio::io::detail::open_to_read(path)};
+  const std::uint64_t size = gonio::io::detail::size_of_regular(image.file, path);
   std::vector<std::byte> start(std::min<std::uint64_t>(size, 1u << 16));
-  read_exactly(image.file.get(), 0, start, image.name);
+  read_exactly(image.file, 0, start, image.name);
   std::span<const std::byte> rest(start);
   const auto layout = gonio::io::detail::take_npy_header(rest, image.name);
   if (layout.shape.size() != 3 || layout.shape[2] != 3)
@@ -159,15 +149,10 @@ image_stack::source image_stack::decode(const std::filesystem::path& path, const
   const gonio::image pixels = read_radiance(path);
   source image{path.string(), unnamed_file(folder)};
   require_size(image.name, static_cast<Eigen::Index>(pixels.shape(0)), static_cast<Eigen::Index>(pixels.shape(1)));
-  std::span<const std::byte> bytes = std::as_bytes(std::span(pixels.data(), pixels.size()));
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(image.file.get(), bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0)
-      gonio::io::detail::refuse_file(folder, {"the decoded ", image.name, " cannot be written into this folder: ",
-                                              gonio::io::detail::system_reason(errno)});
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
+  if (!gonio::io::detail::write_all(image.file, std::as_bytes(std::span(pixels.data(), pixels.size()))))
+    gonio::io::detail::refuse_file(
+        folder,
+        {"the decoded ", image.name, " cannot be written into this folder: ", gonio::io::detail::system_reason(errno)});
   return image;
 }
 
@@ -175,17 +160,17 @@ void image_stack::read_into(const source& image, gonio::block rows, Eigen::Ref<E
   const std::uint64_t at = image.offset + static_cast<std::uint64_t>(3 * columns_ * rows.begin) * image.word_size;
   const std::span<float> numbers(out.data(), static_cast<std::size_t>(out.size()));
   if (image.word_size == sizeof(float)) {
-    read_exactly(image.file.get(), at, std::as_writable_bytes(numbers), image.name);
+    read_exactly(image.file, at, std::as_writable_bytes(numbers), image.name);
   } else {
     std::vector<std::byte> bytes(numbers.size() * image.word_size);
-    read_exactly(image.file.get(), at, bytes, image.name);
+    read_exactly(image.file, at, bytes, image.name);
     if (image.word_size == sizeof(double))
       gonio::io::detail::copy_elements<double>(bytes, numbers, image.name);
     else
       gonio::io::detail::copy_halves(bytes, numbers);
   }
   if (image.factor != 1.0f) out *= image.factor;
-  if ((out.array() * 0.0f).sum() == 0.0f) return;
+  if (gonio::all_finite(numbers)) return;
   for (Eigen::Index i = 0; i < out.size(); ++i)
     if (!std::isfinite(out[i]))
       gonio::refuse({image.name, ": pixel (row ", rows.begin + i / 3 / columns_, ", column ", i / 3 % columns_,

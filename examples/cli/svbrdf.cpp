@@ -123,8 +123,7 @@ void run(const svbrdf_command& options) {
   gonio::io::svbrdf_writer map(options.output, header);
   const Eigen::Index before = map.finished();
   if (before > 0 && !map.has_written(before - 1, job.band(header, before - 1)))
-    gonio::refuse(
-        {options.output.string(), ".part: was begun with other images: remove it, or name another file to ", "write"});
+    gonio::refuse({options.output.string(), ".part: was begun with other images: remove it, or name another -o"});
   progress_bar bar;
   while (map.finished() < header.bands()) {
     bar.draw("texels", static_cast<double>(map.finished()) / static_cast<double>(header.bands()));

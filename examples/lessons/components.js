@@ -54,10 +54,7 @@ function choose_start(materials, changed) {
 }
 
 async function fill_material(section, computed) {
-  const canvas = element("canvas", { width: 512, height: 512, tabIndex: 0 });
-  canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", "A sphere of the material under a light, which arrow keys move");
-  if (!canvas.getContext("webgl2", { alpha: false })) throw new Error("this browser has no WebGL 2");
+  const canvas = lit_canvas("A sphere of the material under a light, which arrow keys move");
   const described = computed.ask("describe_components"), count = keys.length;
   const deviations = described.slice(0, count), shares = described.slice(count);
   const mean = { name: "the mean of all materials", weights: new Array(3 * count).fill(0) };
@@ -127,8 +124,8 @@ function fill_errors(section, computed) {
         points.push({ name: painted_materials[i], count, error: computed.calls.delta_e(i, count, viewer.state.components) });
       }
     figure.replaceChildren(error_chart(points));
-    values.replaceChildren(table("Delta E", ["measurements", ...painted_materials],
-      counts.map((count) => [String(count), ...points.filter((each) => each.count === count).map((each) => each.error.toFixed(2))])));
+    values.replaceChildren(table(["measurements", ...painted_materials],
+      counts.map((count) => [String(count), ...points.filter((each) => each.count === count).map((each) => each.error.toFixed(2))]), "Delta E"));
     status.textContent = `With ${viewer.state.components} of 100 components.`;
   };
   const components = slider("Components used", "components", [1, 100, 1], String, () => { components.show(); compute(); });

@@ -1,31 +1,9 @@
-// The estimator of a lesson's page: gonio, compiled to WebAssembly (estimator.cpp). And what both pages are made of.
+// The estimator of a lesson's page: gonio, compiled to WebAssembly (estimator.cpp). And what both pages share.
 
-function element(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
-const paragraph = (text, className = "") => element("p", { className }, text);
-const page = document.getElementById("page");
 const painted = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
-
-function table(caption, head, rows) {
-  const row = (cells, kind) => element("tr", {}, ...cells.map((cell) => element(kind, {}, cell)));
-  return element("table", {}, element("caption", {}, caption), element("thead", {}, row(head, "th")),
-    element("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
-}
 
 // Of a chart that wants so many pixels, as far as the page has them.
 const width_of = (most) => Math.min(most, page.clientWidth - 40);
-
-// What Plot calls its marks is kept, for tests, but not as a name: parts of an image have none.
-function without_names(svg) {
-  for (const mark of svg.querySelectorAll("g[aria-label]")) {
-    mark.dataset.mark = mark.getAttribute("aria-label");
-    mark.removeAttribute("aria-label");
-  }
-  return svg;
-}
 
 class estimator {
   constructor(calls) { this.calls = calls; }

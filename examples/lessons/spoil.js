@@ -97,8 +97,9 @@ async function fill_scan(section, computed) {
     figure.replaceChildren(chart);
     if (keeps_focus) focus();
     status.textContent = told(scan);
-    values.replaceChildren(table("How far from the truth, over all directions", ["fit", "as computed by", "Delta E of a sphere", "mapped rms", "left out"],
-      fits.map(({ name, command }, i) => [name, command, lesson.found[i].delta_e.toFixed(2), lesson.found[i].rms.toFixed(3), i ? angles_of(scan, left_out(lesson.found[i])) : "-"])));
+    values.replaceChildren(table(["fit", "as computed by", "Delta E of a sphere", "mapped rms", "left out"],
+      fits.map(({ name, command }, i) => [name, command, lesson.found[i].delta_e.toFixed(2), lesson.found[i].rms.toFixed(3), i ? angles_of(scan, left_out(lesson.found[i])) : "-"]),
+      "How far from the truth, over all directions"));
   };
   const toggle = (i) => {
     if (!lesson.spoiled.delete(i)) lesson.spoiled.add(i);

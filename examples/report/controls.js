@@ -11,9 +11,10 @@ function slider(label, key, [min, max, step], told, changed) {
   return { show, row: element("label", {}, element("span", {}, label), input, output) };
 }
 
+// `options` are pairs of a value of the state and what it is called.
 function choice(label, key, options, changed) {
   const select = element("select", {}, ...options.map(([value, name]) => element("option", { value }, name)));
-  select.addEventListener("input", () => { viewer.state[key] = select.value; changed(); });
+  select.addEventListener("input", () => { viewer.state[key] = options[select.selectedIndex][0]; changed(); });
   return element("label", {}, element("span", {}, label), select);
 }
 
@@ -72,9 +73,8 @@ function light_rows(changed, surround) {
 // How much of the truth is shown: on the right of a border, or mixed with the fit.
 function truth_rows(changed) {
   const share = slider("Truth", "truth", [0, 100, 1], (value) => `${value} %`, changed);
-  const shown = element("select", {}, ...[["border", "beside the fit"], ["blend", "blended with the fit"]].map(([value, name]) => element("option", { value }, name)));
-  shown.addEventListener("input", () => { viewer.state.blends = shown.value === "blend"; changed(); });
-  return { rows: [element("label", {}, element("span", {}, "Truth is shown"), shown), share.row], show: share.show };
+  const shown = choice("Truth is shown", "blends", [[false, "beside the fit"], [true, "blended with the fit"]], changed);
+  return { rows: [shown, share.row], show: share.show };
 }
 
 // Uncertainty is that of one pair of directions: it needs the lamp.

@@ -211,7 +211,9 @@ class surrounded_view {
   resize(side) {
     const { gl } = this, depth = gl.createRenderbuffer();
     this.added?.forEach((each) => gl.deleteTexture(each));
-    this.side = side;
+    gl.deleteFramebuffer(this.target ?? null);
+    gl.deleteRenderbuffer(this.depth ?? null);
+    Object.assign(this, { side, depth });
     this.added = [0, 1].map(() => float_texture(gl, 5, side, side, null));
     this.target = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.target);

@@ -1,7 +1,7 @@
 // The pages of gonio report, and of --report of other commands: draws their data. Text of files becomes text nodes,
 // never HTML. check.js and design.js have the parts that are theirs alone.
 
-// ---- numbers and elements --------------------------------------------------------------------------------------
+// ---- numbers --------------------------------------------------------------------------------------
 const luminance = ([r, g, b]) => 0.2126 * r + 0.7152 * g + 0.0722 * b;
 const digits = (value) => (value === null || !Number.isFinite(value) ? "-" : String(Number(value.toPrecision(3))));
 const percent = (share) => !Number.isFinite(share) ? "no limit" : (share >= 9.95 ? `a factor of ${digits(share + 1)}` : `${Number((100 * share).toPrecision(2))} %`);
@@ -9,31 +9,14 @@ const angle = (value) => `${Number(value.toFixed(1))}\u00b0`;
 const channels = (value) => value.map(digits).join(", ");
 const is_grey = (value) => value[0] === value[1] && value[1] === value[2];
 
-function element(name, properties = {}, ...children) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
-}
-const page = document.getElementById("page");
 const add = (...children) => page.append(...children);
-const paragraph = (text, className = "") => element("p", { className }, text);
-
-function table(head, rows) {
-  const row = (cells, kind) => element("tr", {}, ...cells.map((cell) => element(kind, {}, cell)));
-  return element("table", {}, element("thead", {}, row(head, "th")),
-    element("tbody", {}, ...rows.map((cells) => row(cells, "td"))));
-}
 
 // A chart with a caption, and its values as a table: whoever cannot see the one reads the other.
 function figure(chart, description, caption, head, rows) {
   const image = chart.tagName === "svg" ? chart : chart.querySelector("svg:last-of-type");
   image.setAttribute("role", "img");
   image.setAttribute("aria-label", description);
-  // The parts of an image have no names of their own: what Plot calls its marks is kept, for style and tests.
-  for (const mark of image.querySelectorAll("g[aria-label]")) {
-    mark.dataset.mark = mark.getAttribute("aria-label");
-    mark.removeAttribute("aria-label");
-  }
+  without_names(image);
   return element("figure", {}, chart, element("figcaption", {}, caption),
     element("details", {}, element("summary", {}, "Values"), element("div", { className: "scroll" }, table(head, rows))));
 }

@@ -189,11 +189,17 @@ function told_at(n, reflects, uncertainty) {
     (share === 0 ? known : share === 1 ? "the truth" : `${percent(share)} the truth`);
 }
 
-async function fill_viewer(section) {
+// Throws Error where the browser cannot draw on it.
+function lit_canvas(description) {
   const canvas = element("canvas", { width: 512, height: 512, tabIndex: 0 });
   canvas.setAttribute("role", "img");
-  canvas.setAttribute("aria-label", "The material under a light, which arrow keys move");
+  canvas.setAttribute("aria-label", description);
   if (!canvas.getContext("webgl2", { alpha: false })) throw new Error("this browser has no WebGL 2");
+  return canvas;
+}
+
+async function fill_viewer(section) {
+  const canvas = lit_canvas("The material under a light, which arrow keys move");
   if (typeof DecompressionStream === "undefined") throw new Error("this browser cannot unpack tables");
   const table = await read_table(data.viewer.table);
   const uncertainty = { grid: data.viewer.uncertainty.grid, levels: await inflated(data.viewer.uncertainty.codes) };

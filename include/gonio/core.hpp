@@ -10,6 +10,7 @@
 #include <gonio/core/directional_light.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/finite.hpp>
+#include <gonio/core/half.hpp>
 #include <gonio/core/lens_distortion.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/pinhole_camera.hpp>

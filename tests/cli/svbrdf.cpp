@@ -3,6 +3,7 @@
 #include "../io/scratch.hpp"
 #include "../synthetic_materials.hpp"
 #include "tool.hpp"
+#include <gonio/core/half.hpp>
 #include <gonio/estimate/decomposition.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
 #include <gonio/io/image.hpp>
@@ -223,7 +224,7 @@ TEST_CASE("svbrdf: weights, functions, uncertainty and disagreement as arrays") 
       for (std::size_t r = 0; r < 4; ++r) sum += double{functions(k, r)} * double{weights(45, 9, c, r)};
       CHECK(sum == doctest::Approx(expected(k, c)).epsilon(1e-4));
     }
-  CHECK(disagreement(45, 9) == gonio::io::detail::from_half(band.disagreement[2 * 1500 + 9]));
+  CHECK(disagreement(45, 9) == gonio::from_half(band.disagreement[2 * 1500 + 9]));
 }
 
 TEST_CASE("svbrdf: a map is drawn as a flat sample, and with its own prior only") {

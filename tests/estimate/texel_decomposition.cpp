@@ -120,15 +120,15 @@ TEST_CASE("texels: the uncertainty is the posterior's over all cells, scaled by 
   for (Eigen::Index cell = 0; cell < all.rows(); ++cell)
     variance += (all.row(cell) * covariance * all.row(cell).transpose()).value() / static_cast<double>(all.rows());
   const Eigen::MatrixXd of_images = (rows * rows.transpose() + eta * Eigen::MatrixXd::Identity(6, 6)) / m;
-  double energy = 0.0;
+  double mahalanobis = 0.0;
   for (Eigen::Index c = 0; c < 3; ++c) {
     Eigen::VectorXd y(6);
     for (Eigen::Index i = 0; i < 6; ++i)
       y[i] = sample.prior.metric().forward(double{sample.images(3 + c, i)}, sample.locations[i]) -
              gonio::offset_at(sample.prior, sample.locations[i]);
-    energy += y.dot(of_images.ldlt().solve(y)) / 3.0;
+    mahalanobis += y.dot(of_images.ldlt().solve(y)) / 3.0;
   }
-  CHECK(found.uncertainty[1] == doctest::Approx(std::sqrt(variance * (10.0 + energy) / 16.0)).epsilon(1e-3));
+  CHECK(found.uncertainty[1] == doctest::Approx(std::sqrt(variance * (10.0 + mahalanobis) / 16.0)).epsilon(1e-3));
 }
 
 TEST_CASE("texels: the same bytes for any number of threads and any cut of the image at whole blocks") {

@@ -184,8 +184,8 @@ TEST_CASE("npy: half floats are read and written, rounded to the nearest") {
   CHECK(parse_npy<double, 1>(bytes_of(npy(halves, bytes)), "a.npy")(4) == 0.0999755859375);
   int other = 0;
   for (std::uint32_t bits = 0; bits < 0x10000; ++bits) {
-    const float value = gonio::io::detail::from_half(static_cast<std::uint16_t>(bits));
-    other += std::isnan(value) || gonio::io::detail::to_half(value) == bits ? 0 : 1;
+    const float value = gonio::from_half(static_cast<std::uint16_t>(bits));
+    other += std::isnan(value) || gonio::to_half(value) == bits ? 0 : 1;
   }
   CHECK(other == 0);
   const scratch::folder here;

@@ -7,6 +7,7 @@
 #include "command_line/threads_option.hpp"
 #include "papers/experiments.hpp"
 #include "papers/our_own/synthetic_texels.hpp"
+#include <gonio/core/half.hpp>
 #include <gonio/core/statistics.hpp>
 #include <gonio/design/published_directions.hpp>
 #include <gonio/estimate/fitted_brdf.hpp>
@@ -298,8 +299,8 @@ class svbrdf_experiment {
         const auto truth = blended(tables, texels_->shares(row, column));
         differences.push_back(judge.difference(estimate, truth, given_.threads));
         errors.push_back(mapped_rms(estimate, truth, metric));
-        ratios.push_back(errors.back() / number(band.uncertainty[static_cast<std::size_t>(texel)]));
-        halves.push_back(number(band.disagreement[static_cast<std::size_t>(texel)]));
+        ratios.push_back(errors.back() / gonio::from_half(band.uncertainty[static_cast<std::size_t>(texel)]));
+        halves.push_back(gonio::from_half(band.disagreement[static_cast<std::size_t>(texel)]));
       }
     }
     print_row("Delta E under two lights", differences);
@@ -307,8 +308,6 @@ class svbrdf_experiment {
     print_row("the same over the stated uncertainty", ratios);
     print_row("disagreement", halves);
   }
-
-  static double number(std::uint16_t half) { return gonio::io::detail::from_half(half); }
 
   static gonio::brdf_table blended(const std::vector<gonio::brdf_table>& tables, const Eigen::VectorXd& shares) {
     std::vector<float> values(tables.front().values().size(), 0.0f);

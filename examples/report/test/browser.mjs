@@ -1,7 +1,8 @@
 // What the tests in a browser share: chromium without a window, WebGL in software, and pages of gonio report.
 // Exit code 77 means that something is not installed, and that nothing was tested.
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -54,6 +55,40 @@ export async function frames_a_second(page, size) {
   }, size);
 }
 
+// What reads the pixels of a PNG that gonio render drew, less its margin: red, green, blue and 255, from the top.
+export async function png_reader(browser, size) {
+  const images = await browser.newPage();
+  return (file) => images.evaluate(async ([url, side]) => {
+    const image = await createImageBitmap(await (await fetch(url)).blob(), { colorSpaceConversion: "none" });
+    const canvas = new OffscreenCanvas(side, side), context = canvas.getContext("2d");
+    context.drawImage(image, -(image.width - side) / 2, -(image.height - side) / 2);
+    return Array.from(context.getImageData(0, 0, side, side).data);
+  }, [`data:image/png;base64,${readFileSync(file).toString("base64")}`, size]);
+}
+
+// Of the pixels of two images: magnitudes and signs in the mean over three channels, and the largest magnitude.
+export function difference(a, b) {
+  let sum = 0, bias = 0, worst = 0;
+  for (let i = 0; i < a.length; ++i) {
+    sum += Math.abs(a[i] - b[i]);
+    bias += a[i] - b[i];
+    worst = Math.max(worst, Math.abs(a[i] - b[i]));
+  }
+  const count = 0.75 * a.length; // the fourth channel has no differences
+  return { mean: sum / count, bias: bias / count, worst };
+}
+
+// Writes the table of a material of the prior and 20 samples of it; returns what names files of the material.
+export function samples_of(name) {
+  const at = (ending) => join(folder, `${name}${ending}`);
+  gonio("expand", "--name", name, "-o", at("-truth.binary"));
+  gonio("sample", at("-truth.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at(".csv"));
+  return at;
+}
+
+// A row of a table in Markdown.
+export const row = (...fields) => console.log(`| ${fields.join(" | ")} |`);
+
 let failures = 0;
 export function check(holds, what) {
   if (!holds) ++failures;
@@ -62,4 +97,13 @@ export function check(holds, what) {
 export function finish() {
   if (failures) console.log(`${failures} checks failed`);
   process.exit(failures ? 1 : 0);
+}
+
+// What axe finds in a part of a page.
+const axe = () => readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
+export async function check_access(page, name, part = "html") {
+  await page.addScriptTag({ content: axe() });
+  const { violations, passes } = await page.evaluate((part) => window.axe.run(part), part);
+  check(violations.length === 0, `${name}: axe finds ${violations.length} violations of ${passes.length + violations.length} rules`);
+  for (const each of violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
 }

@@ -3,20 +3,12 @@
 // probe of a third argument. What either of both is uncertain by, which is noise, stands beside their difference.
 import { join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
-import { check, finish, folder, gonio, launch, open, ready, repository } from "./browser.mjs";
+import { check, difference, finish, folder, gonio, launch, open, png_reader, ready, row, samples_of } from "./browser.mjs";
 
 const probe = process.argv[4];
 const materials = ["paper_red", "blue-rubber", "red-plastic", "chrome"], size = 128, frames = 256;
 const browser = await launch();
-const images = await browser.newPage(); // which reads PNGs
-
-// The pixels of a PNG, less the margin that gonio render draws.
-const pixels_of = (file) => images.evaluate(async ([url, side]) => {
-  const image = await createImageBitmap(await (await fetch(url)).blob(), { colorSpaceConversion: "none" });
-  const canvas = new OffscreenCanvas(side, side), context = canvas.getContext("2d");
-  context.drawImage(image, -(image.width - side) / 2, -(image.height - side) / 2);
-  return Array.from(context.getImageData(0, 0, side, side).data);
-}, [`data:image/png;base64,${readFileSync(file).toString("base64")}`, size]);
+const pixels_of = await png_reader(browser, size);
 
 // The page's room as a Radiance picture that is not packed.
 async function write_room(page, file) {
@@ -68,18 +60,6 @@ function smoothed(pixels) {
   return sums;
 }
 
-function difference(a, b) {
-  let sum = 0, bias = 0, worst = 0;
-  for (let i = 0; i < a.length; ++i) {
-    sum += Math.abs(a[i] - b[i]);
-    bias += a[i] - b[i];
-    worst = Math.max(worst, Math.abs(a[i] - b[i]));
-  }
-  const count = 0.75 * a.length; // the fourth channel has no differences
-  return { mean: sum / count, bias: bias / count, worst };
-}
-
-const row = (...fields) => console.log(`| ${fields.join(" | ")} |`);
 async function judge(page, name, light, hdr, table) {
   const render = async (seed) => {
     const file = join(folder, `${name}-${light}.png`);
@@ -104,9 +84,7 @@ row("material", "light", "mean difference, of 255", "with its sign", "worst of 4
 row(...Array(8).fill("---"));
 const found = [];
 for (const name of materials) {
-  const at = (ending) => join(folder, `${name}${ending}`), room = join(folder, "room.hdr");
-  gonio("expand", "--name", name, "-o", at("-truth.binary"));
-  gonio("sample", at("-truth.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at(".csv"));
+  const at = samples_of(name), room = join(folder, "room.hdr");
   gonio("reconstruct", at(".csv"), "-o", at(".binary"));
   gonio("report", at(".csv"), "-o", at(".html"));
   const { page, complaints } = await open(browser, at(".html"));

@@ -3,11 +3,9 @@
 import { join } from "node:path";
 import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { check, finish, folder, gonio, launch, open, repository, skip } from "./browser.mjs";
+import { check, check_access, finish, folder, gonio, launch, open, repository, skip } from "./browser.mjs";
 
 const browser = await launch();
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
 const at = (name) => join(folder, name);
 const libraries = "/usr/lib/llvm-19/lib/wasm32-wasi/libc++.a";
 if (!existsSync(libraries)) skip("cmake -P cmake/lessons.cmake installs what compiles the estimator to WebAssembly");
@@ -24,13 +22,6 @@ function sampled(table, head, rows) {
   const lines = readFileSync(at("sampled.csv"), "utf8").trim().split("\n").filter((line) => !line.startsWith("#"));
   const columns = lines[0].split(",");
   return lines.slice(1).map((line) => ["r", "g", "b"].map((name) => Number(line.split(",")[columns.indexOf(name)])));
-}
-
-async function check_access(page, name) {
-  await page.addScriptTag({ content: axe });
-  const { violations, passes } = await page.evaluate(() => axe.run());
-  check(violations.length === 0, `${name}: axe finds ${violations.length} violations of ${passes.length + violations.length} rules`);
-  for (const each of violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
 }
 
 // ---- components by slider --------------------------------------------------------------------------------------

@@ -2,11 +2,9 @@
 // is accessible (axe), and it prints on two pages. Screenshots stay in the folder.
 import { join } from "node:path";
 import { readFileSync, writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
+import { check, check_access, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
 
 const browser = await launch();
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core"), "utf8");
 const at = (name) => join(folder, name);
 
 // A scan of a paint in the plane of a light at 45 degrees, of which the seventh sample is five times too bright.
@@ -193,7 +191,7 @@ async function check_blend(page, name) {
   for (let i = 0; i < 50; ++i) await page.keyboard.press("ArrowLeft");
   await page.waitForTimeout(1000);
   await page.locator(".viewer").screenshot({ path: at(`${name}-blend.png`) });
-  await page.locator("label", { hasText: "Truth is shown" }).locator("select").selectOption("border");
+  await page.locator("label", { hasText: "Truth is shown" }).locator("select").selectOption({ label: "beside the fit" });
 }
 
 // A light probe of 8 x 4 pixels, white above and dark below.
@@ -251,13 +249,6 @@ async function check_without_floats(browser, name) {
   const told = await page.locator("output", { hasText: "no environment: this browser cannot draw into floats" }).count();
   check(told === 1 && await page.evaluate(() => viewer.state.light === "lamp"), `${name}: without float framebuffers the lamp stays, and the page says why`);
   await page.close();
-}
-
-async function check_access(page, name, part = "html") {
-  await page.addScriptTag({ content: axe });
-  const found = await page.evaluate((part) => axe.run(part), part);
-  check(found.violations.length === 0, `${name}: axe finds ${found.violations.length} violations of ${found.passes.length + found.violations.length} rules`);
-  for (const each of found.violations) console.log(`  ${each.id}: ${each.help}: ${each.nodes[0].html.slice(0, 200)}`);
 }
 
 async function check_page(browser, name) {

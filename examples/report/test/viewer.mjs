@@ -1,9 +1,8 @@
 #!/usr/bin/env node
 // The viewer against gonio render: ten materials under five lights, pixel by pixel, and what the page's table costs.
-import { join } from "node:path";
 import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { inflateSync } from "node:zlib";
-import { check, finish, folder, frames_a_second, gonio, launch, open, ready, repository } from "./browser.mjs";
+import { check, difference, finish, frames_a_second, gonio, launch, open, png_reader, ready, row, samples_of } from "./browser.mjs";
 
 const materials = ["chrome", "gold-paint", "blue-rubber", "red-plastic", "pearl-paint", "black-obsidian",
   "white-diffuse-bball", "violet-acrylic", "green-metallic-paint", "paper_red"];
@@ -11,15 +10,7 @@ const lights = [[45, 35], [0, 0], [-70, 20], [110, -30], [150, 10]]; // the last
 const size = 256, exposure = 0.5;
 
 const browser = await launch();
-const images = await browser.newPage(); // which reads PNGs
-
-// The pixels of a PNG, less the margin that gonio render draws.
-const pixels_of = (file) => images.evaluate(async ([url, side]) => {
-  const image = await createImageBitmap(await (await fetch(url)).blob(), { colorSpaceConversion: "none" });
-  const canvas = new OffscreenCanvas(side, side), context = canvas.getContext("2d");
-  context.drawImage(image, -(image.width - side) / 2, -(image.height - side) / 2);
-  return Array.from(context.getImageData(0, 0, side, side).data);
-}, [`data:image/png;base64,${readFileSync(file).toString("base64")}`, size]);
+const pixels_of = await png_reader(browser, size);
 
 // The viewer's pixels from the top, the exposure being that at which a white sphere has the mean luminance 1.
 const drawn = (page, [longitude, latitude], truth = 0) => page.evaluate(([longitude, latitude, side, exposure, truth]) => {
@@ -31,24 +22,6 @@ const drawn = (page, [longitude, latitude], truth = 0) => page.evaluate(([longit
   for (let row = side - 1; row >= 0; --row) rows.push(...pixels.subarray(4 * side * row, 4 * side * (row + 1)));
   return rows;
 }, [longitude, latitude, size, exposure, truth]);
-
-function difference(a, b) {
-  let sum = 0, worst = 0;
-  for (let i = 0; i < a.length; ++i) {
-    if (i % 4 === 3) continue;
-    const off = Math.abs(a[i] - b[i]);
-    sum += off;
-    worst = Math.max(worst, off);
-  }
-  return { mean: sum / (0.75 * a.length), worst };
-}
-
-const samples_of = (name) => {
-  const at = (ending) => join(folder, `${name}${ending}`);
-  gonio("expand", "--name", name, "-o", at("-truth.binary"));
-  gonio("sample", at("-truth.binary"), "--directions", join(repository, "examples/data/nielsen-20.csv"), "-o", at(".csv"));
-  return at;
-};
 
 // The page's table as a file that gonio compare reads: the values of `like` are replaced.
 function write_table(page_file, like, file) {
@@ -105,7 +78,6 @@ async function judge_truth(name) {
   await page.close();
 }
 
-const row = (...fields) => console.log(`| ${fields.join(" | ")} |`);
 row("material", "mean difference, of 255", "worst, of 255", "Delta E of the page's table", "page, MB", "frames a second, 256 x 256", "512 x 512");
 row(...Array(7).fill("---"));
 const all = [];

@@ -63,9 +63,9 @@ class texel_decomposition {
 
   Eigen::ArrayXf scale_, offset_;  ///< of each image: the mapped value is ln(scale max(rho, 0) + epsilon) - offset
   Eigen::MatrixXf functions_;
-  Eigen::MatrixXf products_;      ///< (r + n) x n: V' A' K^-1, and below it K^-1 such that residuals have variance 1
-  Eigen::RowVectorXf of_energy_;  ///< what these residuals are multiplied by to sum up to m y' K^-1 y
-  float deviation_ = 0.0f;        ///< of a mapped value, expected before anything is known of the texel
+  Eigen::MatrixXf products_;  ///< (r + n) x n: V' A' K^-1, and below it K^-1 such that residuals have variance 1
+  Eigen::RowVectorXf mahalanobis_weights_;  ///< sum these residuals up to m y' K^-1 y
+  float deviation_ = 0.0f;                  ///< of a mapped value, expected before anything is known of the texel
 };
 
 }  // namespace gonio

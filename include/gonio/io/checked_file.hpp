@@ -29,6 +29,9 @@ inline constexpr std::uint64_t payload_size_limit = std::uint64_t{4} << 30;
 
 [[nodiscard]] std::uint32_t checksum(std::span<const std::byte> bytes);
 
+/// Takes the magic word and the version. Throws gonio::error starting with `name` if they are others.
+void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name);
+
 }  // namespace detail
 
 /// A payload as the bytes of a file.

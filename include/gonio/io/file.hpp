@@ -65,6 +65,20 @@ class descriptor {
   int number_;
 };
 
+/// Opens a file to read, without waiting for one that is no file. Throws gonio::error if it cannot.
+[[nodiscard]] descriptor open_to_read(const std::filesystem::path& path);
+
+/// The number of its bytes. Throws gonio::error unless it is a regular file.
+[[nodiscard]] std::uint64_t size_of_regular(const descriptor& file, const std::filesystem::path& path);
+
+/// Fills `bytes` from an offset on, as far as the file reaches; returns how many were read. Throws gonio::error if it
+/// cannot be read.
+[[nodiscard]] std::size_t read_at(const descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
+                                  const std::filesystem::path& path);
+
+/// Writes all bytes where the file is written next. False, and errno, if they cannot be stored.
+[[nodiscard]] bool write_all(const descriptor& file, std::span<const std::byte> bytes) noexcept;
+
 /// The name of a temporary file: that of the machine, of the process and a number. Made without memory or locks.
 struct temporary_name {
   explicit temporary_name(std::uint32_t number) noexcept;

@@ -6,6 +6,7 @@
 /// xtensor's own reader (xnpy.hpp) believes what a file says of itself: it neither checks that reads
 /// succeed nor that the shape's product fits in memory, and wants the header's keys in one order.
 
+#include <gonio/core/half.hpp>
 #include <gonio/io/file.hpp>
 
 #include <xtensor/xtensor.hpp>
@@ -100,11 +101,6 @@ void copy_elements(std::span<const std::byte> bytes, std::span<T> out, const std
   }
 }
 
-/// The number that the bits of a half float stand for, and the bits of the nearest half float (IEEE 754 binary16: 11
-/// bits of precision, up to 65504, in steps of 2^-24 below 2^-14; infinity beyond).
-[[nodiscard]] float from_half(std::uint16_t bits) noexcept;
-[[nodiscard]] std::uint16_t to_half(float value) noexcept;
-
 /// The same of half floats.
 template <std::floating_point T>
 void copy_halves(std::span<const std::byte> bytes, std::span<T> out) {
@@ -170,8 +166,8 @@ void write_npy_halves(const std::filesystem::path& path, const xt::xtensor<float
   std::vector<std::uint16_t> halves(array.size());
   for (std::size_t i = 0; i < halves.size(); ++i) {
     const float value = array.data()[i];
-    halves[i] = detail::to_half(value);
-    if (std::isfinite(value) && !std::isfinite(detail::from_half(halves[i])))
+    halves[i] = to_half(value);
+    if (std::isfinite(value) && !std::isfinite(from_half(halves[i])))
       gonio::refuse({path.native(), ": element ", i, " is ", double{value},
                      ", beyond the range of half floats, 65504: write float32"});
   }

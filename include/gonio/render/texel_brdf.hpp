@@ -3,6 +3,7 @@
 /// as many as a map of a spatially varying BRDF has (io/svbrdf_map.hpp). Nielsen et al. 2015
 /// (doi:10.1145/2816795.2818085), Eq. 10.
 
+#include <gonio/core/half.hpp>
 #include <gonio/render/component_brdf.hpp>
 
 #include <Eigen/Core>
@@ -52,8 +53,7 @@ class texel_brdf {
     std::array<float, 3 * most_components> own;
     const std::uint16_t* const stored = weights_.data() + 3 * k * texel;
     for (Eigen::Index c = 0; c < 3; ++c)
-      for (Eigen::Index i = 0; i < k; ++i)
-        own[3 * i + c] = static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(stored[c * k + i])));
+      for (Eigen::Index i = 0; i < k; ++i) own[3 * i + c] = from_half(stored[c * k + i]);
     return detail::evaluate_components<Interpolation>(*components_, own.data(), wi, wo);
   }
 

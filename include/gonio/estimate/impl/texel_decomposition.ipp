@@ -66,7 +66,7 @@ GONIO_INLINE texel_decomposition::texel_decomposition(const log_relative_pca& pr
   products_.resize(r + n, n);
   products_.topRows(r) = ((scales / penalised.tail(r)).matrix().asDiagonal() * spanning.transpose()).cast<float>();
   for (Eigen::Index i = 0; i < n; ++i) products_.row(r + i) = (inverse.row(i) / deviations[i]).cast<float>();
-  of_energy_ = (observations * deviations).matrix().transpose().cast<float>();
+  mahalanobis_weights_ = (observations * deviations).matrix().transpose().cast<float>();
   // The mean variance over all cells: the components are orthogonal there, their squared norms the singular values'.
   const Eigen::MatrixXd weights = product(rows.transpose(), inverse);
   double variance = penalty.eta() / observations;
@@ -99,14 +99,14 @@ GONIO_INLINE void texel_decomposition::solve_block(const float_matrix_view& refl
   constexpr float before = 10.0f;
   const auto of_all = static_cast<float>(n);
   for (Eigen::Index t = 0; t < texels.size(); ++t) {
-    float squares = 0.0f, energy = 0.0f;
+    float squares = 0.0f, mahalanobis = 0.0f;
     for (Eigen::Index j = 3 * t; j < 3 * t + 3; ++j) {
       const auto residuals = results.col(j).tail(n);
       squares += residuals.squaredNorm();
-      energy += values.col(j).cwiseProduct(residuals).dot(of_energy_);
+      mahalanobis += values.col(j).cwiseProduct(residuals).dot(mahalanobis_weights_);
     }
     found.disagreement[texels.begin + t] = std::sqrt(squares / (3.0f * of_all));
-    const float scale = (before + std::max(energy, 0.0f) / 3.0f) / (before + of_all);
+    const float scale = (before + std::max(mahalanobis, 0.0f) / 3.0f) / (before + of_all);
     found.uncertainty[texels.begin + t] = deviation_ * std::sqrt(scale);
   }
 }

@@ -29,6 +29,15 @@ GONIO_INLINE std::uint32_t checksum(std::span<const std::byte> bytes) {
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));  // NOLINT: zlib's byte type
 }
 
+GONIO_INLINE void take_kind(const checked_file_kind& kind, byte_reader& file, const std::string& name) {
+  const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
+  if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
+    gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
+  const auto version = file.take<std::uint32_t>();
+  if (version != kind.version)
+    gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version});
+}
+
 /// A zlib stream that takes at least an eighth of the bytes: what deflate shrinks so much that no reader would believe
 /// it is written like this.
 [[nodiscard]] GONIO_INLINE std::vector<std::byte> huffman_code(std::span<const std::byte> bytes) {
@@ -73,12 +82,7 @@ GONIO_INLINE std::vector<std::byte> encode_checked(const checked_file_kind& kind
 GONIO_INLINE std::vector<std::byte> decode_checked(const checked_file_kind& kind, std::span<const std::byte> bytes,
                                                    const std::string& name) {
   byte_reader file(bytes, name);
-  const auto magic = file.take_bytes(std::min(kind.magic.size(), file.left()));
-  if (magic.size() != kind.magic.size() || std::memcmp(magic.data(), kind.magic.data(), magic.size()) != 0)
-    gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
-  const auto version = file.take<std::uint32_t>();
-  if (version != kind.version)
-    gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version});
+  detail::take_kind(kind, file, name);
   const auto size = file.take<std::uint64_t>();
   const auto expected = file.take<std::uint32_t>();
   if (size > detail::payload_size_limit || !detail::is_believable(size, detail::freely_claimed_payload, file.left()))

@@ -39,6 +39,45 @@ namespace gonio::io::detail {
   gonio::refuse({path.native(), ": ", message_of(what)});
 }
 
+[[gnu::cold]] GONIO_INLINE descriptor open_to_read(const std::filesystem::path& path) {
+  // Without O_NONBLOCK, opening a pipe that nobody writes to would wait forever.
+  descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.is_open()) refuse_file(path, {"cannot be read: ", system_reason(errno)});
+  return file;
+}
+
+[[gnu::cold]] GONIO_INLINE std::uint64_t size_of_regular(const descriptor& file, const std::filesystem::path& path) {
+  struct stat info {};
+  if (::fstat(file.get(), &info) != 0) refuse_file(path, {"cannot be read: ", system_reason(errno)});
+  if (S_ISDIR(info.st_mode)) refuse_file(path, "is a directory, expected a file");
+  if (!S_ISREG(info.st_mode)) refuse_file(path, "is not a regular file");
+  return static_cast<std::uint64_t>(info.st_size);
+}
+
+[[gnu::cold]] GONIO_INLINE std::size_t read_at(const descriptor& file, std::uint64_t offset, std::span<std::byte> bytes,
+                                               const std::filesystem::path& path) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count =
+        ::pread(file.get(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse_file(path, {"cannot be read: ", system_reason(errno)});
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
+
+[[gnu::cold]] GONIO_INLINE bool write_all(const descriptor& file, std::span<const std::byte> bytes) noexcept {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file.get(), bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
 inline constexpr std::string_view temporary_prefix = ".gonio-", temporary_suffix = ".tmp";
 
 inline std::atomic<std::uint32_t> next_temporary{0};
@@ -125,29 +164,18 @@ class machine_name {
 namespace gonio::io {
 
 [[gnu::cold]] GONIO_INLINE std::vector<std::byte> read_bytes(const std::filesystem::path& path) {
-  // Without O_NONBLOCK, opening a pipe that nobody writes to would wait forever.
-  const detail::descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat info {};
-  if (!file.is_open() || ::fstat(file.get(), &info) != 0)
-    detail::refuse_file(path, {"cannot be read: ", detail::system_reason(errno)});
-  if (S_ISDIR(info.st_mode)) detail::refuse_file(path, "is a directory, expected a file");
-  if (!S_ISREG(info.st_mode)) detail::refuse_file(path, "is not a regular file");
-
+  const detail::descriptor file = detail::open_to_read(path);
+  const std::uint64_t size = detail::size_of_regular(file, path);
   std::vector<std::byte> bytes;
   try {
-    bytes.resize(static_cast<std::size_t>(info.st_size));
+    bytes.resize(static_cast<std::size_t>(size));
   } catch (const std::bad_alloc&) {
     detail::refuse_file(path, "is too large for this machine's memory");
   } catch (const std::length_error&) {
     detail::refuse_file(path, "is too large for this machine's memory");
   }
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t count = ::read(file.get(), bytes.data() + done, bytes.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) detail::refuse_file(path, {"cannot be read: ", detail::system_reason(errno)});
-    if (count == 0) detail::refuse_file(path, "became shorter while it was read");
-    done += static_cast<std::size_t>(count);
-  }
+  if (detail::read_at(file, 0, bytes, path) != bytes.size())
+    detail::refuse_file(path, "became shorter while it was read");
   return bytes;
 }
 
@@ -162,12 +190,7 @@ namespace gonio::io {
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::write(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail();
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
+  if (!detail::write_all(file_, bytes)) fail();
 }
 
 [[gnu::cold]] GONIO_INLINE void file_writer::commit() {

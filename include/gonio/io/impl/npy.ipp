@@ -149,12 +149,6 @@ GONIO_INLINE npy_layout take_npy_header(std::span<const std::byte>& bytes, const
   return layout;
 }
 
-GONIO_INLINE float from_half(std::uint16_t bits) noexcept {
-  return static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(bits)));
-}
-
-GONIO_INLINE std::uint16_t to_half(float value) noexcept { return static_cast<Eigen::half>(value).x; }
-
 GONIO_INLINE std::string npy_header(std::string_view type, const std::string& shape) {
   std::string dictionary = message_of({"{'descr': '", type, "', 'fortran_order': False, 'shape': ", shape, ", }"});
   const std::size_t before = npy_magic.size() + 4;

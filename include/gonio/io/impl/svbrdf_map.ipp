@@ -3,6 +3,7 @@
 
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
+#include <gonio/core/half.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/io/byte_stream.hpp>
 #include <gonio/io/checked_file.hpp>
@@ -122,18 +123,10 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
 }
 
 /// Bytes of a file at an offset: fewer where it ends before.
-[[nodiscard]] GONIO_INLINE std::vector<std::byte> read_at(const descriptor& file, std::uint64_t offset,
-                                                          std::size_t count, const std::filesystem::path& path) {
+[[nodiscard]] GONIO_INLINE std::vector<std::byte> bytes_at(const descriptor& file, std::uint64_t offset,
+                                                           std::size_t count, const std::filesystem::path& path) {
   std::vector<std::byte> bytes(count);
-  std::size_t done = 0;
-  while (done < count) {
-    const ssize_t some = ::pread(file.get(), bytes.data() + done, count - done, static_cast<off_t>(offset + done));
-    if (some < 0 && errno == EINTR) continue;
-    if (some < 0) refuse_file(path, {"cannot be read: ", system_reason(errno)});
-    if (some == 0) break;
-    done += static_cast<std::size_t>(some);
-  }
-  bytes.resize(done);
+  bytes.resize(read_at(file, offset, bytes, path));
   return bytes;
 }
 
@@ -144,14 +137,6 @@ GONIO_INLINE void require_possible(const svbrdf_header& header, const std::strin
   const auto own = bytes.first(bytes.size() - sizeof expected);
   std::memcpy(&expected, bytes.data() + own.size(), sizeof expected);
   return checksum(own) == expected;
-}
-
-[[nodiscard]] GONIO_INLINE std::uint64_t size_of(const descriptor& file, const std::filesystem::path& path) {
-  struct stat info {};
-  if (::fstat(file.get(), &info) != 0) refuse_file(path, {"cannot be read: ", system_reason(errno)});
-  if (S_ISDIR(info.st_mode)) refuse_file(path, "is a directory");
-  if (!S_ISREG(info.st_mode)) refuse_file(path, "is not a regular file");
-  return static_cast<std::uint64_t>(info.st_size);
 }
 
 /// Throws gonio::error naming the number that half floats cannot hold.
@@ -165,7 +150,7 @@ void to_halves(const Numbers& numbers, std::vector<std::uint16_t>& halves, threa
           const float value = numbers.data()[i];
           if (!(std::abs(value) < 65504.0f))
             gonio::refuse({"a number of the map is ", double{value}, ", beyond the range of half floats, 65504"});
-          halves[static_cast<std::size_t>(i)] = static_cast<Eigen::half>(value).x;
+          halves[static_cast<std::size_t>(i)] = to_half(value);
         }
       },
       threads);
@@ -201,9 +186,7 @@ GONIO_INLINE svbrdf_band as_halves(const texel_estimates& found, thread_count th
 GONIO_INLINE Eigen::MatrixXd weights_of_texel(const svbrdf_header& header, const svbrdf_band& band,
                                               Eigen::Index texel) {
   Eigen::MatrixXf own(header.functions.cols(), 3);
-  for (Eigen::Index i = 0; i < own.size(); ++i)
-    own.data()[i] =
-        static_cast<float>(Eigen::half(Eigen::half_impl::raw_uint16_to_half(band.weights.at(texel * own.size() + i))));
+  for (Eigen::Index i = 0; i < own.size(); ++i) own.data()[i] = from_half(band.weights.at(texel * own.size() + i));
   return product(header.functions, own).cast<double>();
 }
 
@@ -224,7 +207,7 @@ GONIO_INLINE void svbrdf_writer::open() {
   // Without O_NONBLOCK, opening a pipe that nobody reads from would wait forever.
   file_ = detail::descriptor(::open(part_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666));
   if (!file_.is_open()) fail();
-  static_cast<void>(detail::size_of(file_, part_));
+  static_cast<void>(detail::size_of_regular(file_, part_));
   const bool is_locked = ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
   if (!is_locked && errno != EWOULDBLOCK) fail();
   // Another process may have finished the file, and given it its name, since it was opened.
@@ -236,7 +219,7 @@ GONIO_INLINE void svbrdf_writer::open() {
 }
 
 GONIO_INLINE void svbrdf_writer::resume(std::span<const std::byte> head) {
-  const auto begun = detail::read_at(file_, 0, head.size(), part_);
+  const auto begun = detail::bytes_at(file_, 0, head.size(), part_);
   if (!std::ranges::equal(begun, head.first(begun.size())))
     gonio::refuse({part_.string(),
                    ": is of another job (of other images' sizes, directions, prior or eta): remove it, "
@@ -248,7 +231,7 @@ GONIO_INLINE void svbrdf_writer::resume(std::span<const std::byte> head) {
   } else {
     for (; finished_ < header_.bands(); ++finished_) {
       const std::uint64_t size = detail::bytes_of_band(header_, finished_);
-      const auto band = detail::read_at(file_, end, static_cast<std::size_t>(size), part_);
+      const auto band = detail::bytes_at(file_, end, static_cast<std::size_t>(size), part_);
       if (band.size() != size || !detail::is_whole_band(band)) break;
       end += size;
     }
@@ -271,7 +254,7 @@ GONIO_INLINE std::vector<std::byte> svbrdf_writer::encoded(const svbrdf_band& va
 
 GONIO_INLINE bool svbrdf_writer::has_written(Eigen::Index band, const svbrdf_band& values) const {
   const auto expected = encoded(values, band);
-  return detail::read_at(file_, head_size_ + detail::bytes_before_band(header_, band), expected.size(), part_) ==
+  return detail::bytes_at(file_, head_size_ + detail::bytes_before_band(header_, band), expected.size(), part_) ==
          expected;
 }
 
@@ -282,12 +265,7 @@ GONIO_INLINE void svbrdf_writer::append(const svbrdf_band& values) {
 }
 
 GONIO_INLINE void svbrdf_writer::write(std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(file_.get(), bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail();
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-  }
+  if (!detail::write_all(file_, bytes)) fail();
 }
 
 GONIO_INLINE void svbrdf_writer::commit() {
@@ -304,21 +282,15 @@ GONIO_INLINE void svbrdf_writer::commit() {
 // ---- reading -----------------------------------------------------------------------------------
 
 GONIO_INLINE svbrdf_map::svbrdf_map(const std::filesystem::path& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    : path_(path), file_(detail::open_to_read(path)) {
   const std::string name = path.string();
-  if (!file_.is_open()) detail::refuse_file(path, {"cannot be read: ", detail::system_reason(errno)});
-  const std::uint64_t size = detail::size_of(file_, path);
-  const auto start = detail::read_at(file_, 0, detail::svbrdf_start, path);
-  const auto& kind = detail::svbrdf_kind;
-  if (start.size() < kind.magic.size() || std::memcmp(start.data(), kind.magic.data(), kind.magic.size()) != 0)
-    gonio::refuse({name, ": not a gonio ", kind.noun, " (it does not start with '", kind.magic, "')"});
-  byte_reader in(std::span<const std::byte>(start).subspan(kind.magic.size()), name);
-  const auto version = in.take<std::uint32_t>();
-  if (version != kind.version)
-    gonio::refuse({name, ": ", kind.noun, " format version ", version, ", this program reads version ", kind.version});
+  const std::uint64_t size = detail::size_of_regular(file_, path);
+  const auto start = detail::bytes_at(file_, 0, detail::svbrdf_start, path);
+  byte_reader in(start, name);
+  detail::take_kind(detail::svbrdf_kind, in, name);
   head_size_ = detail::svbrdf_start + in.take<std::uint32_t>();
   if (head_size_ > size) gonio::refuse({name, ": truncated in its header"});
-  const auto head = detail::read_at(file_, 0, static_cast<std::size_t>(head_size_), path);
+  const auto head = detail::bytes_at(file_, 0, static_cast<std::size_t>(head_size_), path);
   if (!detail::is_whole_band(head))
     gonio::refuse({name, ": the header's checksum does not match, the file is damaged"});
   header_ = detail::take_svbrdf_header(head, name);
@@ -333,7 +305,7 @@ GONIO_INLINE svbrdf_band svbrdf_map::read_band(Eigen::Index band) const {
   if (band < 0 || band >= header_.bands())
     gonio::refuse({name, ": has no band ", band, ", but ", header_.bands(), " of them"});
   const auto size = static_cast<std::size_t>(detail::bytes_of_band(header_, band));
-  const auto bytes = detail::read_at(file_, head_size_ + detail::bytes_before_band(header_, band), size, path_);
+  const auto bytes = detail::bytes_at(file_, head_size_ + detail::bytes_before_band(header_, band), size, path_);
   if (bytes.size() != size || !detail::is_whole_band(bytes))
     gonio::refuse({name, ": the checksum of band ", band, " does not match, the file is damaged"});
   byte_reader in(bytes, name);
