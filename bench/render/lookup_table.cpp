@@ -1,13 +1,15 @@
 /// Looking a BRDF up at scattered pairs of directions: the obvious way with arc functions, as a renderer's reader of
 /// MERL tables does it, beside `lookup_table` one by one and many at once, and `component_brdf`. "far" tables have all
 /// their memory in use; "near" ones read the same value whatever the pair, so that the difference is the wait for
-/// memory. Counters: bytes are the memory of a material.
+/// memory. "reading" reads what the table would read for the same pairs, at places that were computed before: the
+/// limit. Counters: bytes are the memory of a material.
 
 #include <gonio/io/prior.hpp>
 #include <gonio/render.hpp>
 
 #include <benchmark/benchmark.h>
 
+#include <cstring>
 #include <random>
 
 namespace {
@@ -181,6 +183,57 @@ void many_at_once_near(benchmark::State& state) {
   evaluate_all<gonio::render::lookup_table<Stored, Interpolation>, Real>(state, table);
 }
 
+/// One vector of what is read for a pair from memory of the table's size: a cell's numbers, or four times those of two
+/// neighbours.
+template <class Stored, interpolation Interpolation>
+class reading {
+ public:
+  reading() : values_(3 * cells_.size() + 2, static_cast<Stored>(0.5f)) {
+    const auto& all = pairs<float>();
+    for (std::size_t i = 0; i < all.count; ++i) {
+      const auto& wi = all.wi[i];
+      const auto& wo = all.wo[i];
+      const auto at = gonio::render::to_grid_coordinates(wi[0], wi[1], wi[2], wo[0], wo[1], wo[2]);
+      places_.push_back(3 * Eigen::Index{Interpolation == interpolation::nearest
+                                             ? cells_.nearest(at.theta_h, at.theta_d, at.phi_d)
+                                             : cells_.around(at.theta_h, at.theta_d, at.phi_d).number});
+    }
+  }
+
+  [[nodiscard]] auto sum() const {
+    using numbers = Eigen::Array<std::conditional_t<sizeof(Stored) == 2, std::int16_t, std::int32_t>,
+                                 Interpolation == interpolation::nearest ? 4 : 8, 1>;
+    numbers sum = numbers::Zero();
+    const Eigen::Index h = 3 * cells_.step_h(), d = 3 * cells_.step_d();
+    for (const Eigen::Index place : places_)
+      for (const Eigen::Index row : {place, place + d, place + h, place + h + d}) {
+        numbers read;
+        std::memcpy(read.data(), values_.data() + row, sizeof read);
+        sum += read;
+        if (Interpolation == interpolation::nearest) break;
+      }
+    return sum;
+  }
+
+  [[nodiscard]] std::size_t memory() const { return values_.size() * sizeof(Stored); }
+
+ private:
+  gonio::render::padded_grid cells_;
+  std::vector<Stored, gonio::huge_page_allocator<Stored>> values_;
+  std::vector<Eigen::Index> places_;
+};
+
+template <class Stored, interpolation Interpolation>
+void reading_alone(benchmark::State& state) {
+  static const reading<Stored, Interpolation> memory;
+  for (auto _ : state) {
+    auto sum = memory.sum();
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs<float>().count));
+  state.counters["bytes"] = static_cast<double>(memory.memory());
+}
+
 /// Twenty components of the shipped prior's grid enlarged to MERL's would be another prior; its own grid is coarser.
 template <class Stored, interpolation Interpolation>
 void by_components(benchmark::State& state) {
@@ -216,6 +269,10 @@ void construct_sampler(benchmark::State& state) {
 constexpr auto nearest = interpolation::nearest, trilinear = interpolation::trilinear;
 
 BENCHMARK(with_arc_functions);
+BENCHMARK(reading_alone<float, nearest>);
+BENCHMARK(reading_alone<Eigen::half, nearest>);
+BENCHMARK(reading_alone<float, trilinear>);
+BENCHMARK(reading_alone<Eigen::half, trilinear>);
 BENCHMARK(one_by_one<float, nearest, double>);
 BENCHMARK(one_by_one<float, nearest, float>);
 BENCHMARK(one_by_one_by_polynomials);

@@ -17,4 +17,5 @@
 #include <gonio/render/horizon_index.hpp>
 #include <gonio/render/lookup_table.hpp>
 #include <gonio/render/merl_view.hpp>
+#include <gonio/render/padded_grid.hpp>
 #include <gonio/render/texel_brdf.hpp>

@@ -39,7 +39,10 @@ void reads_as_a_lookup_table() {
   const auto copied = lookup_table<double, Interpolation>::from_merl(planes, small_grid);
   CHECK(rc::check([&] {
     const gonio::direction wi = any_direction(), wo = any_direction();
-    RC_ASSERT((view(wi, wo) == copied(wi, wo)).all());
+    const gonio::rgb seen = view(wi, wo), read = copied(wi, wo);
+    // Eight values are summed in another order.
+    const double rounding = Interpolation == interpolation::nearest ? 0.0 : 1e-14;
+    RC_ASSERT(((seen - read).abs() <= rounding * read).all());
     const Eigen::Vector3f i = wi.cast<float>(), o = wo.cast<float>();
     RC_ASSERT((view(i, o) - copied(i, o)).abs().maxCoeff() <= 1e-6f);
   }));

@@ -112,12 +112,11 @@ template <std::floating_point Real>
 
 }  // namespace detail
 
-/// Is the pair above the horizon, and every component a number of at most 1e7?
+/// Is the pair above the horizon, and every component a number, at most 1e7 in sum?
 template <std::floating_point Real>
 [[nodiscard]] inline bool is_above_horizon(Real ix, Real iy, Real iz, Real ox, Real oy, Real oz) noexcept {
-  const auto is_small = [](Real v) { return std::abs(v) <= Real(1e7); };  // not what is not a number
-  return iz > 0 && oz > 0 && is_small(ix) && is_small(iy) && is_small(iz) && is_small(ox) && is_small(oy) &&
-         is_small(oz);
+  const Real sum = std::abs(ix) + std::abs(iy) + std::abs(iz) + std::abs(ox) + std::abs(oy) + std::abs(oz);
+  return std::min(iz, oz) > 0 && sum <= Real(1e7);  // not what is not a number
 }
 
 /// The coordinates of a pair of directions above the horizon, within 4e-7 (`float`) or 1e-13 (`double`) of those of
@@ -168,9 +167,12 @@ class grid_coordinates_block {
     return {theta_h_[i], theta_d_[i], phi_d_[i]};
   }
 
- private:
   using lanes = std::array<Real, size>;
+  [[nodiscard]] const lanes& theta_h() const noexcept { return theta_h_; }
+  [[nodiscard]] const lanes& theta_d() const noexcept { return theta_d_; }
+  [[nodiscard]] const lanes& phi_d() const noexcept { return phi_d_; }
 
+ private:
   void compute(const component_arrays<const Real>& wi, const component_arrays<const Real>& wo,
                Eigen::Index first) noexcept {
     const Real *ix = wi.x.data() + first, *iy = wi.y.data() + first, *iz = wi.z.data() + first;

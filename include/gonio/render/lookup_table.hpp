@@ -5,16 +5,21 @@
 
 #include <gonio/core/assertion.hpp>
 #include <gonio/core/brdf.hpp>
+#include <gonio/core/huge_pages.hpp>
 #include <gonio/render/cell_finder.hpp>
 #include <gonio/render/grid_coordinates.hpp>
 #include <gonio/render/horizon_index.hpp>
+#include <gonio/render/padded_grid.hpp>
 
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <concepts>
+#include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 #include <vector>
@@ -41,8 +46,9 @@ concept stored_number =
 /// range; and the look-up. After construction there is no allocation, no lock and no exception, and any number of
 /// threads may read.
 ///
-/// Look-up is black if a direction is at or below the horizon or has a component that is not a number or larger than
-/// 1e7. Directions need not be of unit length, as long as both have the same.
+/// Look-up is black if a direction is at or below the horizon or has a component that is not a number, or if the
+/// magnitudes of all components sum to more than 1e7. Directions need not be of unit length, as long as both have the
+/// same.
 /// ```cpp
 /// const auto paint = gonio::render::lookup_table<Eigen::half>::of(table);  // a brdf_table
 /// const Eigen::Array3f f = paint(wi, wo);                          // sr^-1, without the cosine
@@ -92,11 +98,12 @@ class lookup_table {
                                                     const Eigen::Matrix<Real, 3, 1>& wo) const noexcept {
     const Real ix = wi[0], iy = wi[1], iz = wi[2], ox = wo[0], oy = wo[1], oz = wo[2];
     if (!is_above_horizon(ix, iy, iz, ox, oy, oz)) return Eigen::Array<Real, 3, 1>::Zero();
-    if constexpr (Interpolation == interpolation::trilinear) {
-      return value_at<Real>(place(to_grid_coordinates(ix, iy, iz, ox, oy, oz)));
-    } else {
+    if constexpr (Interpolation == interpolation::nearest) {
       const auto cell = finder_.find(ix, iy, iz, ox, oy, oz);
-      return value<Real>(index_(cell.theta_h, cell.theta_d, cell.phi_d));
+      return value_at<Real>(cells_(cell.theta_h, cell.theta_d, cell.phi_d));
+    } else {
+      const auto at = to_grid_coordinates(ix, iy, iz, ox, oy, oz);
+      return value_at<Real>(place(at.theta_h, at.theta_d, at.phi_d));
     }
   }
 
@@ -108,17 +115,24 @@ class lookup_table {
                 const component_arrays<Real>& out) const noexcept {
     GONIO_ASSERT(wi.size() == out.size() && wo.size() == out.size());
     using block_type = grid_coordinates_block<Real>;
+    constexpr Eigen::Index size = block_type::size;
     block_type block;
-    std::array<place_of<Real>, block_type::size> places;
-    for (Eigen::Index first = 0; first < out.size(); first += block_type::size) {
-      const Eigen::Index count = std::min(block_type::size, out.size() - first);
+    std::array<place_of<Real>, size> places;
+    alignas(64) std::array<storage, size * read_of_place> stored;
+    alignas(64) std::array<Real, size * read_of_place> wide;
+    for (Eigen::Index first = 0; first < out.size(); first += size) {
+      const Eigen::Index count = std::min(size, out.size() - first);
       block.compute(wi, wo, first, count);
-      // First where to read, then the reading, so that the processor can wait for several values at once.
-      for (Eigen::Index i = 0; i < count; ++i) places[i] = place(block[i]);
+      // One step for all pairs after the other: while the processor waits for one value it asks for the next.
+      for (Eigen::Index i = 0; i < size; ++i)
+        places[i] = place(block.theta_h()[i], block.theta_d()[i], block.phi_d()[i]);
+      for (Eigen::Index i = 0; i < size; ++i) read(places[i], stored.data() + i * read_of_place);
+      const Real* values = widened(stored, wide);
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::Index n = first + i;
         const bool is_lit = is_above_horizon(wi.x[n], wi.y[n], wi.z[n], wo.x[n], wo.y[n], wo.z[n]);
-        const Eigen::Array<Real, 3, 1> colour = value_at<Real>(places[i]) * (is_lit ? Real(1) : Real(0));
+        const Eigen::Array<Real, 3, 1> colour =
+            blended<Real>(places[i], values + i * read_of_place, is_lit ? scale<Real>() : Real(0));
         out.x[n] = colour.x();
         out.y[n] = colour.y();
         out.z[n] = colour.z();
@@ -126,22 +140,26 @@ class lookup_table {
     }
   }
 
-  [[nodiscard]] const gonio::grid& grid() const noexcept { return index_.grid(); }
+  [[nodiscard]] const gonio::grid& grid() const noexcept { return cells_.grid(); }
 
-  /// In bytes, of the values and the index.
-  [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(Stored) + index_.memory(); }
+  /// In bytes, of the values.
+  [[nodiscard]] Eigen::Index memory() const noexcept { return values_.size() * sizeof(storage); }
 
  private:
+  static constexpr bool is_half = std::is_same_v<Stored, Eigen::half>;
+  using storage = std::conditional_t<is_half, std::uint16_t, Stored>;  ///< compilers see no numbers in Eigen's class
+
   /// `value_of(cell_index)` is red, green and blue.
   template <class ValueOf>
-  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : index_(cells), finder_(cells) {
+  lookup_table(const gonio::grid& cells, const ValueOf& value_of) : cells_(cells), finder_(cells) {
     const auto [heights, rows, columns] = cells.extents();
-    std::vector<double> values(3 * index_.size());
-    std::vector<bool> is_known(index_.size(), false);
+    const horizon_index index(cells);
+    std::vector<double> values(3 * index.size());
+    std::vector<bool> is_known(index.size(), false);
     for (int h = 0; h < heights; ++h)
       for (int d = 0; d < rows; ++d)
         for (int p = 0; p < columns; ++p) {
-          const Eigen::Index number = index_(h, d, p);
+          const Eigen::Index number = index(h, d, p);
           if (is_known[number]) continue;  // a cell below the horizon
           is_known[number] = true;
           const std::array<double, 3> value = value_of(cell_index{h, d, p});
@@ -152,52 +170,110 @@ class lookup_table {
             values[3 * number + channel] = std::max(value[channel], 0.0);
           }
         }
+    store(index, values);
+  }
+
+  /// From values of the cells above the horizon.
+  void store(const horizon_index& index, const std::vector<double>& values) {
+    const auto [heights, rows, columns] = grid().extents();
     scale_ = scale_of(values);
-    values_.reserve(values.size());
-    for (const double value : values) values_.push_back(static_cast<Stored>(value / scale_));
+    values_.reserve(3 * cells_.size() + read_beyond);
+    for (int h = 0; h < heights; ++h)
+      for (int d = 0; d < rows; ++d)
+        for (int p = -1; p <= columns; ++p) {
+          const Eigen::Index number = index(h, d, p < 0 ? columns - 1 : p < columns ? p : 0);
+          for (Eigen::Index channel = 0; channel < 3; ++channel)
+            values_.push_back(std::bit_cast<storage>(static_cast<Stored>(values[3 * number + channel] / scale_)));
+        }
+    values_.resize(values_.size() + read_beyond, storage(0));
   }
 
   /// What is read for a pair: a cell, or eight with weights.
   template <std::floating_point Real>
-  using place_of = std::conditional_t<Interpolation == interpolation::nearest, Eigen::Index, trilinear_corners<Real>>;
+  using place_of = std::conditional_t<Interpolation == interpolation::nearest, std::int32_t, cell_corner<Real>>;
 
   template <std::floating_point Real>
-  [[nodiscard]] place_of<Real> place(const grid_coordinates<Real>& coordinates) const noexcept {
+  [[nodiscard]] place_of<Real> place(Real theta_h, Real theta_d, Real phi_d) const noexcept {
     if constexpr (Interpolation == interpolation::nearest)
-      return index_.nearest(coordinates);
+      return cells_.nearest(theta_h, theta_d, phi_d);
     else
-      return index_.around(coordinates);
+      return cells_.around(theta_h, theta_d, phi_d);
+  }
+
+  /// How many numbers are read for a place: three, or the three of both neighbours along phi_d in four rows, and as
+  /// many more as make vectors of them.
+  static constexpr Eigen::Index read_of_place = Interpolation == interpolation::nearest ? 4 : 4 * 8;
+
+  void read(std::int32_t nearest, storage* out) const noexcept {
+    std::memcpy(out, values_.data() + 3 * Eigen::Index{nearest}, 4 * sizeof(storage));
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& where) const noexcept {
+  void read(const cell_corner<Real>& around, storage* out) const noexcept {
+    const storage* low = values_.data() + 3 * Eigen::Index{around.number};
+    const storage* high = low + 3 * cells_.step_h();
+    const Eigen::Index step = 3 * cells_.step_d();
+    for (const storage* row : {low, low + step, high, high + step}) {
+      std::memcpy(out, row, 8 * sizeof(storage));
+      out += 8;
+    }
+  }
+
+  /// Of what was read, times a factor.
+  template <std::floating_point Real>
+  [[nodiscard]] static Eigen::Array<Real, 3, 1> blended(const place_of<Real>& where, const Real* values,
+                                                        Real factor) noexcept {
     if constexpr (Interpolation == interpolation::nearest) {
-      return value<Real>(where);
+      return {values[0] * factor, values[1] * factor, values[2] * factor};
     } else {
-      Eigen::Array<Real, 3, 1> sum = Eigen::Array<Real, 3, 1>::Zero();
-      for (Eigen::Index k = 0; k < 8; ++k) sum += where.weight[k] * value<Real>(where.number[k]);
-      return sum;
+      const Eigen::Map<const Eigen::Array<Real, 8, 4>> rows(values);
+      const Real h = where.theta_h * factor, rest_h = factor - h, d = where.theta_d, rest_d = 1 - d;
+      const Eigen::Array<Real, 8, 1> both = rows.col(0) * (rest_h * rest_d) + rows.col(1) * (rest_h * d) +
+                                            rows.col(2) * (h * rest_d) + rows.col(3) * (h * d);
+      return both.template head<3>() * (1 - where.phi_d) + both.template segment<3>(3) * where.phi_d;
     }
   }
 
   template <std::floating_point Real>
-  [[nodiscard]] Eigen::Array<Real, 3, 1> value(Eigen::Index number) const noexcept {
-    const Stored* stored = values_.data() + 3 * number;
-    const auto scale = static_cast<Real>(scale_);
-    return {static_cast<Real>(stored[0]) * scale, static_cast<Real>(stored[1]) * scale,
-            static_cast<Real>(stored[2]) * scale};
+  [[nodiscard]] Eigen::Array<Real, 3, 1> value_at(const place_of<Real>& where) const noexcept {
+    std::array<storage, read_of_place> stored;
+    std::array<Real, read_of_place> wide;
+    read(where, stored.data());
+    return blended<Real>(where, widened(stored, wide), scale<Real>());
+  }
+
+  /// What is stored as numbers to compute with: in `wide`, or where they are if they are such numbers. Half numbers
+  /// are at least zero and become 2^-112 times themselves, for which their bits are but moved.
+  template <std::floating_point Real, std::size_t Size>
+  [[nodiscard]] static const Real* widened(const std::array<storage, Size>& stored,
+                                           std::array<Real, Size>& wide) noexcept {
+    if constexpr (std::is_same_v<storage, Real>) return stored.data();
+    for (std::size_t k = 0; k < Size; ++k)
+      if constexpr (is_half)
+        wide[k] = static_cast<Real>(std::bit_cast<float>(static_cast<std::uint32_t>(stored[k]) << 13));
+      else
+        wide[k] = static_cast<Real>(stored[k]);
+    return wide.data();
+  }
+
+  template <std::floating_point Real>
+  [[nodiscard]] Real scale() const noexcept {
+    return static_cast<Real>(scale_ * widening);
   }
 
   /// 1 or, of half numbers, the power of two that brings the largest value near the end of their range, 65504.
   [[nodiscard]] static double scale_of(const std::vector<double>& values) {
     const double largest = *std::ranges::max_element(values);
-    if (!std::is_same_v<Stored, Eigen::half> || !(largest > 0.0)) return 1.0;
+    if (!is_half || !(largest > 0.0)) return 1.0;
     return std::exp2(std::ceil(std::log2(largest)) - 15.0);
   }
 
-  horizon_index index_;
+  static constexpr double widening = is_half ? 0x1p112 : 1.0;
+  static constexpr Eigen::Index read_beyond = 2;  ///< numbers behind the last cell's
+
+  padded_grid cells_;
   cell_finder<double> finder_;
-  std::vector<Stored> values_;
+  std::vector<storage, huge_page_allocator<storage>> values_;
   double scale_ = 1.0;
 };
 
