@@ -64,3 +64,15 @@ TEST_CASE("a float copy is rounded to nearest") {
   const Eigen::MatrixXd numbers = Eigen::MatrixXd::Random(7, 5);
   CHECK(gonio::to_float(numbers) == numbers.cast<float>());
 }
+
+TEST_CASE("vector kernels: three dot products at once are each one's own") {
+  for (const Eigen::Index rows : {0, 1, 7, 8, 9, 20, 60, 61}) {
+    const Eigen::VectorXf a = Eigen::VectorXf::Random(rows);
+    const Eigen::MatrixXf columns = Eigen::MatrixXf::Random(rows, 3);
+    const auto found = gonio::dot_each(a.data(), columns.data(), rows);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      const double expected = a.cast<double>().dot(columns.col(k).cast<double>());
+      CHECK(std::abs(found[k] - expected) <= 1e-6 * static_cast<double>(rows));
+    }
+  }
+}

@@ -25,7 +25,7 @@ TEST_CASE("upsampling is interpolation at each cell, and visits each cell once")
                            ++visits[cell];
                            const auto at = gonio::locate(from, to.angles(cell));
                            CHECK(row.theta_h == doctest::Approx(at.angles.theta_h));
-                           CHECK(to.grid().phi_d(row.phi_d[i]) == doctest::Approx(at.angles.phi_d));
+                           CHECK(to.grid().phi_d(static_cast<int>(row.first_phi_d + i)) == doctest::Approx(at.angles.phi_d));
                            for (Eigen::Index f = 0; f < 2; ++f) {
                              const auto value = [&](std::size_t c) { return double{fields(f, c)}; };
                              CHECK(values(f, i) == doctest::Approx(gonio::interpolate(at, value, 0.0)).epsilon(1e-6));

@@ -8,8 +8,8 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <concepts>
-#include <span>
 
 namespace gonio {
 
@@ -36,9 +36,8 @@ template <combinable_basis Basis>
     for_each_index(
         functions.cells().size(), 4096,
         [&](Eigen::Index cell) {
-          const std::span<const float> row = functions.row(cell);
-          for (Eigen::Index channel = 0; channel < 3; ++channel)
-            field(channel, cell) = dot(columns.data() + channel * columns.rows(), row.data(), columns.rows());
+          const auto sums = dot_each(functions.row(cell).data(), columns.data(), columns.rows());
+          std::ranges::copy(sums, &field(0, cell));
         },
         threads);
     return field;

@@ -4,11 +4,16 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 namespace gonio {
 
 /// The sum of a[i] b[i].
 [[nodiscard]] double dot(const double* a, const double* b, Eigen::Index count);
 [[nodiscard]] float dot(const float* a, const float* b, Eigen::Index count);
+
+/// Three of them at once, of a and each column of `columns`, which has as many rows.
+[[nodiscard]] std::array<float, 3> dot_each(const float* a, const float* columns, Eigen::Index rows);
 
 /// The root of the sum of a[i]^2, also where these squares are out of range.
 [[nodiscard]] double norm(const double* a, Eigen::Index count);

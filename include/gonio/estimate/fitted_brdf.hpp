@@ -204,6 +204,12 @@ typename fitted_brdf<Basis>::mapped_fields fitted_brdf<Basis>::mapped_field(thre
           field.col(cell) += static_cast<float>(basis_.offset(cell));
           return;
         }
+        if constexpr (!computed && basis<Basis>) {  // three channels by one row
+          const auto offset = static_cast<float>(basis_.offset(cell));
+          const auto sums = dot_each(basis_.row(cell).data(), float_weights_.data(), float_weights_.rows());
+          for (Eigen::Index channel = 0; channel < 3; ++channel) field(channel, cell) = sums[channel] + offset;
+          return;
+        }
         const rgb value = mapped(cell);
         for (Eigen::Index channel = 0; channel < 3; ++channel)
           field(channel, cell) = static_cast<float>(value[channel]);
@@ -220,14 +226,17 @@ const {
   constexpr int fields_count = 3 + metric_type::companions;
   cell_fields<fields_count> fields(fields_count, basis_.cells().size());
   const mapped_fields channels = mapped_field(threads);
-  for (Eigen::Index cell = 0; cell < fields.cols(); ++cell) {
-    float* field = &fields(0, cell);
-    std::copy_n(&channels(0, cell), 3, field);
-    if constexpr (metric_type::companions > 0) {
-      const auto companions = metric.companion(cell);
-      std::copy(companions.begin(), companions.end(), field + 3);
-    }
-  }
+  for_each_index(
+      fields.cols(), 16384,
+      [&](Eigen::Index cell) {
+        float* field = &fields(0, cell);
+        std::copy_n(&channels(0, cell), 3, field);
+        if constexpr (metric_type::companions > 0) {
+          const auto companions = metric.companion(cell);
+          std::copy(companions.begin(), companions.end(), field + 3);
+        }
+      },
+      threads);
   brdf_table table(cells);
   upsample<fields_count>(
       basis_.cells(), fields, cells,

@@ -61,8 +61,7 @@ class log_relative {
 
   /// c.
   [[nodiscard]] double cosine_weight(const cosine_pair& cosine) const noexcept {
-    return std::max(weighting_ == cosine_weighting::product ? cosine.i * cosine.o : std::max(cosine.i, cosine.o),
-                    epsilon);
+    return std::max(weighting_ == cosine_weighting::product ? product_of(cosine) : larger_of(cosine), epsilon);
   }
 
   [[nodiscard]] static double forward(double rho, double reference, double cosine_weight) noexcept {
@@ -90,18 +89,25 @@ class log_relative {
 
   /// The logarithm of the reference is interpolated beside the channels. See `row_metric`.
   static constexpr int companions = 1;
-  [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept {
-    return {static_cast<float>(log_reference((*reference_)[cell]))};
-  }
+  [[nodiscard]] std::array<float, 1> companion(Eigen::Index cell) const noexcept { return {(*log_reference_)[cell]}; }
   template <class Values>
   void inverse_row(const cell_row& row, Values& values, std::span<float> out) const {
-    constexpr auto small = static_cast<float>(epsilon);
     exponentiate(values.data(), values.size());
-    const float* relative = values.data();
-    for (Eigen::Index i = 0; i < row.count; ++i, relative += 4) {
-      const float shift = small / static_cast<float>(cosine_weight(row.cosine(i)));
-      for (Eigen::Index channel = 0; channel < 3; ++channel)
-        out[3 * i + channel] = std::max(relative[channel] * (relative[3] + shift) - shift, 0.0f);
+    constexpr Eigen::Index at_once = 64;
+    for (Eigen::Index begin = 0; begin < row.count; begin += at_once) {
+      const Eigen::Index count = std::min(at_once, row.count - begin);
+      std::array<float, at_once> shift;
+      read_shifts(row, begin, {shift.data(), static_cast<std::size_t>(count)});
+      for (Eigen::Index i = 0; i < count; ++i) {
+        // A vector of four, of which the next cell overwrites the last number.
+        const Eigen::Array4f relative = Eigen::Map<const Eigen::Array4f>(values.data() + 4 * (begin + i));
+        const Eigen::Array4f value = (relative * (relative[3] + shift[i]) - shift[i]).max(0.0f);
+        float* cell = out.data() + 3 * (begin + i);
+        if (begin + i + 1 < row.count)
+          Eigen::Map<Eigen::Array4f>{cell} = value;
+        else
+          std::copy_n(value.data(), 3, cell);
+      }
     }
   }
 
@@ -119,8 +125,14 @@ class log_relative {
   [[nodiscard]] static double log_reference(double reference) noexcept { return std::log(std::max(reference, 1e-8)); }
 
  private:
+  /// epsilon over the cosine weight of some cells of a row, from the cell `begin` on.
+  void read_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const;
+
+  [[nodiscard]] static double product_of(const cosine_pair& cosine) noexcept { return cosine.i * cosine.o; }
+  [[nodiscard]] static double larger_of(const cosine_pair& cosine) noexcept { return std::max(cosine.i, cosine.o); }
+
   valid_cells cells_;
-  std::shared_ptr<const std::vector<float>> reference_;
+  std::shared_ptr<const std::vector<float>> reference_, log_reference_;
   cosine_weighting weighting_;
 };
 

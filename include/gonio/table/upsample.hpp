@@ -3,6 +3,7 @@
 /// `interpolate` give cell by cell, up to float rounding, at a few operations a value. Trilinear interpolation
 /// is a product of three linear ones, so the two polar axes are blended once for a whole row of phi_d.
 
+#include <gonio/core/assertion.hpp>
 #include <gonio/core/parallel.hpp>
 #include <gonio/core/vector_kernels.hpp>
 #include <gonio/table/location.hpp>
@@ -20,20 +21,21 @@ namespace gonio {
 template <int Fields>
 using cell_fields = Eigen::Array<float, Fields, Eigen::Dynamic>;
 
-/// The valid cells of a grid with one theta_h and theta_d: consecutive numbers, increasing phi_d.
+/// The valid cells of a grid with one theta_h and theta_d: neighbours along phi_d, because both cosines depend on
+/// |cos phi_d| alone, numbered one after the other.
 struct cell_row {
-  Eigen::Index first = 0;      ///< number of the first cell
-  Eigen::Index count = 0;      ///< number of cells, at least 1
-  double theta_h = 0.0;        ///< radians
-  double theta_d = 0.0;        ///< radians
-  const int* phi_d = nullptr;  ///< index along phi_d of each cell
+  Eigen::Index first = 0;        ///< number of the first cell
+  Eigen::Index count = 0;        ///< number of cells, at least 1
+  double theta_h = 0.0;          ///< radians
+  double theta_d = 0.0;          ///< radians
+  Eigen::Index first_phi_d = 0;  ///< index along phi_d of the first cell
   /// cos theta_i and cos theta_o are sum -+ difference cos phi_d, as in `cosines`.
   double sum = 0.0, difference = 0.0;
   const double* cos_phi_d = nullptr;  ///< by index along phi_d
 
   /// The cosines of the i-th cell of the row.
   [[nodiscard]] cosine_pair cosine(Eigen::Index i) const noexcept {
-    const double part = difference * cos_phi_d[phi_d[i]];
+    const double part = difference * cos_phi_d[first_phi_d + i];
     return {sum - part, sum + part};
   }
 };
@@ -42,11 +44,16 @@ namespace detail {
 
 /// The fields at all cells of a grid, so that blending needs no case for the horizon.
 template <int Fields>
-[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, const cell_fields<Fields>& fields) {
+[[nodiscard]] cell_fields<Fields> extended_fields(const valid_cells& from, const cell_fields<Fields>& fields,
+                                                  thread_count threads) {
   const Eigen::Index size = from.grid().size();
   cell_fields<Fields> dense(Fields, size);
-  for (Eigen::Index linear = 0; linear < size; ++linear)
-    std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
+  for_each_index(
+      size, 16384,
+      [&](Eigen::Index linear) {
+        std::copy_n(fields.data() + Fields * from.representative(linear), Fields, dense.data() + Fields * linear);
+      },
+      threads);
   return dense;
 }
 
@@ -54,12 +61,18 @@ template <int Fields>
 struct phi_d_nodes {
   phi_d_nodes(const grid& source, const grid& target) {
     for (int k = 0; k < target.extents().phi_d; ++k) {
-      along.push_back(periodic_interval(source.phi_d_coordinate(target.phi_d(k)), source.extents().phi_d));
+      const axis_interval at = periodic_interval(source.phi_d_coordinate(target.phi_d(k)), source.extents().phi_d);
+      along.push_back({at.node[0], at.node[1], static_cast<float>(at.weight[0]), static_cast<float>(at.weight[1])});
       cosine.push_back(std::cos(target.phi_d(k)));
     }
   }
 
-  std::vector<axis_interval> along;
+  struct interval {
+    Eigen::Index before, after;
+    float share_before, share_after;
+  };
+
+  std::vector<interval> along;
   std::vector<double> cosine;
 };
 
@@ -90,7 +103,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
   const grid& source = from.grid();
   const grid& target = to.grid();
   const Eigen::Index theta_d_count = target.extents().theta_d, phi_d_count = target.extents().phi_d;
-  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields);
+  const cell_fields<Fields> dense = detail::extended_fields<Fields>(from, fields, threads);
   const detail::phi_d_nodes nodes(source, target);
 
   // Visit the target's rows in parallel.
@@ -98,7 +111,6 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
       target.extents().theta_h * theta_d_count, theta_d_count,
       [&](block range) {
         std::vector<float> line(Fields * source.extents().phi_d), values(Fields * phi_d_count);
-        std::vector<int> phi_d(phi_d_count);
         for (Eigen::Index r = range.begin; r < range.end; ++r) {
           const auto count = to.row_begin(r + 1) - to.row_begin(r);
           if (count == 0) continue;
@@ -106,15 +118,14 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
           const double theta_d = target.theta_d(static_cast<double>(r % theta_d_count));
           detail::blend_rows<Fields>(source, dense, theta_h, theta_d, line);
           // Interpolate along the line at the row's cells.
-          const Eigen::Index first = to.row_begin(r), before = r * phi_d_count;
+          const Eigen::Index first = to.row_begin(r), first_phi_d = to.linear(first) - r * phi_d_count;
+          GONIO_ASSERT(to.linear(first + count - 1) == to.linear(first) + count - 1);
           for (Eigen::Index i = 0; i < count; ++i) {
-            const Eigen::Index k = to.linear(first + i) - before;
-            phi_d[i] = static_cast<int>(k);
-            const detail::axis_interval& p = nodes.along[k];
-            const float *before_it = line.data() + Fields * p.node[0], *after_it = line.data() + Fields * p.node[1];
-            const auto share_before = static_cast<float>(p.weight[0]), share_after = static_cast<float>(p.weight[1]);
-            for (int field = 0; field < Fields; ++field)
-              values[Fields * i + field] = share_before * before_it[field] + share_after * after_it[field];
+            const auto& p = nodes.along[first_phi_d + i];
+            using fields_of_cell = Eigen::Array<float, Fields, 1>;
+            const fields_of_cell before = Eigen::Map<const fields_of_cell>(line.data() + Fields * p.before),
+                                 after = Eigen::Map<const fields_of_cell>(line.data() + Fields * p.after);
+            Eigen::Map<fields_of_cell>(values.data() + Fields * i) = p.share_before * before + p.share_after * after;
           }
           // Hand the row to the caller.
           Eigen::Map<cell_fields<Fields>> row_values(values.data(), Fields, count);
@@ -122,7 +133,7 @@ void upsample(const valid_cells& from, const cell_fields<Fields>& fields, const 
                              count,
                              theta_h,
                              theta_d,
-                             phi_d.data(),
+                             first_phi_d,
                              std::cos(theta_h) * std::cos(theta_d),
                              std::sin(theta_h) * std::sin(theta_d),
                              nodes.cosine.data()};

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gonio {
@@ -17,6 +18,26 @@ GONIO_INLINE double dot(const double* a, const double* b, Eigen::Index count) {
 
 GONIO_INLINE float dot(const float* a, const float* b, Eigen::Index count) {
   return Eigen::Map<const Eigen::VectorXf>(a, count).dot(Eigen::Map<const Eigen::VectorXf>(b, count));
+}
+
+GONIO_INLINE std::array<float, 3> dot_each(const float* a, const float* columns, Eigen::Index rows) {
+  using eight = Eigen::Array<float, 8, 1>;
+  const float *b = columns, *c = b + rows, *d = c + rows;
+  eight sum_b = eight::Zero(), sum_c = sum_b, sum_d = sum_b;
+  Eigen::Index i = 0;
+  for (; i + 8 <= rows; i += 8) {
+    const eight these = Eigen::Map<const eight>(a + i);
+    sum_b += these * Eigen::Map<const eight>(b + i);
+    sum_c += these * Eigen::Map<const eight>(c + i);
+    sum_d += these * Eigen::Map<const eight>(d + i);
+  }
+  std::array<float, 3> sums{sum_b.sum(), sum_c.sum(), sum_d.sum()};
+  for (; i < rows; ++i) {
+    sums[0] += a[i] * b[i];
+    sums[1] += a[i] * c[i];
+    sums[2] += a[i] * d[i];
+  }
+  return sums;
 }
 
 GONIO_INLINE double near_inverse(double length) {

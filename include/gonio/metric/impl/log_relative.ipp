@@ -1,6 +1,7 @@
 #pragma once
 /// Bodies of metric/log_relative.hpp.
 
+#include <gonio/core/assertion.hpp>
 #include <gonio/core/compiled.hpp>
 #include <gonio/core/error.hpp>
 #include <gonio/core/parallel.hpp>
@@ -9,6 +10,7 @@
 #include <gonio/metric/log_relative.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -22,7 +24,11 @@ GONIO_INLINE log_relative::log_relative(valid_cells cells, std::vector<float> re
     refuse({"a reference BRDF over ", cells_.size(), " cells has ", reference.size(), " values"});
   for (const float value : reference)
     if (!(value >= 0.0f && std::isfinite(value))) refuse("a reference BRDF must be finite and not negative");
+  std::vector<float> logarithms(reference.size());
+  std::ranges::transform(reference, logarithms.begin(),
+                         [](float value) { return static_cast<float>(log_reference(value)); });
   reference_ = std::make_shared<const std::vector<float>>(std::move(reference));
+  log_reference_ = std::make_shared<const std::vector<float>>(std::move(logarithms));
 }
 
 GONIO_INLINE log_relative log_relative::to_median_of(const valid_cells& cells, const cell_matrix& values,
@@ -47,6 +53,22 @@ GONIO_INLINE log_relative log_relative::on(const valid_cells& cells) const {
   for (Eigen::Index cell = 0; cell < std::ssize(moved); ++cell)
     moved[cell] = static_cast<float>(reference(locate(cells_, cells.angles(cell))));
   return {cells, std::move(moved), weighting_};
+}
+
+GONIO_INLINE void log_relative::read_shifts(const cell_row& row, Eigen::Index begin, std::span<float> shift) const {
+  // Loops without a choice in them, which compilers compute for several cells at once.
+  std::array<double, 64> weight;
+  GONIO_ASSERT(shift.size() <= weight.size());
+  const auto count = std::ssize(shift);
+  const auto weigh_by = [&](auto combine) {
+    for (Eigen::Index i = 0; i < count; ++i) weight[i] = combine(row.cosine(begin + i));
+  };
+  if (weighting_ == cosine_weighting::product)
+    weigh_by([](const cosine_pair& cosine) { return product_of(cosine); });
+  else
+    weigh_by([](const cosine_pair& cosine) { return larger_of(cosine); });
+  for (Eigen::Index i = 0; i < count; ++i) weight[i] = std::max(weight[i], epsilon);
+  for (Eigen::Index i = 0; i < count; ++i) shift[i] = static_cast<float>(epsilon) / static_cast<float>(weight[i]);
 }
 
 }  // namespace gonio
