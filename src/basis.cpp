@@ -4,6 +4,8 @@
 #include <gonio/basis/impl/component_variance.ipp>
 #include <gonio/basis/impl/discrepancy.ipp>
 #include <gonio/basis/impl/learn_pca.ipp>
+#include <gonio/basis/impl/learn_streamed_pca.ipp>
+#include <gonio/basis/impl/mapped_materials.ipp>
 #include <gonio/basis/impl/rbf.ipp>
 #include <gonio/basis/impl/soft_specular_prior.ipp>
 #include <gonio/basis/measured.hpp>

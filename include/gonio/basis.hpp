@@ -10,6 +10,8 @@
 #include <gonio/basis/expand_materials.hpp>
 #include <gonio/basis/joined.hpp>
 #include <gonio/basis/learn_pca.hpp>
+#include <gonio/basis/learn_streamed_pca.hpp>
+#include <gonio/basis/mapped_materials.hpp>
 #include <gonio/basis/material_functions.hpp>
 #include <gonio/basis/measured.hpp>
 #include <gonio/basis/pca.hpp>
