@@ -1,6 +1,7 @@
 // The bodies of basis/.
 
 #include <gonio/basis/expand_materials.hpp>
+#include <gonio/basis/impl/add_materials.ipp>
 #include <gonio/basis/impl/component_variance.ipp>
 #include <gonio/basis/impl/discrepancy.ipp>
 #include <gonio/basis/impl/learn_pca.ipp>

@@ -2,6 +2,7 @@
 /// All of `basis/`: functions over the cells: measured materials, corrections, principal components, radial basis
 /// functions.
 
+#include <gonio/basis/add_materials.hpp>
 #include <gonio/basis/basis.hpp>
 #include <gonio/basis/combine.hpp>
 #include <gonio/basis/component_variance.hpp>
