@@ -52,7 +52,7 @@ TEST_CASE("gonio learn: the same bytes for any number of threads, memory and scr
   const learning_folder made(12);
   run(made.learn("-o " + made.at("one.prior") + " --threads 1"));
   std::filesystem::create_directory(made.at("elsewhere"));
-  run(made.learn("-o " + made.at("other.prior") + " --threads 3 --memory 0.25 --scratch " + made.at("elsewhere")));
+  run(made.learn("-o " + made.at("other.prior") + " --threads 3 --memory 1 --scratch " + made.at("elsewhere")));
   CHECK(bytes_of(made.at("one.prior")) == bytes_of(made.at("other.prior")));
   CHECK(made.entries() == 4);  // tables, elsewhere, two priors
   const auto read = gonio::io::read_prior(made.at("one.prior"));

@@ -111,7 +111,7 @@ gonio::streaming_options options_of(const streaming_experiment& given, Eigen::In
 void print_costs(const streaming_experiment& given) {
   std::cout
       << "| materials | tables, MB | in a scratch file, MB | drawing them, s | learning, s | ms a material | peak "
-         "memory, MB | found | variance kept |\n|---|---|---|---|---|---|---|---|---|\n";
+         "memory, MB | found | share of the variance lost |\n|---|---|---|---|---|---|---|---|---|\n";
   for (const Eigen::Index count : given.counts) {
     const auto cost = separately([&] {
       std::array<double, 8> found{};
@@ -131,8 +131,8 @@ void print_costs(const streaming_experiment& given) {
     std::cout << "| " << count << " | " << fixed(1e-6 * tables, 0) << " | " << fixed(1e-6 * in_file, 0) << " | "
               << fixed(drawing, 1) << " | " << fixed(learning, 1) << " | "
               << fixed(1e3 * learning / static_cast<double>(count), 1) << " | " << fixed(cost.megabytes, 0) << " | "
-              << (exact != 0.0 ? "by the Gram matrix" : "in a random subspace") << " | " << fixed(100.0 * kept, 3)
-              << " % |\n"
+              << (exact != 0.0 ? "by the Gram matrix" : "in a random subspace") << " | " << scientific(1.0 - kept)
+              << " |\n"
               << std::flush;
   }
 }
@@ -222,9 +222,10 @@ double left_of(const gonio::log_relative_pca& prior, const gonio::material_rows&
 
 void print_added(const streaming_experiment& given) {
   std::cout << "\nA tenth of " << given.compared
-            << " materials added to the prior of the others, as a file, beside all learned at once: the variance kept, "
-               "and the\nroot mean square of what the components leave of the mapped values of 100 materials that none "
-               "has seen.\n\n| | variance kept | left of unseen ones | seconds |\n|---|---|---|---|\n";
+            << " materials added to the prior of the others, as a file, beside all learned at once: the variance "
+               "that is lost, and the\nroot mean square of what the components leave of the mapped values of 100 "
+               "materials that none "
+               "has seen.\n\n| | share of the variance lost | left of unseen ones | seconds |\n|---|---|---|---|\n";
   const auto found = separately([&] {
     const Eigen::Index old_count = given.compared - given.compared / 10;
     const gonio::material_rows unseen = random_tables(1'000'000, 1'000'100, given).rows();
@@ -246,8 +247,8 @@ void print_added(const streaming_experiment& given) {
                                  learning};
   });
   const auto line = [&](const char* what, std::size_t at, const std::string& seconds) {
-    std::cout << "| " << what << " | " << fixed(100.0 * found.values[at], 3) << " % | "
-              << fixed(found.values[at + 1], 5) << " | " << seconds << " |\n";
+    std::cout << "| " << what << " | " << scientific(1.0 - found.values[at]) << " | " << fixed(found.values[at + 1], 5)
+              << " | " << seconds << " |\n";
   };
   line("before, of the others", 0, "");
   line("added", 2, fixed(found.values[6], 1));
