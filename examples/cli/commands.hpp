@@ -2,6 +2,7 @@
 /// The subcommands of the `gonio` tool. Each file of this folder holds one and registers it here.
 
 #include "command_line/command.hpp"
+#include "command_line/team.hpp"
 
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ void add_report(command& app, const std::vector<std::string>& words);
 void add_check(command& app, const std::vector<std::string>& words);
 void add_fit(command& app, const std::vector<std::string>& words);
 void add_design(command& app, const std::vector<std::string>& words);
-void add_svbrdf(command& app);
+/// `processes` must live until the program has run.
+void add_svbrdf(command& app, const team& processes);
 void add_compare(command& app);
 void add_convert(command& app);
 void add_render(command& app);

@@ -7,6 +7,7 @@
 
 int main(int argc, char** argv) {
   cli::program app("gonio", "gonio completes a BRDF from a few reflectance measurements.", GONIO_VERSION);
+  const cli::team alone;
   const std::vector<std::string> words(argv, argv + argc);
   cli::add_learn(app);
   cli::add_expand(app);
@@ -17,7 +18,7 @@ int main(int argc, char** argv) {
   cli::add_sphere(app);
   cli::add_reconstruct(app, words);
   cli::add_report(app, words);
-  cli::add_svbrdf(app);
+  cli::add_svbrdf(app, alone);
   cli::add_fit(app, words);
   cli::add_compare(app);
   cli::add_convert(app);

@@ -1,0 +1,55 @@
+#pragma once
+/// Who does a command's work: this process alone, or all processes of a job together (examples/mpi).
+
+#include <gonio/core/parallel.hpp>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cli {
+
+/// The processes that run the same command. This one is a team of one process; a larger one overrides all. Who uses it
+/// calls the same functions in the same order in each process.
+class team {
+ public:
+  team() = default;
+  team(const team&) = delete;
+  team& operator=(const team&) = delete;
+  virtual ~team() = default;
+
+  [[nodiscard]] virtual bool is_alone() const { return true; }
+  /// One process writes the command's files and prints what it found.
+  [[nodiscard]] virtual bool writes() const { return true; }
+
+  /// Threads of this process: those that were asked for, or its share of the machine's cores.
+  [[nodiscard]] virtual gonio::thread_count threads(gonio::thread_count asked) const { return asked; }
+
+  /// Work of each process. What it throws in one is thrown in all.
+  virtual void together(const std::function<void()>& work) const { work(); }
+
+  /// Throws gonio::error in all processes unless they all have read this, the checksum of an input that is called
+  /// `what`.
+  virtual void agree_on(std::uint32_t checksum, const std::string& what) const {
+    static_cast<void>(checksum);
+    static_cast<void>(what);
+  }
+
+  /// The number of the process that writes.
+  [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }
+
+  using part = std::vector<std::byte>;
+  /// `compute(i)` for each i of a range, each in one of the processes; the one that writes takes the parts in order.
+  virtual void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
+                                const std::function<void(Eigen::Index, part)>& take) const {
+    for (Eigen::Index i = range.begin; i < range.end; ++i) take(i, compute(i));
+  }
+};
+
+}  // namespace cli

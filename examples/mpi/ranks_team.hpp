@@ -1,0 +1,31 @@
+#pragma once
+/// The ranks of an MPI job as the processes that do a command's work.
+
+#include "command_line/team.hpp"
+#include <gonio/mpi/ranks.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace cli {
+
+class ranks_team : public team {
+ public:
+  /// The ranks must outlive it.
+  explicit ranks_team(const gonio::mpi::ranks& ranks) : ranks_(ranks) {}
+
+  [[nodiscard]] bool is_alone() const override { return ranks_.size() == 1; }
+  [[nodiscard]] bool writes() const override { return ranks_.is_first(); }
+  [[nodiscard]] gonio::thread_count threads(gonio::thread_count asked) const override;
+  void together(const std::function<void()>& work) const override { ranks_.together(work); }
+  void agree_on(std::uint32_t checksum, const std::string& what) const override { ranks_.agree_on(checksum, what); }
+  [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
+  void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
+                        const std::function<void(Eigen::Index, part)>& take) const override;
+
+ private:
+  const gonio::mpi::ranks& ranks_;
+};
+
+}  // namespace cli
