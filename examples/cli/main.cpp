@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   const std::vector<std::string> words(argv, argv + argc);
   cli::add_learn(app);
   cli::add_expand(app);
-  cli::add_design(app, words);
+  cli::add_design(app, words, alone);
   cli::add_plan(app);
   cli::add_sample(app);
   cli::add_near_field(app);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 #include <string>
@@ -41,6 +42,18 @@ class team {
     static_cast<void>(what);
   }
 
+  /// The part of a range of numbers from 0 on that is this process' to look at; it begins at a multiple of a block.
+  [[nodiscard]] virtual gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const {
+    static_cast<void>(block_size);
+    return {0, count};
+  }
+  /// Of what each process found best in its share, a value and its number, the number with the lowest value; of equal
+  /// ones the lowest.
+  [[nodiscard]] virtual Eigen::Index best(double value, Eigen::Index number) const {
+    static_cast<void>(value);
+    return number;
+  }
+
   /// The number of the process that writes.
   [[nodiscard]] virtual Eigen::Index number_of_writer(Eigen::Index number) const { return number; }
 
@@ -51,5 +64,8 @@ class team {
     for (Eigen::Index i = range.begin; i < range.end; ++i) take(i, compute(i));
   }
 };
+
+/// Throws gonio::error in all processes unless they all read the same bytes from a file, or from none.
+void agree_on_file(const team& processes, const std::filesystem::path& path, const std::string& what);
 
 }  // namespace cli

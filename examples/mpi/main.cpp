@@ -3,6 +3,7 @@
 #include "cli/commands.hpp"
 #include "ranks_team.hpp"
 #include <gonio/core/error.hpp>
+#include <gonio/io/checked_file.hpp>
 #include <gonio/io/file.hpp>
 #include <gonio/mpi/ranks.hpp>
 
@@ -71,8 +72,15 @@ void print_traffic(const gonio::mpi::ranks& ranks) {
   }
 }
 
-int run(const gonio::mpi::ranks& ranks, std::span<char*> words, const std::optional<silence>& unsaid) {
+std::uint32_t checksum_of(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : std::span(words).subspan(1)) all.append(word).push_back('\0');
+  return gonio::io::detail::checksum(std::as_bytes(std::span(all)));
+}
+
+int run(const gonio::mpi::ranks& ranks, std::span<char*> given, const std::optional<silence>& unsaid) {
   const cli::ranks_team all(ranks);
+  const std::vector<std::string> words(given.begin(), given.end());
   bool has_begun = false, prints_traffic = false;
   cli::program app("gonio-mpi", "The long subcommands of gonio on the ranks of an MPI job: mpirun -n 4 gonio-mpi ...",
                    GONIO_VERSION);
@@ -83,11 +91,13 @@ int run(const gonio::mpi::ranks& ranks, std::span<char*> words, const std::optio
       [&](const std::function<void()>& work) {
         has_begun = true;
         ranks.together([] {});  // has each rank understood its command line?
+        ranks.agree_on(checksum_of(words), "command line");
         work();
         if (prints_traffic) print_traffic(ranks);
       });
+  cli::add_design(app, words, all);
   cli::add_svbrdf(app, all);
-  const int code = app.run(static_cast<int>(words.size()), words.data());
+  const int code = app.run(static_cast<int>(given.size()), given.data());
   if (has_begun) return code;
   try {
     const std::string complaint = unsaid ? unsaid->complaint() : "";

@@ -20,6 +20,8 @@ class ranks_team : public team {
   [[nodiscard]] gonio::thread_count threads(gonio::thread_count asked) const override;
   void together(const std::function<void()>& work) const override { ranks_.together(work); }
   void agree_on(std::uint32_t checksum, const std::string& what) const override { ranks_.agree_on(checksum, what); }
+  [[nodiscard]] gonio::block share_of(Eigen::Index count, Eigen::Index block_size) const override;
+  [[nodiscard]] Eigen::Index best(double value, Eigen::Index number) const override;
   [[nodiscard]] Eigen::Index number_of_writer(Eigen::Index number) const override;
   void compute_in_order(gonio::block range, const std::function<part(Eigen::Index)>& compute,
                         const std::function<void(Eigen::Index, part)>& take) const override;

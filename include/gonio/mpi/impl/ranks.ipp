@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <deque>
@@ -31,7 +32,8 @@ struct posted {
 };
 
 inline constexpr std::size_t full_piece = std::size_t{1} << 30;
-inline constexpr int message_tag = 0;
+/// What `together` sends has a tag of its own: a rank that failed alone is known by it.
+inline constexpr int message_tag = 0, outcome_tag = 1;
 
 }  // namespace detail
 
@@ -39,7 +41,9 @@ inline constexpr int message_tag = 0;
 struct ranks::state {
   MPI_Comm all = MPI_COMM_NULL;
   int rank = 0, size = 1, on_this_machine = 1;
+  int tag = detail::message_tag;
   bool ends_mpi = false, failed_together = false;
+  std::string failure;  ///< of this rank, while the others are told
   traffic sent;
   std::deque<detail::posted> under_way;
 
@@ -50,11 +54,25 @@ struct ranks::state {
     for (std::size_t begin = 0; was_full; begin += detail::full_piece) {
       const std::size_t count = std::min(bytes.size() - begin, detail::full_piece);
       pieces.emplace_back();
-      MPI_Issend(bytes.data() + begin, static_cast<int>(count), MPI_BYTE, to, detail::message_tag, all, &pieces.back());
+      MPI_Issend(bytes.data() + begin, static_cast<int>(count), MPI_BYTE, to, tag, all, &pieces.back());
       ++sent.messages;
       was_full = count == detail::full_piece;
     }
     return pieces;
+  }
+  /// Ends the job, because one of two ranks failed where the other went on.
+  [[noreturn]] void end_apart(int other, int tag_of_other, std::span<const std::byte> bytes) const {
+    std::string why = failure;
+    if (tag_of_other == detail::outcome_tag) {
+      why.resize(bytes.size());
+      if (!bytes.empty()) std::memcpy(why.data(), bytes.data(), bytes.size());
+    }
+    const std::string sentence =
+        message_of({"rank ", tag_of_other == detail::outcome_tag ? other : rank,
+                    " failed alone: ", why.empty() ? "its work is not that of the others" : why.substr(1), "\n"});
+    std::fputs(sentence.c_str(), stderr);
+    MPI_Abort(all, 1);
+    std::abort();  // which MPI has done
   }
   static void finish(std::vector<MPI_Request>& pieces) {
     MPI_Waitall(static_cast<int>(pieces.size()), pieces.data(), MPI_STATUSES_IGNORE);
@@ -77,6 +95,20 @@ inline constexpr char is_refusal = 'r', is_failure = 'f';
   } catch (const std::exception& error) {
     return std::string(1, is_failure) + error.what();
   }
+}
+
+/// What all ranks are told of their failures: nothing if none failed; otherwise that of the first that did, and which
+/// it was unless all did.
+[[nodiscard]] GONIO_INLINE std::vector<std::byte> outcome_of(const std::vector<std::vector<std::byte>>& failures) {
+  const auto has_failed = [](const auto& failure) { return !failure.empty(); };
+  const auto first = std::ranges::find_if(failures, has_failed);
+  if (first == failures.end()) return {};
+  std::vector<std::byte> told = *first;
+  if (std::ranges::all_of(failures, has_failed)) return told;
+  const std::string who = message_of({"rank ", first - failures.begin(), ": "});
+  const auto letters = std::as_bytes(std::span(who));
+  told.insert(told.begin() + 1, letters.begin(), letters.end());
+  return told;
 }
 
 }  // namespace detail
@@ -147,12 +179,13 @@ GONIO_INLINE std::vector<std::byte> ranks::receive(int from) const {
   while (was_full) {
     MPI_Status status;
     int count = 0;
-    MPI_Probe(from, detail::message_tag, state_->all, &status);
+    MPI_Probe(from, MPI_ANY_TAG, state_->all, &status);
     MPI_Get_count(&status, MPI_BYTE, &count);
     const std::size_t begin = bytes.size();
     bytes.resize(begin + static_cast<std::size_t>(count));
-    MPI_Recv(bytes.data() + begin, count, MPI_BYTE, from, detail::message_tag, state_->all, MPI_STATUS_IGNORE);
+    MPI_Recv(bytes.data() + begin, count, MPI_BYTE, from, status.MPI_TAG, state_->all, MPI_STATUS_IGNORE);
     was_full = static_cast<std::size_t>(count) == detail::full_piece;
+    if (status.MPI_TAG != state_->tag) state_->end_apart(from, status.MPI_TAG, bytes);
   }
   return bytes;
 }
@@ -181,22 +214,12 @@ GONIO_INLINE std::vector<std::byte> ranks::broadcast(std::vector<std::byte> byte
 // ---- what all ranks know -----------------------------------------------------------------------
 
 GONIO_INLINE void ranks::together(const std::function<void()>& work) const {
-  const std::string own = detail::failure_of(work);
-  const auto all = gather(std::as_bytes(std::span(own)));
-  std::vector<std::byte> told;
-  if (is_first()) {
-    const auto has_failed = [](const auto& failure) { return !failure.empty(); };
-    const auto failed = std::ranges::find_if(all, has_failed);
-    if (failed != all.end()) {
-      told = *failed;
-      if (!std::ranges::all_of(all, has_failed)) {
-        const std::string who = message_of({"rank ", failed - all.begin(), ": "});
-        const auto letters = std::as_bytes(std::span(who));
-        told.insert(told.begin() + 1, letters.begin(), letters.end());
-      }
-    }
-  }
-  told = broadcast(std::move(told));
+  state_->failure = detail::failure_of(work);
+  state_->tag = detail::outcome_tag;
+  const auto all = gather(std::as_bytes(std::span(state_->failure)));
+  const auto told = broadcast(detail::outcome_of(all));
+  state_->tag = detail::message_tag;
+  state_->failure.clear();
   if (told.empty()) return;
   state_->failed_together = true;
   std::string sentence(told.size() - 1, ' ');
