@@ -10,7 +10,7 @@
 
 namespace gonio::mpi {
 
-/// Which groups of a number of them are a rank's: the range of those from groups r / n on, before groups (r + 1) / n.
+/// Which groups of a number of them are a rank's: r groups / n, rounded up, is the first. Rank 0 has group 0.
 [[nodiscard]] block groups_of(int rank, int ranks, Eigen::Index groups);
 
 /// The sum of `partial(g)` over the groups g from 0 on, at every rank; all must have one size. Each rank computes the

@@ -90,7 +90,8 @@ class tree_of_sums {
 }  // namespace detail
 
 GONIO_INLINE block groups_of(int rank, int ranks, Eigen::Index groups) {
-  return {rank * groups / ranks, (rank + 1) * groups / ranks};
+  const auto before = [&](Eigen::Index count) { return (count * groups + ranks - 1) / ranks; };
+  return {before(rank), before(rank + 1)};
 }
 
 GONIO_INLINE Eigen::MatrixXd sum_of_groups(const ranks& ranks, Eigen::Index groups,
